@@ -25,6 +25,8 @@ STRUCTURE = {"dofs": NUMBER, "nodes": NUMBER, "mass": LOOSE, "groups": {"*": ANY
              "regions": {"*": REGION}, "damping": _Or({"band": [NUMBER], "filters": [{"weight!": NUMBER, "rate!": NUMBER}],
                                                        "uniform": LOOSE, "reference_frequency": LOOSE}, NONE),
              "frequencies": [MODE], "omega_max": LOOSE, "stable_time_step": LOOSE, "stable_time_step_undamped": LOOSE}
+YIELDED = {"elements!": NUMBER, "yielded!": NUMBER, "ductility!": NUMBER, "element!": NUMBER, "place": THREE, "first_time!": LOOSE,
+           "energy_lost!": LOOSE}
 SUMMARY = {
     **dict.fromkeys(("title", "version", "commit", "started", "ended"), TEXT),
     **dict.fromkeys(("time_step", "stable_time_step", "steps", "end_time", "output_interval", "ranks", "wall_time",
@@ -38,6 +40,7 @@ SUMMARY = {
     "impacts": {"episodes!": NUMBER, "*": _Or(LOOSE, {"*": LOOSE})},
     "separations": {"*": {"secondary": SIDE, "primary": SIDE, "*": LOOSE}},
     "contacts": {"*": {"initial_gap": PAIR, "geometric_gap": PAIR, "normal": [LOOSE], "pairs": NUMBER}},
+    "yielding": {"*": {**YIELDED, "storeys": {"*": YIELDED}}},
     "probes": {"*": {"structure": TEXT, "peak_acceleration": THREE, "peak_displacement": THREE}},
     "peak_frequency": LOOSE, "drifts": [{"*": ANY}], "warnings": [TEXT], "supports": _Or([ANY], {"*": ANY}, NONE),
 }

@@ -5,6 +5,7 @@ thrown at it turns back where its energy is spent.
 """
 import math
 import os
+import re
 import shutil
 import tempfile
 import unittest
@@ -361,6 +362,18 @@ class Stick(unittest.TestCase):
             other = runs[1][0][law]
             self.assertAlmostEqual(other["ductility"], of["ductility"], delta=1e-8)
             self.assertEqual((other["first_time"], other["place"]), (of["first_time"], of["place"]))
+        program.must_do(self, "plot", folder)
+        with open(os.path.join(folder, "report.html"), encoding="utf-8") as file:
+            page = re.sub(r"<[^>]*>", " ", file.read())
+        laws = runs[1][0]
+        farthest = max(laws, key=lambda law: laws[law]["ductility"])
+        self.assertGreater(laws[farthest]["ductility"], 1)
+        self.assertIn(f"Of {sum(law['elements'] for law in laws.values())} laws of elements "
+                      f"{sum(law['yielded'] for law in laws.values())} yield, the first at "
+                      f"{min(law['first_time'] for law in laws.values() if law['yielded']):.4g} s; {farthest} goes farthest, to "
+                      f"{laws[farthest]['ductility']:.3g} times its first corner", page)
+        rows = re.split(r"\n", page[page.index("\n", page.index("ductility")):])
+        self.assertTrue(any(re.search(r"level2 over level1 +\d+ +2 ", row) for row in rows[:20]), rows[:20])
         table = runs[0][1]
         rows = [i for i, name in enumerate(table["law"]) if name == "s:column:shear_y"]
         self.assertEqual(sorted(float(table["z"][i]) for i in rows), [1, 3, 5, 7, 9, 11, 13, 15])

@@ -182,6 +182,23 @@ def _touched(run: Result) -> list:
     return lines
 
 
+def _yielding(run: Result) -> list:
+    """How much yields, and the law that goes farthest beyond its first corner."""
+    laws = run.summary.get("yielding", {})
+    if not laws:
+        return []
+    name = max(laws, key=lambda one: laws[one]["ductility"])
+    far = laws[name]
+    most = f"{far['ductility']:.3g} times its first corner (element {far['element']})"
+    if far["ductility"] <= 1:
+        return [f"Nothing yields: {name} comes nearest, to {most}."]
+    over = [law for law in laws.values() if law["yielded"]]
+    count, all_laws = (sum(law[key] for law in laws.values()) for key in ("yielded", "elements"))
+    lost = sum(law["energy_lost"] for law in over)
+    return [f"Of {all_laws} laws of elements {count} yield, the first at {min(law['first_time'] for law in over):.4g} s; {name} "
+            f"goes farthest, to {most}. They took {readable(1e-3 * lost)} kJ."]
+
+
 def _apart(run: Result) -> list:
     gaps = smallest_gaps(run)
     lines = ["The buildings did not touch."]
@@ -278,7 +295,7 @@ def sentences(run: Result, twin: Result | None, why: str = "") -> list:
     """The answer, its first line alone enough for who reads no further. Nothing of a folder without summary.json."""
     if not run.summary:
         return []
-    held = [*equipment.sentences(run, twin), *filter(None, [headline({"": run})])]
+    held = [*equipment.sentences(run, twin), *filter(None, [headline({"": run})]), *_yielding(run)]
     if touched(run):
         return [*held, *_touched(run), *_floors(run, twin, why), *_margin(run), *checks(run)]
     if not run.summary.get("contacts"):

@@ -50,8 +50,8 @@ def _found(result: Result, drawn: _Drawn) -> str:
     items = equipment.table(result, twin) + drawn.html(*equipment.ALL) if equipment.items(result) else ""
     forces = result_tables.force_table(result, twin) + drawn.html(*force_figures.ALL, *link_figures.ALL)
     energy = result_tables.energy_table(result) + drawn.html(contact_figures.energy_balance)
-    return (_part("Equipment", items) + _part("The joints", joints) + _part("The floors", floors) + _part("Forces and links", forces)
-            + _part("Energy", energy, page=False))
+    return (_part("Equipment", items) + _part("Yielding", result_tables.yield_table(result)) + _part("The joints", joints)
+            + _part("The floors", floors) + _part("Forces and links", forces) + _part("Energy", energy, page=False))
 
 
 def _computed(result: Result, drawn: _Drawn) -> str:

@@ -85,6 +85,17 @@ def joint_table(result: Result) -> str:
                       ["", "width", "modal", "DDC", "SRSS", "sum", "closed in the history"], rows)
 
 
+def yield_table(result: Result) -> str:
+    """Elements that may yield, by law and, where floors are named, by storey."""
+    rows = []
+    for name, law in result.summary.get("yielding", {}).items():
+        parts = [(name, "", law), *(("", storey, part) for storey, part in law.get("storeys", {}).items())]
+        rows += [(law_name, storey, part["yielded"], part["elements"], part["ductility"], part["element"], part["first_time"],
+                  part["energy_lost"]) for law_name, storey, part in parts]
+    return html_table("Yielding", ["law", "storey", "yielded", "of", "ductility", "of element", "first at [s]", "lost [J]"], rows,
+                      text=(0, 1))
+
+
 def drift_table(result: Result) -> str:
     rows = [(one["structure"], one["upper"], one["lower"], one["height"],
              *(value for peak, time in zip(one["peak"], one["time"]) for value in (100 * peak, time)))
