@@ -13,7 +13,7 @@ import numpy as np
 
 import program
 import two_buildings  # noqa: F401  (puts python on the path)
-from soil_table_test import coupled, write_table
+from soil_tables import coupled, write_table
 
 import pounding
 

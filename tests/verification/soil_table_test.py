@@ -5,7 +5,6 @@ As in soil_test.py, a body is shaken by one short pulse until it rests; sums ove
 4 sin^2(omega h / 2) / h^2 in the place of omega^2, and nothing is lost by windows.
 """
 import math
-import os
 import tempfile
 import unittest
 
@@ -15,11 +14,10 @@ import scipy.io
 import program
 from decks import clock, in_modes, probes
 from recorded import Recorded, assert_continues, write_samples
+from soil_tables import cell, coupled, write_table
 
-MOTIONS = ("x", "y", "z", "rx", "ry", "rz")
 MASS, INERTIA = 2e6, 1e8
 STEP, END = 1e-3, 12.0
-FREQUENCIES = numpy.arange(0.25, 20.01, 0.25)
 TESTED = 2 * math.pi * numpy.array([1.0, 2.0, 3.5, 5.0, 7.0])
 
 
@@ -29,52 +27,10 @@ def pulse(steps=int(END / STEP)):
     return numpy.exp(-((times - 7 * width) / width)**2)
 
 
-def write_table(impedance, frequencies=FREQUENCIES):
-    """A table of S(omega), shape (6, 6), in a file of its own, which is returned: the diagonals, and what couples."""
-    values = [impedance(2 * math.pi * f) for f in frequencies]
-    pairs = [(i, j) for i in range(6) for j in range(6) if i == j or any(value[i, j] != 0 for value in values)]
-    handle, path = tempfile.mkstemp(suffix=".csv")
-    with os.fdopen(handle, "w") as file:
-        file.write("# impedances of a mat\n")
-        file.write(",".join(["frequency"] + [f"k{MOTIONS[i]}{MOTIONS[j]}_{part}" for i, j in pairs
-                                             for part in ("re", "im")]) + "\n")
-        for f, value in zip(frequencies, values):
-            numbers = [number for i, j in pairs for number in (value[i, j].real, value[i, j].imag)]
-            file.write(",".join(f"{number:.17g}" for number in [f] + numbers) + "\n")
-    return path
-
-
-def cell(omega, spring, dashpot, inner_dashpot=0, inner_mass=0, moving_mass=0, inner_stiffness=0):
-    """Impedance of a spring and a dashpot to the ground, a mass on the mat, and a dashpot, a spring and a mass in
-    series; what is 0 is missing."""
-    inner = 0
-    if inner_dashpot > 0 and omega > 0:
-        slip = 1 / inner_dashpot
-        if inner_mass > 0:
-            slip += 1 / (1j * omega * inner_mass)
-        if inner_stiffness > 0:
-            slip += 1j * omega / inner_stiffness
-        inner = 1 / slip
-    return spring + 1j * omega * (dashpot + inner) - omega**2 * moving_mass
-
-
 def of_summary(soil):
     """Impedance of a half-space by the numbers of the report."""
     keys = ("stiffness", "dashpot", "inner_dashpot", "inner_mass", "moving_mass")
     return lambda omega: numpy.diag([cell(omega, *(soil[key][c] for key in keys)) for c in range(6)])
-
-
-def coupled(omega):
-    """Sliding coupled with rocking, as under an embedded mat: a Maxwell body and two resonant parts act 3 m above the
-    middle and below it, the rest along and about the axes."""
-    matrix = numpy.diag([cell(omega, 2e9, 3e7), cell(omega, 2.5e9, 3e7), cell(omega, 3e9, 8e7, 2e7, 4e5),
-                         cell(omega, 3e11, 5e8, 2e9, 1e8), cell(omega, 2e11, 5e8, 1e9, 5e7), cell(omega, 4e11, 2e9)])
-    for (i, j), arm, part in (((0, 4), 3, cell(omega, 1e9, 0, 2e7, 0, 0, 6e8)), ((0, 4), -2, cell(omega, 5e8, 1e7)),
-                              ((1, 3), -4, cell(omega, 1e9, 0, 1.5e7, 3e5, 1e5, 9e8))):
-        direction = numpy.zeros(6)
-        direction[i], direction[j] = 1, arm
-        matrix = matrix + part * numpy.outer(direction, direction)
-    return matrix
 
 
 def body(*more):
