@@ -29,6 +29,17 @@ constexpr double never_yielded = -1;
 /// Numbers by which an element's law is known on every rank: structure, region, element, part.
 using LawKey = std::array<double, 4>;
 
+/// State of a law, of a link or of a part of inelastic elements, by its number among these.
+interactions::PartState law_state(const ObservedRun& run, std::size_t structure, bool is_link,
+                                  std::size_t number) {
+  if (is_link) {
+    const auto& links = *run.solver.links(structure);
+    return {.ductility = links.ductility(number), .lost = links.lost(number)};
+  }
+  const auto& elements = *run.solver.inelastic(structure);
+  return elements.state_of(elements.parts()[number]);
+}
+
 /// State of one law of one element at the end of a run.
 struct YieldRow {
   std::string name;  ///< structure, group, part
@@ -63,8 +74,9 @@ class YieldTable final : public Observer {
     std::size_t structure() const { return static_cast<std::size_t>(key[0]); }
   };
 
-  double ductility(const Own& law) const;
-  double lost(const Own& law) const;
+  interactions::PartState state_of(const Own& law) const {
+    return law_state(run_, law.structure(), law.is_link, law.number);
+  }
   std::string part_name(std::size_t structure, std::size_t region, std::size_t part) const;
   /// Rows of all ranks. Collective.
   std::vector<YieldRow> rows() const;
@@ -138,14 +150,7 @@ void for_each_law(const ObservedRun& run, std::size_t s, Visit&& visit) {
 std::vector<double> yielding_elements(const ObservedRun& run, std::size_t structure) {
   std::map<std::pair<std::size_t, std::int64_t>, std::array<double, 3>> found;
   for_each_law(run, structure, [&](const FoundLaw& law) {
-    interactions::PartState state;
-    if (law.is_link) {
-      state.ductility = run.solver.links(structure)->ductility(law.number);
-      state.lost = run.solver.links(structure)->lost(law.number);
-    } else {
-      const auto& elements = *run.solver.inelastic(structure);
-      state = elements.state_of(elements.parts()[law.number]);
-    }
+    const interactions::PartState state = law_state(run, structure, law.is_link, law.number);
     if (state.ductility == 0) return;
     auto& [ductility, damage, lost] = found[{law.region, law.element}];
     ductility = std::max(ductility, state.ductility);
@@ -173,21 +178,9 @@ YieldTable::YieldTable(const ObservedRun& run)
   }
 }
 
-double YieldTable::ductility(const Own& law) const {
-  if (law.is_link) return run_.solver.links(law.structure())->ductility(law.number);
-  const auto& elements = *run_.solver.inelastic(law.structure());
-  return elements.state_of(elements.parts()[law.number]).ductility;
-}
-
-double YieldTable::lost(const Own& law) const {
-  if (law.is_link) return run_.solver.links(law.structure())->lost(law.number);
-  const auto& elements = *run_.solver.inelastic(law.structure());
-  return elements.state_of(elements.parts()[law.number]).lost;
-}
-
 void YieldTable::observe(const CdLagrange& stepper) {
   for (Own& law : own_) {
-    if (law.since == never_yielded && ductility(law) > 1) law.since = stepper.time();
+    if (law.since == never_yielded && state_of(law).ductility > 1) law.since = stepper.time();
   }
 }
 
@@ -230,7 +223,8 @@ std::vector<YieldRow> YieldTable::rows() const {
   for (const Own& law : own_) {
     mine.insert(mine.end(), law.key.begin(), law.key.end());
     mine.insert(mine.end(), law.place.begin(), law.place.end());
-    mine.insert(mine.end(), {law.since, ductility(law), lost(law)});
+    const interactions::PartState state = state_of(law);
+    mine.insert(mine.end(), {law.since, state.ductility, state.lost});
   }
   const std::vector<double> table = gather_rows(run_.comm, mine);
   constexpr std::size_t width = 10;
