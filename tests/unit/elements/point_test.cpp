@@ -79,6 +79,21 @@ TEST(Soil, ArmTurnsWithItsNode) {
   }
 }
 
+struct SoilMatrices {
+  std::array<double, 36> stiffness{};
+  std::array<double, 36> damping{};
+  std::array<double, 6> mass{};
+};
+
+SoilMatrices soil_matrices(std::span<const GroundSpring> ground) {
+  const ElementProperties properties{.ground_springs = ground};
+  SoilMatrices found;
+  element_matrices(ElementType::soil, std::array{0., 0., 0.}, properties, found.stiffness,
+                   found.mass);
+  element_dashpots(ElementType::soil, properties, found.damping);
+  return found;
+}
+
 /// Springs and dashpots of soil are those of the end of the arm: forces on the node that do the
 /// same work, for any motion of it.
 TEST(Soil, ActsAtTheEndOfItsArm) {
@@ -86,12 +101,7 @@ TEST(Soil, ActsAtTheEndOfItsArm) {
   const auto motion = motion_at({2, 3, 5});
   std::vector<GroundSpring> ground;
   for (std::size_t c = 0; c < 6; ++c) ground.push_back({motion[c], stiffnesses[c], 1. + double(c)});
-  const ElementProperties properties{.ground_springs = ground};
-  std::array<double, 36> stiffness{};
-  std::array<double, 36> damping{};
-  std::array<double, 6> mass{};
-  element_matrices(ElementType::soil, std::array{0., 0., 0.}, properties, stiffness, mass);
-  element_dashpots(ElementType::soil, properties, damping);
+  const auto [stiffness, damping, mass] = soil_matrices(ground);
   EXPECT_EQ(mass, (std::array<double, 6>{}));
   const std::array node{0.5, -1., 2., 0.25, 3., -4.};
   const std::array end{
@@ -117,12 +127,7 @@ TEST(Soil, ActsAtTheEndOfItsArm) {
 /// A motion that is a mixture of several couples them, and the matrix is symmetric to the last bit.
 TEST(Soil, MixedMotionsAreCoupled) {
   const std::array<GroundSpring, 1> ground{{{{0.3, -0.7, 0, 1.1, 0.9, 0}, 7, 5}}};
-  const ElementProperties properties{.ground_springs = ground};
-  std::array<double, 36> stiffness{};
-  std::array<double, 36> damping{};
-  std::array<double, 6> mass{};
-  element_matrices(ElementType::soil, std::array{0., 0., 0.}, properties, stiffness, mass);
-  element_dashpots(ElementType::soil, properties, damping);
+  const auto [stiffness, damping, mass] = soil_matrices(ground);
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t j = 0; j < 6; ++j) {
       const double product = ground[0].motion[i] * ground[0].motion[j];
