@@ -134,8 +134,8 @@ def decisive(run: Result) -> str | None:
 
 
 def verdict(run: Result) -> str:
-    """The joint that decides, whether it closes, and its margin: "floor2 of 10 mm closes, with 2 impacts in all and no margin"; nothing of a
-    run without contacts."""
+    """The joint that decides, whether it closes, and its margin: "floor2 of 10 mm closes, with 2 impacts in all and no
+    margin"; nothing of a run without contacts."""
     name = decisive(run) or next(iter(run.summary.get("contacts", {})), None)
     if name is None:
         return ""
