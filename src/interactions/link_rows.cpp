@@ -55,6 +55,9 @@ LinkRows::LinkRows(const LinearSystem& system, std::size_t structure, double tim
       force_(links_.size(), 0.0),
       stretch_(links_.size(), 0.0) {
   for (const auto& law : laws_) has_rate_.push_back(law->rate() > 0 ? 1 : 0);
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    if (links_[b].incident != Vector3{0, 0, 0}) in_waves_.push_back(b);
+  }
   rates_only_ = std::ranges::all_of(has_rate_, [](char has_rate) { return has_rate != 0; });
 }
 
@@ -161,15 +164,17 @@ void LinkRows::begin(const Step& step) {
   const ScopedTimer timer(step.profile, Phase::step);
   const SteppedStructure& structure = *step.structures[structure_];
   auto& [before, now, free_after] = elongations_;
-  for (std::size_t b = 0; b < links_.size(); ++b) {
+  for (const std::size_t b : in_waves_) {
     const Vector3& along = links_[b].incident;
     driven_[b] =
         along[0] * step.incident[0] + along[1] * step.incident[1] + along[2] * step.incident[2];
   }
   structure.remember(trace_.dofs(), held_);
   const auto& displacement = structure.displacement();
-  if (!rates_only_) measure_carried(displacement, step.supports.displacement, now);
-  if (!records_.empty()) measure_carried(displacement, step.supports.displacement, recorded_);
+  if (!rates_only_ || !records_.empty()) {
+    measure_carried(displacement, step.supports.displacement, now);
+    if (!records_.empty()) recorded_ = now;
+  }
   if (!rates_known_) measure_carried(structure.velocity(), step.supports.velocity_before, rate_);
   for (std::size_t b = 0; b < links_.size(); ++b) {
     if (has_rate_[b] != 0) now[b] = 0;
@@ -191,10 +196,10 @@ void LinkRows::push(const Step& step) {
   solver_.solve(step.share(), elongations_, driven_, memory_, force_);
   std::fill(field_.begin(), field_.end(), 0.0);
   for (std::size_t b = 0; b < links_.size(); ++b) {
-    for (std::size_t i = 0; i < links_[b].place.size(); ++i) {
-      if (links_[b].place[i] >= 0) {
-        field_[links_[b].place[i]] -= links_[b].weight[i] * step.share() * time_step_ * force_[b];
-      }
+    const auto places = weights_.columns(b);
+    const auto weights = weights_.values(b);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      field_[places[i]] -= weights[i] * step.share() * time_step_ * force_[b];
     }
   }
   trace_.restrict_to_dofs(structure.velocity().data(), velocity_.data());

@@ -44,9 +44,10 @@ class LinkRows final : public StructureLinks {
   std::vector<std::vector<double>> carried_;  ///< see carried_by_supports
   LawSolver solver_;
   YieldGroups yields_;
-  std::vector<char> has_rate_;  ///< per link
-  bool rates_only_ = false;     ///< every link has one
-  bool rates_known_ = false;    ///< rate_ is that of v-
+  std::vector<char> has_rate_;         ///< per link
+  std::vector<std::size_t> in_waves_;  ///< links that a wave from below drives
+  bool rates_only_ = false;            ///< every link has one
+  bool rates_known_ = false;           ///< rate_ is that of v-
   Elongations elongations_;
   std::vector<double> after_;    ///< e_{n+1}
   std::vector<double> rate_;     ///< b . v

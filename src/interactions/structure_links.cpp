@@ -28,6 +28,17 @@ std::vector<std::string> record_names(std::size_t structure, const std::vector<L
   return names;
 }
 
+SparseRows weights_of(const std::vector<Link>& links) {
+  SparseRows weights;
+  for (const Link& link : links) {
+    for (std::size_t i = 0; i < link.place.size(); ++i) {
+      if (link.place[i] >= 0) weights.add(link.place[i], link.weight[i]);
+    }
+    weights.end_row();
+  }
+  return weights;
+}
+
 std::vector<std::unique_ptr<LinkLaw>> laws_of(const LinearSystem& system, double time_step) {
   const UniformDamping* const uniform = system.uniform_damping ? &*system.uniform_damping : nullptr;
   std::vector<std::unique_ptr<LinkLaw>> laws;
@@ -43,6 +54,7 @@ StructureLinks::StructureLinks(const LinearSystem& system, std::size_t structure
     : structure_(structure),
       time_step_(time_step),
       links_(system.links->links()),
+      weights_(weights_of(links_)),
       trace_(system.links->trace()),
       laws_(laws_of(system, time_step)),
       memory_(laws_),
@@ -61,7 +73,7 @@ void StructureLinks::attach(std::span<SteppedStructure* const> structures) {
 
 void StructureLinks::measure(const std::vector<double>& owned, std::vector<double>& elongations) {
   trace_.apply(owned.data(), field_.data(), 1);
-  for (std::size_t b = 0; b < links_.size(); ++b) elongations[b] = links_[b].elongation(field_);
+  for (std::size_t b = 0; b < links_.size(); ++b) elongations[b] = row_product(weights_, b, field_);
 }
 
 void StructureLinks::save(SavedState& saved) const {

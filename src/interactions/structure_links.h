@@ -9,6 +9,7 @@
 #include "interactions/laws/link_law.h"
 #include "interactions/link_records.h"
 #include "interactions/solvers/law_solver.h"
+#include "interactions/solvers/sparse_rows.h"
 #include "system/linear_system.h"
 #include "system/links.h"
 #include "system/trace.h"
@@ -52,6 +53,7 @@ class StructureLinks : public Interaction {
   std::size_t structure_;
   double time_step_;
   const std::vector<Link>& links_;
+  SparseRows weights_;  ///< b of each link over the places of the trace, shape (links, places)
   Trace trace_;
   std::vector<std::unique_ptr<LinkLaw>> laws_;  ///< per link
   LawMemory memory_;

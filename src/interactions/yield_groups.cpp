@@ -50,7 +50,7 @@ void YieldGroups::yield(std::span<const std::unique_ptr<LinkLaw>> laws, std::spa
     const double kept = size > capacity ? capacity / size : 1;
     for (const std::size_t b : group.links) {
       laws[b]->yield(now[b], kept, memory[b]);
-      laws[b]->press(group.pressing * pressed, memory[b]);
+      if (group.gauge >= 0) laws[b]->press(group.pressing * pressed, memory[b]);
     }
   }
 }

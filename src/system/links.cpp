@@ -21,14 +21,6 @@ int place_of(const std::vector<LocalIndex>& dofs, LocalIndex dof) {
 
 }  // namespace
 
-double Link::elongation(std::span<const double> field) const {
-  double sum = 0;
-  for (std::size_t i = 0; i < place.size(); ++i) {
-    if (place[i] >= 0) sum += weight[i] * field[place[i]];
-  }
-  return sum;
-}
-
 std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh) {
   std::unique_ptr<Links> found(new Links);
   GlobalIndex count = 0;  // of all ranks

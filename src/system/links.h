@@ -29,16 +29,15 @@ struct Link {
   /// Places in the trace of all links, -1 where the end is held: a bar has three of each end, soil
   /// up to six of its node, the section of a beam six of each end.
   std::array<int, most_places> place;
-  std::array<double, most_places> weight{};  ///< b: of each place in the elongation
-  std::vector<HeldEnd> held{};               ///< ends that may be on a support
+  /// b: of each place in the elongation, that of the second end less that of the first [m, rad].
+  std::array<double, most_places> weight{};
+  std::vector<HeldEnd> held{};     ///< ends that may be on a support
   std::vector<double> supports{};  ///< elongation by them, per column of SupportShapes; or empty
   Vector3 incident{};  ///< force along it of a wave from below, per its velocity [N s/m]
   interactions::LinkOrigin origin;
   std::int64_t number = 0;  ///< among the elements of its structure's file; its name in checkpoints
 
   Link() { place.fill(-1); }
-  /// b . w of a field w at the places of the trace: the second end's less the first one's [m, rad].
-  double elongation(std::span<const double> field) const;
 };
 
 /// Links of a structure: devices between two nodes, or from one to the ground, with a law that is

@@ -66,8 +66,13 @@ TEST(Links, MeasureElongationsAlongTheirAxes) {
   std::vector<double> field(bars.trace().known().size());
   bars.trace().apply(w.data(), field.data(), 1);
   for (std::size_t b = 0; b < bars.links().size(); ++b) {
-    EXPECT_NEAR(bars.links()[b].elongation(field), 0.01 * (2 * static_cast<double>(b) + 1), 1e-14);
-    EXPECT_DOUBLE_EQ(bars.links()[b].origin.length, 1);
+    const Link& bar = bars.links()[b];
+    double elongation = 0;
+    for (std::size_t i = 0; i < bar.place.size(); ++i) {
+      if (bar.place[i] >= 0) elongation += bar.weight[i] * field[bar.place[i]];
+    }
+    EXPECT_NEAR(elongation, 0.01 * (2 * static_cast<double>(b) + 1), 1e-14);
+    EXPECT_DOUBLE_EQ(bar.origin.length, 1);
   }
 }
 

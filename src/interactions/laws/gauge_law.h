@@ -20,6 +20,7 @@ class GaugeLaw final : public LinkLaw {
     return 0;
   }
   double tangent() const override { return 0; }
+  bool is_explicit() const override { return true; }
   bool is_idle(double /*now*/, std::span<const double> /*memory*/ = {}) const override {
     return true;
   }

@@ -24,6 +24,7 @@ class HystereticLink final : public LinkLaw {
     return law_.stored(last) + law_.force(last) * (after - now) / 2;
   }
   double tangent() const override { return law_.tangent(); }
+  bool is_explicit() const override { return true; }
   bool is_idle(double now, std::span<const double> memory = {}) const override {
     return now == 0 && law_.is_untouched(memory);
   }

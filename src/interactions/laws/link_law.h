@@ -32,6 +32,8 @@ class LinkLaw {
   /// Whether it pulls at no elongation that it can reach in this step: it need not be looked at.
   virtual bool is_idle(double now, std::span<const double> memory = {}) const = 0;
 
+  /// Whether its force follows from e_n and its memory alone, whatever the other rows pull.
+  virtual bool is_explicit() const { return false; }
   /// Force at e_n [N] that K of its structure holds already: in all it pulls N_n and this.
   virtual double counted(double /*now*/) const { return 0; }
   /// Whether `full` and `holds_down_to` are known: unless it lets go in a step, its force follows

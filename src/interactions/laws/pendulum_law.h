@@ -37,6 +37,7 @@ class PendulumLaw final : public LinkLaw {
     return memory[2] * now * after / 2 + friction_.energy(now, after, memory);
   }
   double tangent() const override { return steepest_ + friction_.tangent(); }
+  bool is_explicit() const override { return true; }
   bool is_idle(double now, std::span<const double> memory = {}) const override {
     return friction_.is_idle(now, memory);
   }

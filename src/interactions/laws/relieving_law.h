@@ -29,6 +29,7 @@ class RelievingLaw final : public LinkLaw {
     return link_->energy(now, after, memory) - link_->tangent() * now * after / 2;
   }
   double tangent() const override { return 0; }
+  bool is_explicit() const override { return link_->is_explicit(); }
   void rest(double now, std::span<double> memory) const override { link_->rest(now, memory); }
   double slack(std::span<const double> memory) const override { return link_->slack(memory); }
   double counted(double now) const override { return link_->tangent() * now; }

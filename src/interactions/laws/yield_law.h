@@ -32,6 +32,7 @@ class YieldLaw final : public LinkLaw {
                std::span<const double> memory = {}) const override;
   double energy(double now, double after, std::span<const double> memory = {}) const override;
   double tangent() const override { return after_ + elastic_; }
+  bool is_explicit() const override { return true; }
   bool is_idle(double now, std::span<const double> memory = {}) const override {
     return now == 0 && memory[0] == 0;
   }

@@ -52,7 +52,9 @@ LawSolver::LawSolver(Laws laws, std::vector<std::vector<Coupling>> couplings,
   for (const OnBody& row : on_body_) bodies = std::max(bodies, row.body + 1);
   pull_.assign(static_cast<std::size_t>(bodies), {});
   block_pull_ = pull_;
+  rate_.assign(laws_.size(), 0.0);
   find_blocks();
+  explicit_ = std::ranges::all_of(others_, [&](std::size_t b) { return laws_[b]->is_explicit(); });
   const bool holds = bodies == 0 && blocks_.empty() && std::ranges::all_of(laws_, [](auto& law) {
                        return law->holds_a_known_force();
                      });
@@ -124,6 +126,7 @@ void LawSolver::fill_block(Block& block, const std::vector<std::size_t>& place) 
 
 void LawSolver::form_inverses(double share) {
   share_ = share;
+  for (std::size_t b = 0; b < laws_.size(); ++b) rate_[b] = laws_[b]->rate(share);
   for (Block& block : blocks_) {
     if (block.body >= 0) {
       invert_on_body(block);
@@ -137,7 +140,7 @@ void LawSolver::form_inverses(double share) {
         block.inverse[i * count + j] =
             share * (block.compliance[i * count + j] + block.compliance[j * count + i]) / 2;
       }
-      block.inverse[i * count + i] += 1 / laws_[block.rows[i]]->rate(share);
+      block.inverse[i * count + i] += 1 / rate_[block.rows[i]];
     }
     if (!invert_definite(block.inverse)) {
       throw std::logic_error("the compliance of dashpots is not positive");
@@ -153,7 +156,7 @@ void LawSolver::invert_on_body(Block& block) {
     for (const std::size_t b : block.rows) {
       const Motion& motion = on_body_[b].motion;
       for (std::size_t j = 0; j < n; ++j) {
-        block.inverse[i * n + j] += motion[i] * laws_[b]->rate(share_) * motion[j];
+        block.inverse[i * n + j] += motion[i] * rate_[b] * motion[j];
       }
     }
   }
@@ -175,8 +178,14 @@ void LawSolver::solve(double share, const Elongations& elongations, std::span<co
   if (share != share_) form_inverses(share);
   const Problem problem{elongations, driven, memory, force};
   if (!reach_.empty() && hold(problem)) return;
+  if (explicit_) {
+    solve_others(problem);
+    solve_blocks(problem);
+    return;
+  }
   for (int i = 0; i < most_law_sweeps; ++i) {
-    const double change = sweep(problem);
+    solve_blocks(problem);
+    const double change = solve_others(problem);
     if (change <= settled * largest_of(force)) break;
   }
 }
@@ -204,7 +213,7 @@ double LawSolver::left_over(const Problem& problem, std::size_t row) const {
   }
   if (body_of(row) < 0) return after;
   const auto& [body, motion] = on_body_[row];
-  const bool has_rate = laws_[row]->rate() > 0;
+  const bool has_rate = rate_[row] > 0;
   Motion others = pull_[body];
   for (std::size_t m = 0; !has_rate && m < others.size(); ++m) {
     others[m] += block_pull_[body][m] - problem.force[row] * motion[m];
@@ -219,7 +228,7 @@ void LawSolver::solve_block(const Problem& problem, Block& block) {
     const std::size_t b = block.rows[i];
     const double offset =
         laws_[b]->offset(before[b], now[b], share_, problem.memory[b]) - problem.driven[b];
-    block.free[i] = left_over(problem, b) - before[b] + offset / laws_[b]->rate(share_);
+    block.free[i] = left_over(problem, b) - before[b] + offset / rate_[b];
   }
   if (block.body >= 0) {
     solve_on_body(block);
@@ -236,14 +245,14 @@ void LawSolver::solve_on_body(Block& block) {
   Motion sum{};
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t b = block.rows[i];
-    block.force[i] = laws_[b]->rate(share_) * block.free[i];
+    block.force[i] = rate_[b] * block.free[i];
     for (std::size_t m = 0; m < sum.size(); ++m) sum[m] += block.force[i] * on_body_[b].motion[m];
   }
   Motion common{};
   multiply_rows(block.inverse.data(), sum.size(), sum.size(), sum.data(), common.data(), 1);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t b = block.rows[i];
-    block.force[i] -= laws_[b]->rate(share_) * motion_product(on_body_[b].motion, common);
+    block.force[i] -= rate_[b] * motion_product(on_body_[b].motion, common);
   }
 }
 
@@ -260,9 +269,12 @@ void LawSolver::renew_pull(const Problem& problem, const Block& block) {
   }
 }
 
-double LawSolver::sweep(const Problem& problem) {
-  const auto& [before, now, free_after] = problem.elongations;
+void LawSolver::solve_blocks(const Problem& problem) {
   for (Block& block : blocks_) solve_block(problem, block);
+}
+
+double LawSolver::solve_others(const Problem& problem) {
+  const auto& [before, now, free_after] = problem.elongations;
   double change = 0;
   for (const std::size_t b : others_) {
     // A bar that is slack is solved for as fast as it is asked.

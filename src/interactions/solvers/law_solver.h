@@ -54,8 +54,9 @@ class LawMemory {
 ///
 /// Rows with a rate that move each other directly are solved for together (block); the others by
 /// Gauss-Seidel sweeps over blocks and rows, which converge since no force falls as its elongation
-/// grows. Rows on one rigid body move each other by products of their motions, so that many of them
-/// cost no more than a few each. Pure: no MPI, no PETSc; `solve` allocates nothing.
+/// grows; where all of them are explicit, one pass over them and then the blocks is exact. Rows on
+/// one rigid body move each other by products of their motions, so that many of them cost no more
+/// than a few each. Pure: no MPI, no PETSc; `solve` allocates nothing.
 class LawSolver {
  public:
   using Laws = std::span<const std::unique_ptr<LinkLaw>>;
@@ -99,7 +100,8 @@ class LawSolver {
   /// Forces of rows none of which lets go in the step; false if one may.
   bool hold(const Problem& problem);
   /// Largest change of the force of a row without a rate [N].
-  double sweep(const Problem& problem);
+  double solve_others(const Problem& problem);
+  void solve_blocks(const Problem& problem);
   /// Forces of a block from those of the other rows.
   void solve_block(const Problem& problem, Block& block);
   void solve_on_body(Block& block);
@@ -115,7 +117,9 @@ class LawSolver {
   std::vector<std::vector<Coupling>> coupled_;
   std::vector<OnBody> on_body_;
   std::vector<Block> blocks_;
+  std::vector<double> rate_;         ///< per row, for `share_` of a step; 0: it has none
   std::vector<std::size_t> others_;  ///< rows without a rate
+  bool explicit_ = false;            ///< all of these are, so that one pass solves for them
   std::vector<double> reach_;        ///< sum of the moduli of a row's compliances [m/N]; empty
                                      ///< where `hold` does not give it
   std::vector<Motion> pull_;         ///< per body: sum of W^T b N of rows without a rate on it

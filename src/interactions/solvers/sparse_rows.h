@@ -7,7 +7,8 @@
 
 namespace pounding::interactions {
 
-/// Square sparse matrix in compressed rows, columns ascending within a row.
+/// Sparse matrix in compressed rows. The entries of a row are in the order in which they were
+/// added, by ascending columns where `entry` or a principal part is asked for.
 struct SparseRows {
   std::vector<std::size_t> begin{0};  ///< shape (rows + 1)
   std::vector<int> column;            ///< shape (entries)
@@ -47,7 +48,7 @@ struct SparseRows {
   }
 };
 
-/// Product of one row with x, in the order of the columns; `Real`: the precision of its sum.
+/// Product of one row with x, in the order of its entries; `Real`: the precision of its sum.
 template <typename Real = double>
 Real row_product(const SparseRows& matrix, std::size_t row, std::span<const double> x) {
   Real sum = 0;

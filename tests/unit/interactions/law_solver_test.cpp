@@ -10,6 +10,7 @@
 #include "interactions/laws/dashpot_law.h"
 #include "interactions/laws/filler_law.h"
 #include "interactions/laws/tension_law.h"
+#include "interactions/laws/yield_law.h"
 
 namespace pounding::interactions {
 namespace {
@@ -77,13 +78,15 @@ double largest_of(const std::vector<double>& force) {
   return largest;
 }
 
-TEST(LawSolver, FulfilsEveryLawOfCoupledDashpotsAndBars) {
+/// Every third of nine coupled rows follows such a law, the others are dashpots.
+template <typename Law>
+void expect_laws_beside_dashpots(const Law& law) {
   std::mt19937 random(7);
   for (int round = 0; round < 20; ++round) {
     Rows rows(9, 6, random);
     for (std::size_t r = 0; r < 9; ++r) {
       if (r % 3 == 0) {
-        rows.laws.push_back(std::make_unique<TensionLaw>(2e7, 0));
+        rows.laws.push_back(std::make_unique<Law>(law));
       } else {
         rows.laws.push_back(std::make_unique<DashpotLaw>(3e8));
         rows.elongations.free_after[r] -= rows.elongations.now[r];
@@ -92,7 +95,10 @@ TEST(LawSolver, FulfilsEveryLawOfCoupledDashpotsAndBars) {
       }
     }
     LawSolver solver = rows.solver();
-    const LawMemory memory(rows.laws);
+    LawMemory memory(rows.laws);
+    for (std::size_t r = 0; r < 9; ++r) {
+      rows.laws[r]->yield(rows.elongations.now[r], 0.5, memory[r]);
+    }
     const std::vector<double> driven(9, 0.0);
     for (const double share : {0.5, 1.0}) {
       std::vector<double> force(9, 0.0);
@@ -101,6 +107,16 @@ TEST(LawSolver, FulfilsEveryLawOfCoupledDashpotsAndBars) {
       EXPECT_LT(rows.defect(share, memory, force), 1e-10 * largest_of(force)) << round;
     }
   }
+}
+
+TEST(LawSolver, FulfilsEveryLawOfCoupledDashpotsAndBars) {
+  expect_laws_beside_dashpots(TensionLaw(2e7, 0));
+}
+
+TEST(LawSolver, FulfilsEveryLawOfCoupledDashpotsAndExplicitLaws) {
+  const YieldLaw law(2e7, 0.1, 1e3);
+  EXPECT_TRUE(law.is_explicit());
+  expect_laws_beside_dashpots(law);
 }
 
 TEST(LawSolver, TakesTheKnownForceOfFillersThatDoNotLetGo) {
