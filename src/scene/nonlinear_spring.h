@@ -41,6 +41,11 @@ struct NonlinearSpring {
   bool yields(std::size_t component) const {
     return yield_force[component] > 0 || (friction > 0 && is_in_circle(component));
   }
+  /// The option by which its force is no longer that of its stiffness; null: it is.
+  const char* option() const {
+    if (friction > 0) return "<structure>_<group>_sliding_friction";
+    return yields() ? "<structure>_<group>_yield_force" : nullptr;
+  }
   bool has_skeleton() const { return !law.positive.breaks.empty(); }
   /// Whether a component follows more than kinematic hardening of two slopes.
   bool is_hysteretic(std::size_t component) const {

@@ -107,7 +107,8 @@ inline bool follows_law(const Region& region) {
 
 /// Elements whose force is not K u, whether or not K holds their first slope.
 inline bool is_nonlinear(const Region& region) {
-  return follows_law(region) || region.yielding.any() || region.yielding_shell.any();
+  return follows_law(region) || region.nonlinear.option() != nullptr || region.yielding.any() ||
+         region.yielding_shell.any();
 }
 
 /// Beams of a reduced structure whose sections yield: its modes hold them as elastic, and links the
@@ -121,9 +122,8 @@ inline const char* law_option(const Region& region) {
   if (region.yielding.any()) return region.yielding.option();
   if (region.yielding_shell.any()) return region.yielding_shell.option();
   if (region.compression_only) return "<structure>_<group>_compression_only";
-  if (region.nonlinear.friction > 0) return "<structure>_<group>_sliding_friction";
-  return region.nonlinear.yields() ? "<structure>_<group>_yield_force"
-                                   : "<structure>_<group>_tension_only";
+  const char* const option = region.nonlinear.option();
+  return option != nullptr ? option : "<structure>_<group>_tension_only";
 }
 
 /// A structure represented by its lowest modes and by attachment vectors.

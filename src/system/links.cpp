@@ -126,16 +126,17 @@ void Links::add_springs(const Structure& structure, const Mesh& mesh, const Elem
   const std::size_t ends = element_layout(block.type).nodes;
   const LocalIndex* nodes = &block.connectivity[ends * element];
   const bool reduced = structure.modal.has_value();
-  const auto add = [&](std::size_t c, interactions::SpringPart part) {
+  for (const auto& [component, part] : interactions::spring_links(region)) {
+    const auto c = static_cast<std::size_t>(component);
     Link link;
     link.number = block.tags[element];
-    link.origin = {&region, static_cast<int>(c), 0, 0, false, part};
+    link.origin = {&region, component, 0, 0, false, part};
     link.origin.share = block.share_of(element);
     const bool pressed = interactions::is_pressed(link.origin);
     if (pressed) link.origin.beta = reduced ? 0 : structure.damping.beta;
     link.origin.in_stiffness = reduced && part == interactions::SpringPart::stiffness;
     for (std::size_t end = 0; end < ends; ++end) {
-      link.place[end] = mesh.dof(nodes[end], static_cast<int>(c));
+      link.place[end] = mesh.dof(nodes[end], component);
       link.weight[end] = end + 1 == ends && !pressed ? 1 : -1;
     }
     if (part == interactions::SpringPart::gauge && structure.gravity[c] > 0) {
@@ -143,21 +144,13 @@ void Links::add_springs(const Structure& structure, const Mesh& mesh, const Elem
     }
     for (std::size_t end = 0; end < ends; ++end) {
       if (link.place[end] < 0) {
-        link.held.push_back({nodes[end], static_cast<int>(c), link.weight[end]});
+        link.held.push_back({nodes[end], component, link.weight[end]});
       }
       if (ends == 1) {
-        link.held.push_back({nodes[end], static_cast<int>(c), -link.weight[end], true});
+        link.held.push_back({nodes[end], component, -link.weight[end], true});
       }
     }
     keep(mesh, block, element, link);
-  };
-  for (std::size_t c = 0; c < region.dashpot.size(); ++c) {
-    const bool pressed = region.compression_only && c == 2;
-    if (region.dashpot[c] > 0 && !pressed) add(c, interactions::SpringPart::dashpot);
-    if (region.nonlinear.yields(c) || pressed) add(c, interactions::SpringPart::stiffness);
-  }
-  if (region.nonlinear.friction > 0) {
-    add(static_cast<std::size_t>(region.nonlinear.circle[2]), interactions::SpringPart::gauge);
   }
 }
 
@@ -259,15 +252,16 @@ std::vector<TracePoint> link_points(const Structure& structure, const GlobalMesh
   for (const ElementSet& set : mesh.regions) {
     const Region& region = structure.regions[set.region];
     if (!interactions::has_links(region)) continue;
+    const bool pulls_at_all = region.foundation || yields_by_links(region);
+    const auto springs = interactions::spring_links(region);
     for (const GlobalIndex node : set.connectivity) {
       for (int c = 0; c < 6; ++c) {
-        const bool pulls = region.foundation.has_value() ? true
-                           : is_spring(set.type)
-                               ? region.dashpot[c] > 0 || region.nonlinear.yields(c) ||
-                                     (region.compression_only && c == 2) ||
-                                     (region.nonlinear.friction > 0 &&
-                                      region.nonlinear.circle[2] == static_cast<int>(c))
-                               : c < 3 || yields_by_links(region);
+        const bool pulls =
+            pulls_at_all ||
+            (is_spring(set.type)
+                 ? std::ranges::find(springs, c, &interactions::SpringLink::component) !=
+                       springs.end()
+                 : c < 3);
         if (pulls) points.push_back({node, c});
       }
     }

@@ -1,6 +1,5 @@
 #include "interactions/laws/law_of.h"
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -17,10 +16,24 @@
 
 namespace pounding::interactions {
 
+std::vector<SpringLink> spring_links(const Region& region) {
+  std::vector<SpringLink> links;
+  if (!is_spring(region.element)) return links;
+  for (int c = 0; c < static_cast<int>(region.dashpot.size()); ++c) {
+    const auto component = static_cast<std::size_t>(c);
+    const bool pressed = region.compression_only && c == 2;
+    if (region.dashpot[component] > 0 && !pressed) links.push_back({c, SpringPart::dashpot});
+    if (region.nonlinear.yields(component) || pressed) links.push_back({c, SpringPart::stiffness});
+  }
+  if (region.nonlinear.friction > 0) {
+    links.push_back({region.nonlinear.circle[2], SpringPart::gauge});
+  }
+  return links;
+}
+
 bool has_links(const Region& region) {
   return follows_law(region) || yields_by_links(region) || region.foundation ||
-         (is_spring(region.element) &&
-          std::ranges::any_of(region.dashpot, [](double rate) { return rate > 0; }));
+         !spring_links(region).empty();
 }
 
 bool is_pressed(const LinkOrigin& origin) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "interactions/laws/link_law.h"
 #include "scene/scene.h"
@@ -14,6 +15,15 @@ bool has_links(const Region& region);
 /// Part of a spring that a link is: its dashpot, what it does along its stiffness by a law, or a
 /// gauge of its elongation.
 enum class SpringPart { dashpot, stiffness, gauge };
+
+/// A link that a spring is, along or about an axis: 0 to 2 x, y, z, 3 to 5 about them.
+struct SpringLink {
+  int component = 0;
+  SpringPart part = SpringPart::dashpot;
+};
+
+/// The links that each spring of a region is beside what K holds of it.
+std::vector<SpringLink> spring_links(const Region& region);
 
 /// Components of the links of sections are the numbers of their laws, from this one on.
 constexpr int first_section_component = 10;
