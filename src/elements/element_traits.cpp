@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <ranges>
 #include <stdexcept>
 #include <string>
 
@@ -59,78 +58,53 @@ void nothing(Coordinates, const Properties&, Matrix result) {
   std::ranges::fill(result, 0.0);
 }
 
-constexpr std::string_view of_solid = "material";
-constexpr std::string_view of_beam =
-    "material section mass_per_length divide shear_skeleton_y shear_skeleton_z shear_rule "
-    "bending_skeleton_y bending_skeleton_z bending_rule bending_axial unloading_exponent "
-    "unloading_least pinch deterioration";
-constexpr std::string_view of_bar =
-    "material area tension_only slack yield_force hardening mass_per_length rule skeleton "
-    "skeleton_back unloading_exponent unloading_least pinch deterioration";
-constexpr std::string_view of_plate =
-    "material thickness rotary_inertia_factor drilling_factor mass_per_area shear_skeleton "
-    "shear_rule unloading_exponent unloading_least pinch deterioration cracking_force "
-    "cracking_moment cracked_tension cracked_compression cracked_bending";
-constexpr std::string_view of_point = "mass rotary_inertia";
-constexpr std::string_view of_spring =
-    "stiffness dashpot dashpot_exponent dashpot_stiffness series_stiffness yield_force hardening "
-    "yield_circle sliding_friction "
-    "pendulum_radius rule skeleton skeleton_back unloading_exponent unloading_least pinch "
-    "deterioration";
-constexpr std::string_view of_ground =
-    "stiffness dashpot dashpot_exponent dashpot_stiffness series_stiffness yield_force hardening "
-    "yield_circle sliding_friction "
-    "pendulum_radius compression_only stiffness_per_area dashpot_per_area stiffness_per_length "
-    "dashpot_per_length rule skeleton skeleton_back unloading_exponent unloading_least pinch "
-    "deterioration";
-
 // clang-format off
 constexpr std::array table{
     // type, name, word of the option, family, nodes and components, type in Gmsh, companion, faces,
-    //   options, stiffness, lumped mass, kernel, cost, linear, scalable, caution
+    //   stiffness, lumped mass, kernel, cost, linear, scalable, caution
     ElementTraits{Type::hex8, "hex8", "hex8", Family::solid, {8, 3}, 5, Type::wedge6, hex8_faces,
-        of_solid, brick_stiffness<Hex8Formulation::incompatible>, hex8_lumped_mass, Kernel::brick, measured_costs::brick, true, true},
+        brick_stiffness<Hex8Formulation::incompatible>, hex8_lumped_mass, Kernel::brick, measured_costs::brick, true, true},
     ElementTraits{Type::hex8_full, "hex8_full", "hex8_full", Family::solid, {8, 3}, 5, Type::wedge6, hex8_faces,
-        of_solid, brick_stiffness<Hex8Formulation::full>, hex8_lumped_mass, Kernel::brick, measured_costs::brick, true, true},
-    ElementTraits{Type::beam, "beam", "beam", Family::line, {2, 6}, 1, {}, {},
-        of_beam, beam2_stiffness, beam2_lumped_mass, Kernel::beam, measured_costs::beam, true, true},
-    ElementTraits{Type::euler_beam, "euler_beam", "euler_beam", Family::line, {2, 6}, 1, {}, {},
-        of_beam, beam2_stiffness, euler_beam_lumped_mass, Kernel::beam, measured_costs::beam, true, true},
-    ElementTraits{Type::bar, "bar", "bar", Family::line, {2, 3}, 1, {}, {},
-        of_bar, bar2_stiffness, bar2_lumped_mass, Kernel::sparse, measured_costs::small, true, true},
-    ElementTraits{Type::tension_bar, "bar (tension only)", "bar", Family::line, {2, 3}, 1, {}, {},
-        of_bar, bar2_stiffness, bar2_lumped_mass, Kernel::sparse, measured_costs::small, false, false},
+        brick_stiffness<Hex8Formulation::full>, hex8_lumped_mass, Kernel::brick, measured_costs::brick, true, true},
+    ElementTraits{Type::beam, "beam", "beam", Family::beam, {2, 6}, 1, {}, {},
+        beam2_stiffness, beam2_lumped_mass, Kernel::beam, measured_costs::beam, true, true},
+    ElementTraits{Type::euler_beam, "euler_beam", "euler_beam", Family::beam, {2, 6}, 1, {}, {},
+        beam2_stiffness, euler_beam_lumped_mass, Kernel::beam, measured_costs::beam, true, true},
+    ElementTraits{Type::bar, "bar", "bar", Family::bar, {2, 3}, 1, {}, {},
+        bar2_stiffness, bar2_lumped_mass, Kernel::sparse, measured_costs::small, true, true},
+    ElementTraits{Type::tension_bar, "bar (tension only)", "bar", Family::bar, {2, 3}, 1, {}, {},
+        bar2_stiffness, bar2_lumped_mass, Kernel::sparse, measured_costs::small, false, false},
     ElementTraits{Type::shell4, "shell4", "shell", Family::shell, {4, 6}, 3, Type::shell3, {},
-        of_plate, of_shell<shell4_stiffness>, of_shell<shell4_lumped_mass>, Kernel::rectangle, measured_costs::rectangle, true, true},
+        of_shell<shell4_stiffness>, of_shell<shell4_lumped_mass>, Kernel::rectangle, measured_costs::rectangle, true, true},
     ElementTraits{Type::shell3, "shell3", "shell", Family::shell, {3, 6}, 2, {}, {},
-        of_plate, of_shell<shell3_stiffness>, of_shell<shell3_lumped_mass>, Kernel::triangle, measured_costs::triangle, true, true},
+        of_shell<shell3_stiffness>, of_shell<shell3_lumped_mass>, Kernel::triangle, measured_costs::triangle, true, true},
     ElementTraits{Type::point_mass, "point_mass", "point_mass", Family::point_mass, {1, 3}, 15, {}, {},
-        of_point, nothing, point_mass, Kernel::sparse, measured_costs::small, true, false},
+        nothing, point_mass, Kernel::sparse, measured_costs::small, true, false},
     ElementTraits{Type::point_mass6, "point_mass", "point_mass", Family::point_mass, {1, 6}, 15, {}, {},
-        of_point, nothing, point_mass, Kernel::sparse, measured_costs::small, true, false},
+        nothing, point_mass, Kernel::sparse, measured_costs::small, true, false},
     ElementTraits{Type::grounded_spring, "grounded_spring", "grounded_spring", Family::grounded_spring, {1, 3}, 15, {}, {},
-        of_ground, spring_stiffness<1, 3>, nothing, Kernel::sparse, measured_costs::small, true, true},
+        spring_stiffness<1, 3>, nothing, Kernel::sparse, measured_costs::small, true, true},
     ElementTraits{Type::grounded_spring6, "grounded_spring", "grounded_spring", Family::grounded_spring, {1, 6}, 15, {}, {},
-        of_ground, spring_stiffness<1, 6>, nothing, Kernel::sparse, measured_costs::small, true, true},
+        spring_stiffness<1, 6>, nothing, Kernel::sparse, measured_costs::small, true, true},
     ElementTraits{Type::spring, "spring", "spring", Family::spring, {2, 3}, 1, {}, {},
-        of_spring, spring_stiffness<2, 3>, nothing, Kernel::sparse, measured_costs::small, true, true},
+        spring_stiffness<2, 3>, nothing, Kernel::sparse, measured_costs::small, true, true},
     ElementTraits{Type::spring6, "spring", "spring", Family::spring, {2, 6}, 1, {}, {},
-        of_spring, spring_stiffness<2, 6>, nothing, Kernel::sparse, measured_costs::small, true, true},
+        spring_stiffness<2, 6>, nothing, Kernel::sparse, measured_costs::small, true, true},
     ElementTraits{Type::wedge6, "wedge6", "wedge6", Family::solid, {6, 3}, 6, {}, wedge6_faces,
-        of_solid, wedge6_stiffness, wedge6_lumped_mass, Kernel::sparse, measured_costs::sparse_wedge6, true, true},
+        wedge6_stiffness, wedge6_lumped_mass, Kernel::sparse, measured_costs::sparse_wedge6, true, true},
     ElementTraits{Type::tet4, "tet4", "tet4", Family::solid, {4, 3}, 4, {}, tet4_faces,
-        of_solid, tet4_stiffness, tet4_lumped_mass, Kernel::sparse, measured_costs::sparse_tet4, true, true,
+        tet4_stiffness, tet4_lumped_mass, Kernel::sparse, measured_costs::sparse_tet4, true, true,
         "linear tetrahedra are too stiff in bending and lock near poisson 0.5; prefer wedge6 or hex8"},
     ElementTraits{Type::soil, "soil", "grounded_spring", Family::grounded_spring, {1, 6}, 15, {}, {},
-        of_ground, soil_stiffness, nothing, Kernel::sparse, measured_costs::small, true, false},
-    ElementTraits{Type::yielding_bar, "bar (yields)", "bar", Family::line, {2, 3}, 1, {}, {},
-        of_bar, bar2_stiffness, bar2_lumped_mass, Kernel::sparse, measured_costs::small, false, false}};
+        soil_stiffness, nothing, Kernel::sparse, measured_costs::small, true, false},
+    ElementTraits{Type::yielding_bar, "bar (yields)", "bar", Family::bar, {2, 3}, 1, {}, {},
+        bar2_stiffness, bar2_lumped_mass, Kernel::sparse, measured_costs::small, false, false}};
 // clang-format on
 
-/// Whether `list`, split at `separator`, has an entry `word`.
-constexpr bool contains_word(std::string_view list, char separator, std::string_view word) {
+/// Whether `list`, split at '|', has an entry `word`.
+constexpr bool contains_word(std::string_view list, std::string_view word) {
   while (true) {
-    const std::size_t end = list.find(separator);
+    const std::size_t end = list.find('|');
     if (list.substr(0, end) == word) return true;
     if (end == std::string_view::npos) return false;
     list.remove_prefix(end + 1);
@@ -143,7 +117,7 @@ constexpr bool table_is_sound() {
     return row.type == static_cast<ElementType>(place++) && row.layout.nodes <= max_element_nodes &&
            row.layout.size() <= max_element_size &&
            row.faces.empty() == (row.family != ElementFamily::solid) &&
-           contains_word(element_words, '|', row.option);
+           contains_word(element_words, row.option);
   });
 }
 
@@ -173,22 +147,6 @@ ElementType element_of_word(std::string_view word) {
   const auto row = std::ranges::find(table, word, &ElementTraits::option);
   if (row == table.end()) throw std::logic_error("no element has the word " + std::string(word));
   return row->type;
-}
-
-bool takes(const ElementTraits& element, std::string_view property) {
-  return contains_word(element.properties, ' ', property);
-}
-
-std::set<std::string_view> properties_of_elements() {
-  std::set<std::string_view> all;
-  for (std::string_view left : table | std::views::transform(&ElementTraits::properties)) {
-    while (!left.empty()) {
-      const std::size_t end = std::min(left.find(' '), left.size());
-      all.insert(left.substr(0, end));
-      left.remove_prefix(std::min(end + 1, left.size()));
-    }
-  }
-  return all;
 }
 
 int shared_by_neighbours(ElementType type) {

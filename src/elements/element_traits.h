@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <set>
 #include <span>
 #include <string_view>
 
@@ -43,8 +42,9 @@ inline constexpr int element_type_count = static_cast<int>(ElementType::yielding
 inline constexpr std::string_view element_words =
     "hex8|hex8_full|wedge6|tet4|shell|beam|euler_beam|bar|point_mass|grounded_spring|spring";
 
-/// Kind of body that an element is: the first three have a shape and a material.
-enum class ElementFamily { solid, shell, line, point_mass, grounded_spring, spring };
+/// Kind of body that an element is, on which the options of its region depend: the first four have
+/// a shape and a material.
+enum class ElementFamily { solid, shell, beam, bar, point_mass, grounded_spring, spring };
 
 /// Way in which the product by elements applies an element: in rows of bricks or rectangles if it
 /// has that shape, else, and triangles, by its strains; from the local stiffness of a beam; or in a
@@ -69,7 +69,6 @@ struct ElementTraits {
   /// Element that cells of another shape become in a region of this one.
   std::optional<ElementType> companion;
   std::span<const ElementFace> faces;  ///< of a solid
-  std::string_view properties;         ///< last words of the options of its region, by blanks
   StiffnessFunction stiffness;
   LumpedMassFunction lumped_mass;
   ElementKernel kernel;
@@ -83,12 +82,6 @@ const ElementTraits& traits_of(ElementType type);
 
 /// The element of a word of the option. Throws std::logic_error for a word without one.
 ElementType element_of_word(std::string_view word);
-
-/// Whether a region of the element has the option that ends so ("thickness").
-bool takes(const ElementTraits& element, std::string_view property);
-
-/// Last words of the options that belong to some elements only, in no order that counts.
-std::set<std::string_view> properties_of_elements();
 
 /// Nodes that two elements share at least if they meet in a face: those of the smallest face of a
 /// solid, one for everything else.
@@ -111,13 +104,17 @@ inline bool carries_faces(ElementType type) {
   return is_solid(type) || is_shell(type);
 }
 
-/// Solids, shells, beams and bars, which have a shape and a material.
-inline bool has_extent(ElementType type) {
-  return carries_faces(type) || traits_of(type).family == ElementFamily::line;
+inline bool is_beam(ElementType type) {
+  return traits_of(type).family == ElementFamily::beam;
 }
 
-inline bool is_beam(ElementType type) {
-  return traits_of(type).kernel == ElementKernel::beam;
+inline bool is_bar(ElementType type) {
+  return traits_of(type).family == ElementFamily::bar;
+}
+
+/// Solids, shells, beams and bars, which have a shape and a material.
+inline bool has_extent(ElementType type) {
+  return carries_faces(type) || is_beam(type) || is_bar(type);
 }
 
 /// Hexahedra and quadrangles, which may lie in rows if they are boxes or rectangles, and of which

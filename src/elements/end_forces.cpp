@@ -27,10 +27,9 @@ void add_along(const Vector3& axis, double factor, std::size_t first, std::size_
 
 std::span<const std::string_view> end_force_names(ElementType type) {
   if (is_beam(type)) return beam_names;
-  const ElementTraits& traits = traits_of(type);
-  if (traits.family == ElementFamily::line) return bar_names;
+  if (is_bar(type)) return bar_names;
   if (!is_spring(type)) return {};
-  return {spring_names.data(), static_cast<std::size_t>(traits.layout.components)};
+  return {spring_names.data(), static_cast<std::size_t>(traits_of(type).layout.components)};
 }
 
 std::vector<double> end_force_rows(ElementType type, std::span<const double> coordinates,

@@ -94,8 +94,7 @@ void look_at_region(const std::string& structure, const Region& region, Doubts& 
   if (region.section) {
     doubts.look_at(*region.section);
   }
-  const ElementTraits& element = traits_of(region.element);
-  if (takes(element, "thickness")) {
+  if (is_shell(region.element)) {
     doubts.look_at(owner, thickness, region.thickness);
   }
   if (region.yielding_shell.any() && region.drilling_factor > most_beside_yielding) {
@@ -104,7 +103,7 @@ void look_at_region(const std::string& structure, const Region& region, Doubts& 
         ": it yields or cracks, and the stiffness against turning about its normal does not: "
         "it carries shear along edges that do not turn; give drilling_factor 0.01");
   }
-  if (takes(element, "area")) {
+  if (is_bar(region.element)) {
     doubts.look_at(owner, bar_area, region.area);
   }
   if (region.added_mass > 0) {

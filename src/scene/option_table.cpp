@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <stdexcept>
 
 #include "elements/element_traits.h"
@@ -30,6 +31,27 @@ constexpr Range below_1{0, 1, false, true};
 constexpr Range up_to_1{0, 1, false, false};
 constexpr Range poisson_ratio{-1, 0.5, true, true};
 constexpr Range soil_poisson{0, 0.5, false, true};
+
+constexpr Families families_of(std::initializer_list<ElementFamily> families) {
+  Families all;
+  for (const ElementFamily family : families) all.bits |= 1U << static_cast<unsigned>(family);
+  return all;
+}
+using Family = ElementFamily;
+constexpr Families for_shells = families_of({Family::shell});
+constexpr Families for_beams = families_of({Family::beam});
+constexpr Families for_bars = families_of({Family::bar});
+constexpr Families for_points = families_of({Family::point_mass});
+constexpr Families for_grounded = families_of({Family::grounded_spring});
+constexpr Families for_springs = families_of({Family::grounded_spring, Family::spring});
+constexpr Families for_beams_and_bars = families_of({Family::beam, Family::bar});
+constexpr Families for_beams_and_shells = families_of({Family::beam, Family::shell});
+constexpr Families for_bars_and_springs =
+    families_of({Family::bar, Family::grounded_spring, Family::spring});
+constexpr Families for_extents =
+    families_of({Family::solid, Family::shell, Family::beam, Family::bar});
+constexpr Families for_yielding = families_of(
+    {Family::shell, Family::beam, Family::bar, Family::grounded_spring, Family::spring});
 
 constexpr Preset required{false, true, "required"};
 constexpr Preset value(std::string_view text) {
@@ -150,54 +172,54 @@ constexpr std::array option_rows{
     OptionRow{Block::structure, "<structure>_soil_frequency_dependence", Kind::boolean, "flag", value("true"), any, "", "soil: internal masses; without them static springs, and dashpots of a0 = 1"},
 
     OptionRow{Block::region, "<structure>_<group>_element", Kind::choice, "word", required, any, element_words, "element of the group (hex8: with incompatible modes)"},
-    OptionRow{Block::region, "<structure>_<group>_material", Kind::text, "name", absent("required but for points and springs"), any, "the name of a material", "its material"},
-    OptionRow{Block::region, "<structure>_<group>_section", Kind::text, "name", absent("required for beam"), any, "the name of a section", "its cross-section (beam only)"},
-    OptionRow{Block::region, "<structure>_<group>_divide", Kind::text, "-", value("none"), any, "none, auto, or a count from 2 to 1000", "lines of the mesh are cut into so many beams of one length; auto: into as many as bending up to the highest of spectra_frequencies needs, 4 in a half wave"},
-    OptionRow{Block::region, "<structure>_<group>_area", Kind::real, "m2", absent("required for bar"), positive, "", "its cross-section area (bar only)"},
-    OptionRow{Block::region, "<structure>_<group>_tension_only", Kind::boolean, "flag", value("false"), any, "", "bar that buckles: it resists stretching only"},
-    OptionRow{Block::region, "<structure>_<group>_thickness", Kind::real, "m", absent("required for shell"), positive, "", "its thickness (shell only)"},
-    OptionRow{Block::region, "<structure>_<group>_rotary_inertia_factor", Kind::real, "-", value("0"), not_negative, "", "shell: rotary inertia of a node at least its mass x this x element area; 0.125 frees the step from thin shells"},
-    OptionRow{Block::region, "<structure>_<group>_drilling_factor", Kind::real, "-", value("1"), positive, "", "shell: stiffness against turning about the normal, over G t; 0.1 is closer and has a longer step"},
-    OptionRow{Block::region, "<structure>_<group>_mass_per_area", Kind::real, "kg/m2", value("0"), not_negative, "", "load on a shell with mass and no stiffness"},
-    OptionRow{Block::region, "<structure>_<group>_mass_per_length", Kind::real, "kg/m", value("0"), not_negative, "", "load on a beam or bar with mass and no stiffness"},
-    OptionRow{Block::region, "<structure>_<group>_mass", Kind::real, "kg", absent("required for point_mass"), positive, "", "mass added at each point of the group"},
-    OptionRow{Block::region, "<structure>_<group>_rotary_inertia", Kind::reals, "kg m2", value("0,0,0"), not_negative, "three numbers about x, y, z", "point_mass: its rotary inertia"},
-    OptionRow{Block::region, "<structure>_<group>_stiffness", Kind::reals, "N/m, N m", absent("required for springs"), not_negative, "six numbers along and about x, y, z (three: no rotations)", "of grounded_spring and spring"},
-    OptionRow{Block::region, "<structure>_<group>_dashpot", Kind::reals, "N s/m, N m s", value("0,0,0,0,0,0"), not_negative, "six numbers along and about x, y, z", "dashpot beside the spring"},
-    OptionRow{Block::region, "<structure>_<group>_stiffness_per_area", Kind::reals, "N/m3", value("0,0,0"), not_negative, "three numbers along x, y, z", "grounded_spring on surfaces: its stiffness per area"},
-    OptionRow{Block::region, "<structure>_<group>_dashpot_per_area", Kind::reals, "N s/m3", value("0,0,0"), not_negative, "three numbers along x, y, z", "grounded_spring on surfaces: its dashpots per area"},
-    OptionRow{Block::region, "<structure>_<group>_stiffness_per_length", Kind::reals, "N/m2", value("0,0,0"), not_negative, "three numbers along x, y, z", "grounded_spring on lines: its stiffness per length"},
-    OptionRow{Block::region, "<structure>_<group>_dashpot_per_length", Kind::reals, "N s/m2", value("0,0,0"), not_negative, "three numbers along x, y, z", "grounded_spring on lines: its dashpots per length"},
-    OptionRow{Block::region, "<structure>_<group>_compression_only", Kind::boolean, "flag", value("false"), any, "", "grounded_spring from which a mat may lift off: along z, spring and dashpot resist pressing down only"},
-    OptionRow{Block::region, "<structure>_<group>_dashpot_exponent", Kind::real, "-", value("1"), dashpot_power, "", "power of the rate to which its dashpots go; their unit is N (s/m)^it"},
-    OptionRow{Block::region, "<structure>_<group>_dashpot_stiffness", Kind::reals, "N/m, N m", value("0,0,0,0,0,0"), not_negative, "six numbers along and about x, y, z", "spring in series with each dashpot; 0: none, it is rigid"},
-    OptionRow{Block::region, "<structure>_<group>_series_stiffness", Kind::reals, "N/m, N m", value("0,0,0,0,0,0"), not_negative, "six numbers along and about x, y, z", "spring in series with its spring and dashpot together; 0: none, it is rigid"},
-    OptionRow{Block::region, "<structure>_<group>_yield_force", Kind::reals, "N, N m", value("0"), not_negative, "one number (bar), or three or six along and about x, y, z", "force at which it yields; 0: never"},
-    OptionRow{Block::region, "<structure>_<group>_hardening", Kind::real, "-", value("0"), below_1, "", "stiffness after yield over that before"},
-    OptionRow{Block::region, "<structure>_<group>_rule", Kind::choice, "word", value("kinematic"), any, rule_words, "way back from the skeleton and towards it again of a spring or bar that yields, see docs/nonlinear.md"},
-    OptionRow{Block::region, "<structure>_<group>_skeleton", Kind::reals, "m, N", absent("left out: yield_force and hardening"), not_negative, "pairs e1,f1,e2,f2,...", "corners of force over elongation (of a bar: over its strain), the first one on the line of the stiffness, the last one followed by hardening"},
-    OptionRow{Block::region, "<structure>_<group>_skeleton_back", Kind::reals, "m, N", absent("left out: as skeleton"), not_negative, "pairs e1,f1,e2,f2,..., or 0", "corners in the other direction; 0: it carries nothing there and leaves a gap"},
-    OptionRow{Block::region, "<structure>_<group>_shear_skeleton_y", Kind::reals, "-, N", absent("left out: elastic"), not_negative, "pairs g1,Q1,g2,Q2,...", "beam that yields in shear: corners of the force along local y over the shear strain, the first one on the line of G A"},
-    OptionRow{Block::region, "<structure>_<group>_shear_skeleton_z", Kind::reals, "-, N", absent("left out: elastic"), not_negative, "pairs g1,Q1,g2,Q2,...", "likewise along local z"},
-    OptionRow{Block::region, "<structure>_<group>_shear_skeleton", Kind::reals, "-, Pa", absent("left out: elastic"), not_negative, "pairs g1,t1,g2,t2,...", "shell that yields in shear in its plane: corners of the shear stress over the shear strain, the first one on the line of G"},
-    OptionRow{Block::region, "<structure>_<group>_shear_rule", Kind::choice, "word", value("straight"), any, rule_words, "its rule, see rule"},
-    OptionRow{Block::region, "<structure>_<group>_bending_skeleton_y", Kind::reals, "1/m, N m", absent("left out: elastic"), not_negative, "pairs k1,M1,k2,M2,...", "beam that yields in bending: corners of the moment about local y over the curvature, the first one on the line of E I"},
-    OptionRow{Block::region, "<structure>_<group>_bending_skeleton_z", Kind::reals, "1/m, N m", absent("left out: elastic"), not_negative, "pairs k1,M1,k2,M2,...", "likewise about local z"},
-    OptionRow{Block::region, "<structure>_<group>_bending_rule", Kind::choice, "word", value("bending"), any, rule_words, "its rule, see rule"},
-    OptionRow{Block::region, "<structure>_<group>_bending_axial", Kind::reals, "N, -", absent("left out: none"), positive, "N_y or N_y,a", "an axial force N leaves 1 - (|N| / N_y)^a of the strength in bending, a 1 unless given; with bending_rule kinematic"},
-    OptionRow{Block::region, "<structure>_<group>_cracking_force", Kind::real, "N/m", absent("left out: elastic"), positive, "", "shell that cracks by damage: force per length in tension along one axis at which it begins"},
-    OptionRow{Block::region, "<structure>_<group>_cracking_moment", Kind::real, "N", absent("left out: cracking_force thickness / 6"), positive, "", "its moment per length about one axis at which damage begins"},
-    OptionRow{Block::region, "<structure>_<group>_cracked_tension", Kind::real, "-", absent("required with cracking_force"), below_1, "", "slope of its force while it cracks in tension, over that of the sound shell"},
-    OptionRow{Block::region, "<structure>_<group>_cracked_compression", Kind::real, "-", value("1"), up_to_1, "", "likewise in compression; 1: no damage by it"},
-    OptionRow{Block::region, "<structure>_<group>_cracked_bending", Kind::real, "-", absent("left out: cracked_tension"), below_1, "", "likewise in bending"},
-    OptionRow{Block::region, "<structure>_<group>_unloading_exponent", Kind::real, "-", absent("left out: 0, of bending 0.5"), up_to_1, "", "peak, pinching, bending: stiffness of unloading over the first one is this power of the secant over it"},
-    OptionRow{Block::region, "<structure>_<group>_unloading_least", Kind::real, "-", value("0"), up_to_1, "", "peak, pinching, bending, origin: least stiffness of unloading over the first one"},
-    OptionRow{Block::region, "<structure>_<group>_pinch", Kind::reals, "-", absent("required with pinching"), up_to_1, "two numbers force,way", "pinching: corner on the way to the farthest point, as parts of its force and of the way there"},
-    OptionRow{Block::region, "<structure>_<group>_deterioration", Kind::reals, "J, -", absent("left out: none"), positive, "energy, or energy,exponent", "peak, pinching: energy that it can lose before its strength is gone (of a bar per length), and exponent of its going"},
-    OptionRow{Block::region, "<structure>_<group>_yield_circle", Kind::choice, "word", value("none"), any, "none|x+y|y+z|x+z", "translations that yield together: a bearing's shear"},
-    OptionRow{Block::region, "<structure>_<group>_sliding_friction", Kind::real, "-", value("0"), Range{0, 10, false, false}, "", "sliding bearing: the circle yields at this times the compression across it"},
-    OptionRow{Block::region, "<structure>_<group>_pendulum_radius", Kind::real, "m", value("0"), not_negative, "", "friction pendulum: radius of its dish, whose slope follows the compression; hardening bounds it; 0: hardening is the slope"},
-    OptionRow{Block::region, "<structure>_<group>_slack", Kind::real, "m", value("0"), not_negative, "", "tension_only bar: stretched so far before it pulls (a hook, a cable that sags)"},
+    OptionRow{Block::region, "<structure>_<group>_material", Kind::text, "name", absent("required but for points and springs"), any, "the name of a material", "its material", for_extents},
+    OptionRow{Block::region, "<structure>_<group>_section", Kind::text, "name", absent("required for beam"), any, "the name of a section", "its cross-section (beam only)", for_beams},
+    OptionRow{Block::region, "<structure>_<group>_divide", Kind::text, "-", value("none"), any, "none, auto, or a count from 2 to 1000", "lines of the mesh are cut into so many beams of one length; auto: into as many as bending up to the highest of spectra_frequencies needs, 4 in a half wave", for_beams},
+    OptionRow{Block::region, "<structure>_<group>_area", Kind::real, "m2", absent("required for bar"), positive, "", "its cross-section area (bar only)", for_bars},
+    OptionRow{Block::region, "<structure>_<group>_tension_only", Kind::boolean, "flag", value("false"), any, "", "bar that buckles: it resists stretching only", for_bars},
+    OptionRow{Block::region, "<structure>_<group>_thickness", Kind::real, "m", absent("required for shell"), positive, "", "its thickness (shell only)", for_shells},
+    OptionRow{Block::region, "<structure>_<group>_rotary_inertia_factor", Kind::real, "-", value("0"), not_negative, "", "shell: rotary inertia of a node at least its mass x this x element area; 0.125 frees the step from thin shells", for_shells},
+    OptionRow{Block::region, "<structure>_<group>_drilling_factor", Kind::real, "-", value("1"), positive, "", "shell: stiffness against turning about the normal, over G t; 0.1 is closer and has a longer step", for_shells},
+    OptionRow{Block::region, "<structure>_<group>_mass_per_area", Kind::real, "kg/m2", value("0"), not_negative, "", "load on a shell with mass and no stiffness", for_shells},
+    OptionRow{Block::region, "<structure>_<group>_mass_per_length", Kind::real, "kg/m", value("0"), not_negative, "", "load on a beam or bar with mass and no stiffness", for_beams_and_bars},
+    OptionRow{Block::region, "<structure>_<group>_mass", Kind::real, "kg", absent("required for point_mass"), positive, "", "mass added at each point of the group", for_points},
+    OptionRow{Block::region, "<structure>_<group>_rotary_inertia", Kind::reals, "kg m2", value("0,0,0"), not_negative, "three numbers about x, y, z", "point_mass: its rotary inertia", for_points},
+    OptionRow{Block::region, "<structure>_<group>_stiffness", Kind::reals, "N/m, N m", absent("required for springs"), not_negative, "six numbers along and about x, y, z (three: no rotations)", "of grounded_spring and spring", for_springs},
+    OptionRow{Block::region, "<structure>_<group>_dashpot", Kind::reals, "N s/m, N m s", value("0,0,0,0,0,0"), not_negative, "six numbers along and about x, y, z", "dashpot beside the spring", for_springs},
+    OptionRow{Block::region, "<structure>_<group>_stiffness_per_area", Kind::reals, "N/m3", value("0,0,0"), not_negative, "three numbers along x, y, z", "grounded_spring on surfaces: its stiffness per area", for_grounded},
+    OptionRow{Block::region, "<structure>_<group>_dashpot_per_area", Kind::reals, "N s/m3", value("0,0,0"), not_negative, "three numbers along x, y, z", "grounded_spring on surfaces: its dashpots per area", for_grounded},
+    OptionRow{Block::region, "<structure>_<group>_stiffness_per_length", Kind::reals, "N/m2", value("0,0,0"), not_negative, "three numbers along x, y, z", "grounded_spring on lines: its stiffness per length", for_grounded},
+    OptionRow{Block::region, "<structure>_<group>_dashpot_per_length", Kind::reals, "N s/m2", value("0,0,0"), not_negative, "three numbers along x, y, z", "grounded_spring on lines: its dashpots per length", for_grounded},
+    OptionRow{Block::region, "<structure>_<group>_compression_only", Kind::boolean, "flag", value("false"), any, "", "grounded_spring from which a mat may lift off: along z, spring and dashpot resist pressing down only", for_grounded},
+    OptionRow{Block::region, "<structure>_<group>_dashpot_exponent", Kind::real, "-", value("1"), dashpot_power, "", "power of the rate to which its dashpots go; their unit is N (s/m)^it", for_springs},
+    OptionRow{Block::region, "<structure>_<group>_dashpot_stiffness", Kind::reals, "N/m, N m", value("0,0,0,0,0,0"), not_negative, "six numbers along and about x, y, z", "spring in series with each dashpot; 0: none, it is rigid", for_springs},
+    OptionRow{Block::region, "<structure>_<group>_series_stiffness", Kind::reals, "N/m, N m", value("0,0,0,0,0,0"), not_negative, "six numbers along and about x, y, z", "spring in series with its spring and dashpot together; 0: none, it is rigid", for_springs},
+    OptionRow{Block::region, "<structure>_<group>_yield_force", Kind::reals, "N, N m", value("0"), not_negative, "one number (bar), or three or six along and about x, y, z", "force at which it yields; 0: never", for_bars_and_springs},
+    OptionRow{Block::region, "<structure>_<group>_hardening", Kind::real, "-", value("0"), below_1, "", "stiffness after yield over that before", for_bars_and_springs},
+    OptionRow{Block::region, "<structure>_<group>_rule", Kind::choice, "word", value("kinematic"), any, rule_words, "way back from the skeleton and towards it again of a spring or bar that yields, see docs/nonlinear.md", for_bars_and_springs},
+    OptionRow{Block::region, "<structure>_<group>_skeleton", Kind::reals, "m, N", absent("left out: yield_force and hardening"), not_negative, "pairs e1,f1,e2,f2,...", "corners of force over elongation (of a bar: over its strain), the first one on the line of the stiffness, the last one followed by hardening", for_bars_and_springs},
+    OptionRow{Block::region, "<structure>_<group>_skeleton_back", Kind::reals, "m, N", absent("left out: as skeleton"), not_negative, "pairs e1,f1,e2,f2,..., or 0", "corners in the other direction; 0: it carries nothing there and leaves a gap", for_bars_and_springs},
+    OptionRow{Block::region, "<structure>_<group>_shear_skeleton_y", Kind::reals, "-, N", absent("left out: elastic"), not_negative, "pairs g1,Q1,g2,Q2,...", "beam that yields in shear: corners of the force along local y over the shear strain, the first one on the line of G A", for_beams},
+    OptionRow{Block::region, "<structure>_<group>_shear_skeleton_z", Kind::reals, "-, N", absent("left out: elastic"), not_negative, "pairs g1,Q1,g2,Q2,...", "likewise along local z", for_beams},
+    OptionRow{Block::region, "<structure>_<group>_shear_skeleton", Kind::reals, "-, Pa", absent("left out: elastic"), not_negative, "pairs g1,t1,g2,t2,...", "shell that yields in shear in its plane: corners of the shear stress over the shear strain, the first one on the line of G", for_shells},
+    OptionRow{Block::region, "<structure>_<group>_shear_rule", Kind::choice, "word", value("straight"), any, rule_words, "its rule, see rule", for_beams_and_shells},
+    OptionRow{Block::region, "<structure>_<group>_bending_skeleton_y", Kind::reals, "1/m, N m", absent("left out: elastic"), not_negative, "pairs k1,M1,k2,M2,...", "beam that yields in bending: corners of the moment about local y over the curvature, the first one on the line of E I", for_beams},
+    OptionRow{Block::region, "<structure>_<group>_bending_skeleton_z", Kind::reals, "1/m, N m", absent("left out: elastic"), not_negative, "pairs k1,M1,k2,M2,...", "likewise about local z", for_beams},
+    OptionRow{Block::region, "<structure>_<group>_bending_rule", Kind::choice, "word", value("bending"), any, rule_words, "its rule, see rule", for_beams},
+    OptionRow{Block::region, "<structure>_<group>_bending_axial", Kind::reals, "N, -", absent("left out: none"), positive, "N_y or N_y,a", "an axial force N leaves 1 - (|N| / N_y)^a of the strength in bending, a 1 unless given; with bending_rule kinematic", for_beams},
+    OptionRow{Block::region, "<structure>_<group>_cracking_force", Kind::real, "N/m", absent("left out: elastic"), positive, "", "shell that cracks by damage: force per length in tension along one axis at which it begins", for_shells},
+    OptionRow{Block::region, "<structure>_<group>_cracking_moment", Kind::real, "N", absent("left out: cracking_force thickness / 6"), positive, "", "its moment per length about one axis at which damage begins", for_shells},
+    OptionRow{Block::region, "<structure>_<group>_cracked_tension", Kind::real, "-", absent("required with cracking_force"), below_1, "", "slope of its force while it cracks in tension, over that of the sound shell", for_shells},
+    OptionRow{Block::region, "<structure>_<group>_cracked_compression", Kind::real, "-", value("1"), up_to_1, "", "likewise in compression; 1: no damage by it", for_shells},
+    OptionRow{Block::region, "<structure>_<group>_cracked_bending", Kind::real, "-", absent("left out: cracked_tension"), below_1, "", "likewise in bending", for_shells},
+    OptionRow{Block::region, "<structure>_<group>_unloading_exponent", Kind::real, "-", absent("left out: 0, of bending 0.5"), up_to_1, "", "peak, pinching, bending: stiffness of unloading over the first one is this power of the secant over it", for_yielding},
+    OptionRow{Block::region, "<structure>_<group>_unloading_least", Kind::real, "-", value("0"), up_to_1, "", "peak, pinching, bending, origin: least stiffness of unloading over the first one", for_yielding},
+    OptionRow{Block::region, "<structure>_<group>_pinch", Kind::reals, "-", absent("required with pinching"), up_to_1, "two numbers force,way", "pinching: corner on the way to the farthest point, as parts of its force and of the way there", for_yielding},
+    OptionRow{Block::region, "<structure>_<group>_deterioration", Kind::reals, "J, -", absent("left out: none"), positive, "energy, or energy,exponent", "peak, pinching: energy that it can lose before its strength is gone (of a bar per length), and exponent of its going", for_yielding},
+    OptionRow{Block::region, "<structure>_<group>_yield_circle", Kind::choice, "word", value("none"), any, "none|x+y|y+z|x+z", "translations that yield together: a bearing's shear", for_springs},
+    OptionRow{Block::region, "<structure>_<group>_sliding_friction", Kind::real, "-", value("0"), Range{0, 10, false, false}, "", "sliding bearing: the circle yields at this times the compression across it", for_springs},
+    OptionRow{Block::region, "<structure>_<group>_pendulum_radius", Kind::real, "m", value("0"), not_negative, "", "friction pendulum: radius of its dish, whose slope follows the compression; hardening bounds it; 0: hardening is the slope", for_springs},
+    OptionRow{Block::region, "<structure>_<group>_slack", Kind::real, "m", value("0"), not_negative, "", "tension_only bar: stretched so far before it pulls (a hook, a cable that sags)", for_bars},
     OptionRow{Block::region, "<structure>_<group>_damping_alpha", Kind::real, "1/s", absent("left out: that of the structure"), not_negative, "", "Rayleigh damping of its elements, mass term"},
     OptionRow{Block::region, "<structure>_<group>_damping_beta", Kind::real, "s", absent("left out: that of the structure"), not_negative, "", "Rayleigh damping of its elements, stiffness term"},
     OptionRow{Block::region, "<structure>_<group>_damping_ratio", Kind::real, "-", absent("optional"), damping_ratio, "", "instead of alpha and beta: damping ratio at two frequencies"},

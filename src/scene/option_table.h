@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "elements/element_traits.h"
+
 /// The one place where the options of a scene are declared: reader, help, resolved options and the
 /// check for unknown names all work from this table.
 namespace pounding {
@@ -55,6 +57,15 @@ struct Preset {
   std::string_view text;
 };
 
+/// Set of families of elements, a bit each.
+struct Families {
+  unsigned bits = 0;
+
+  constexpr bool contains(ElementFamily family) const {
+    return (bits >> static_cast<unsigned>(family) & 1U) != 0;
+  }
+};
+
 struct OptionRow {
   OptionBlock block;
   std::string_view pattern;  ///< with placeholders: <structure>_<group>_element
@@ -64,6 +75,11 @@ struct OptionRow {
   Range range;            ///< of the number, or of each number of a list
   std::string_view form;  ///< choice: the words, separated by '|'; reals, text: the shape expected
   std::string_view help;
+  Families families{};  ///< region: elements whose option it is, refused of others; none: all
+
+  bool is_for(ElementFamily family) const {
+    return families.bits == 0 || families.contains(family);
+  }
 };
 
 /// Every option, in the order of the help.

@@ -199,7 +199,7 @@ void read_spring(OptionReader& options, const Names& names, Region& region) {
     region.dashpot = read_six(options, "<structure>_<group>_dashpot", names);
     read_nonlinear_spring(options, names, region);
   }
-  if (takes(traits_of(region.element), "compression_only")) {
+  if (is_grounded(region.element)) {
     region.compression_only = options.boolean("<structure>_<group>_compression_only", names);
   }
   if (region.compression_only && !(region.stiffness[2] > 0)) {

@@ -30,9 +30,10 @@ using Names = OptionReader::Names;
 
 /// Options that belong to some elements only: refused beside the others.
 void forbid_others(const OptionReader& options, const std::string& element, const Names& names) {
-  for (const std::string_view property : properties_of_elements()) {
-    if (!takes(traits_of(element_of_word(element)), property)) {
-      options.forbid("<structure>_<group>_" + std::string(property), names,
+  const ElementFamily family = traits_of(element_of_word(element)).family;
+  for (const OptionRow& row : option_table()) {
+    if (row.block == OptionBlock::region && !row.is_for(family)) {
+      options.forbid(row.pattern, names,
                      "not for the element " + element + " of this group; leave it out");
     }
   }
@@ -176,25 +177,24 @@ void read_point_mass(OptionReader& options, const Names& names, Region& region) 
 
 /// Reads the properties that elements with a shape need.
 void read_solid(OptionReader& options, const Names& names, Region& region) {
-  const ElementTraits& element = traits_of(region.element);
   region.material = read_material(options, names);
   require_density(options, region);
-  if (takes(element, "section")) {
+  if (is_beam(region.element)) {
     region.section = read_section(options, names);
     region.parts = read_parts(options, names);
     read_yielding_section(options, names, region);
   }
-  if (takes(element, "area")) {
+  if (is_bar(region.element)) {
     region.area = options.real("<structure>_<group>_area", names);
     if (options.boolean("<structure>_<group>_tension_only", names)) {
       region.element = ElementType::tension_bar;
     }
     read_nonlinear_bar(options, names, region);
   }
-  if (takes(element, "mass_per_length")) {
+  if (is_beam(region.element) || is_bar(region.element)) {
     region.added_mass = options.real("<structure>_<group>_mass_per_length", names);
   }
-  if (takes(element, "thickness")) {
+  if (is_shell(region.element)) {
     region.thickness = options.real("<structure>_<group>_thickness", names);
     region.added_mass = options.real("<structure>_<group>_mass_per_area", names);
     region.rotary_inertia_factor = options.real("<structure>_<group>_rotary_inertia_factor", names);
