@@ -1,6 +1,7 @@
 #include "driver/observers.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "driver/contact_history.h"
@@ -17,6 +18,9 @@
 
 namespace pounding {
 namespace {
+
+/// A new run removes those of an earlier one.
+constexpr std::array tables{"impacts.csv", "energy.csv", "forces.csv", "yielding.csv"};
 
 /// A file beside the checkpoint that a run continues; empty for a new run.
 std::string continued_file(const Scene& scene, const char* name) {
@@ -91,6 +95,10 @@ RunObservers make_observers(const ObservedRun& run, Profile& profile) {
   if (std::ranges::count(yields, 0) < std::ssize(yields)) all.add(make_yield_table(run));
   all.add(make_progress_watch(run, impacts.catalogue()));
   return {std::move(all), impacts, history};
+}
+
+std::span<const char* const> tables_of_observers() {
+  return tables;
 }
 
 }  // namespace pounding

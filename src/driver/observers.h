@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "driver/impact_watch.h"
 #include "driver/observed_run.h"
 #include "output/recorder.h"
@@ -14,7 +16,10 @@ struct RunObservers {
 };
 
 /// The outputs that the scene asks for, in the order in which they see a step: a new one is a line
-/// here. Throws UserError. Collective.
+/// there. Throws UserError. Collective.
 RunObservers make_observers(const ObservedRun& run, Profile& profile);
+
+/// Names of the tables that they write, of whatever scene.
+std::span<const char* const> tables_of_observers();
 
 }  // namespace pounding

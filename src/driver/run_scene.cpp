@@ -21,6 +21,7 @@
 #include "driver/mesh_pieces.h"
 #include "driver/mode_shapes.h"
 #include "driver/model_file.h"
+#include "driver/observers.h"
 #include "driver/provenance.h"
 #include "driver/rank_prediction.h"
 #include "driver/report.h"
@@ -45,7 +46,7 @@ void create_output(const Scene& scene) {
 /// Rank 0.
 void begin_results(const Scene& scene, const std::string& resolved, const Provenance& provenance,
                    const ResultFolder& folder) {
-  const std::vector<std::string> removed = folder.clear(scene.restart);
+  const std::vector<std::string> removed = folder.clear(scene.restart, tables_of_observers());
   if (!removed.empty()) print_removed(scene, removed);
   write_whole_file(scene.output + "/resolved.yaml", resolved + provenance_comment(provenance));
 }

@@ -18,12 +18,12 @@ namespace fs = std::filesystem;
 
 constexpr const char* lock_name = "running.lock";
 
-/// Files that a run writes, and, while it writes, under which names.
+/// Files that a run writes beside the tables of its outputs, and, while it writes, under which
+/// names.
 constexpr std::array written{
-    "resolved.yaml",   "resolved.yaml.new", "summary.json",     "summary.json.new", "spectra.csv",
-    "impacts.csv",     "energy.csv",        "forces.csv",       "laws.csv",         "yielding.csv",
-    "equipment.csv",   "history.h5.new",    "model.xdmf.new",   "modes.xdmf.new",   "fields.h5.new",
-    "fields.xdmf.new", "fields.vtkhdf.new", "checkpoint.h5.new"};
+    "resolved.yaml", "resolved.yaml.new", "summary.json",      "summary.json.new", "spectra.csv",
+    "laws.csv",      "equipment.csv",     "history.h5.new",    "model.xdmf.new",   "modes.xdmf.new",
+    "fields.h5.new", "fields.xdmf.new",   "fields.vtkhdf.new", "checkpoint.h5.new"};
 /// Files that a run in the same folder goes on from.
 constexpr std::array continued{"history.h5", "checkpoint.h5", "modes.h5",
                                "modes.xdmf", "model.h5",      "model.xdmf",
@@ -105,7 +105,8 @@ ResultFolder::~ResultFolder() {
   }
 }
 
-std::vector<std::string> ResultFolder::clear(const std::string& restart) const {
+std::vector<std::string> ResultFolder::clear(const std::string& restart,
+                                             std::span<const char* const> tables) const {
   std::error_code ignored;
   const bool goes_on = !restart.empty() && fs::equivalent(fs::absolute(restart).parent_path(),
                                                           fs::absolute(path_), ignored);
@@ -118,6 +119,7 @@ std::vector<std::string> ResultFolder::clear(const std::string& restart) const {
     }
   };
   for (const char* name : written) remove(name);
+  for (const char* name : tables) remove(name);
   for (const char* name : continued) {
     if (!goes_on) remove(name);
   }

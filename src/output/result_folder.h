@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,10 +23,11 @@ class ResultFolder {
   /// Takes running.lock away, and the folders that were made for it and are still empty.
   ~ResultFolder();
 
-  /// Removes the files of an earlier run under the names that this program gives to results, and
-  /// nothing else; returns the names. If the run continues from the checkpoint `restart` in the
-  /// folder, that, its history and the shapes of modes stay.
-  std::vector<std::string> clear(const std::string& restart) const;
+  /// Removes the files of an earlier run under the names that this program gives to results, among
+  /// them `tables`, and nothing else; returns the names. If the run continues from the checkpoint
+  /// `restart` in the folder, that, its history and the shapes of modes stay.
+  std::vector<std::string> clear(const std::string& restart,
+                                 std::span<const char* const> tables) const;
 
  private:
   void lock();

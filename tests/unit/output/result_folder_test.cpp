@@ -22,6 +22,8 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::UnorderedElementsAre;
 
+constexpr std::array tables{"impacts.csv"};
+
 class Folder : public testing::Test {
  protected:
   Folder() : base_(fs::temp_directory_path() / ("results-" + std::to_string(getpid()))) {
@@ -93,13 +95,13 @@ TEST_F(Folder, CannotBeAFile) {
 
 TEST_F(Folder, LosesWhatAnEarlierRunLeftAndNothingElse) {
   const ResultFolder folder(path());
-  EXPECT_THAT(folder.clear(""), IsEmpty());
+  EXPECT_THAT(folder.clear("", tables), IsEmpty());
   fs::create_directories(path() + "/spectra.csv");  // no file of a run
   for (const char* name : {"summary.json", "history.h5", "checkpoint.h5", "checkpoint.h5.new",
                            "impacts.csv", "notes.txt", "report.html", "basis.h5"}) {
     touch(name);
   }
-  EXPECT_THAT(folder.clear("elsewhere/checkpoint.h5"),
+  EXPECT_THAT(folder.clear("elsewhere/checkpoint.h5", tables),
               UnorderedElementsAre("summary.json", "history.h5", "checkpoint.h5",
                                    "checkpoint.h5.new", "impacts.csv"));
   EXPECT_THAT(names(), UnorderedElementsAre("running.lock", "spectra.csv", "notes.txt",
@@ -112,8 +114,8 @@ TEST_F(Folder, KeepsWhatItsRunGoesOnFrom) {
        {"summary.json", "history.h5", "checkpoint.h5", "modes.h5", "fields.h5"}) {
     touch(name);
   }
-  EXPECT_THAT(folder.clear(path() + "/checkpoint.h5"), ElementsAre("summary.json"));
-  EXPECT_THAT(folder.clear(path() + "/../run/./checkpoint.h5"), IsEmpty());
+  EXPECT_THAT(folder.clear(path() + "/checkpoint.h5", tables), ElementsAre("summary.json"));
+  EXPECT_THAT(folder.clear(path() + "/../run/./checkpoint.h5", tables), IsEmpty());
   EXPECT_THAT(names(), UnorderedElementsAre("running.lock", "history.h5", "checkpoint.h5",
                                             "modes.h5", "fields.h5"));
 }
