@@ -12,6 +12,7 @@
 #include "elements/measured_costs.h"
 #include "mesh/element_graph.h"
 #include "mesh/element_groups.h"
+#include "mesh/node_owners.h"
 
 namespace pounding {
 namespace {
@@ -109,21 +110,6 @@ void unite(const NodeCluster& cluster, std::vector<int>& node_owner) {
   for (const GlobalIndex node : cluster.nodes) node_owner[node] = owner->first;
 }
 
-int most_frequent_owner(std::span<const idx_t> elements, const std::vector<idx_t>& owner) {
-  int best = -1;
-  int best_count = 0;
-  for (const idx_t candidate : elements) {
-    const idx_t part = owner[candidate];
-    const int count = static_cast<int>(
-        std::count_if(elements.begin(), elements.end(), [&](idx_t e) { return owner[e] == part; }));
-    if (count > best_count || (count == best_count && part < best)) {
-      best = part;
-      best_count = count;
-    }
-  }
-  return best;
-}
-
 }  // namespace
 
 Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const NodeLink> links,
@@ -149,6 +135,7 @@ Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const N
     }
   }
   partition.imbalance = imbalance_of(list, owner, parts);
+  const std::vector<int> of_nodes = node_owners(at, owner, list.cost, parts);
   for (std::size_t s = 0; s < meshes.size(); ++s) {
     if (const int part = whole_part(whole, s); part >= 0) {
       partition.element_owner.emplace_back(element_count(meshes[s]), part);
@@ -159,13 +146,9 @@ Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const N
     for (std::size_t e = list.element_offset[s]; e < list.element_offset[s + 1]; ++e) {
       owners.push_back(owner[list.entry[e]]);
     }
-    std::vector<int> nodes(meshes[s].node_count());
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-      const std::size_t g = static_cast<std::size_t>(list.node_offset[s]) + n;
-      nodes[n] =
-          most_frequent_owner({&at.elements[at.first[g]], at.first[g + 1] - at.first[g]}, owner);
-    }
-    partition.node_owner.push_back(std::move(nodes));
+    const auto first = of_nodes.begin() + list.node_offset[s];
+    partition.node_owner.emplace_back(first,
+                                      first + static_cast<std::ptrdiff_t>(meshes[s].node_count()));
   }
   for (const NodeCluster& cluster : clusters) {
     unite(cluster, partition.node_owner[cluster.structure]);
