@@ -55,8 +55,4 @@ set(CPACK_DEBIAN_PACKAGE_RECOMMENDS libopenblas0-serial)
 cmake_host_system_information(RESULT system QUERY DISTRIB_ID DISTRIB_VERSION_ID)
 list(JOIN system "" CPACK_DEBIAN_PACKAGE_RELEASE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-if(POUNDING_MACHINE STREQUAL native AND NOT POUNDING_PORTABLE)  # not to be taken for one that runs on other machines
-  set(CPACK_DEBIAN_FILE_NAME
-    pounding_${PROJECT_VERSION}_this-machine-only_${CMAKE_SYSTEM_PROCESSOR}.deb)
-endif()
 include(CPack)

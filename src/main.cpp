@@ -32,6 +32,7 @@ void run_words(MPI_Comm comm, std::span<const std::string> words,
   std::vector<std::string> files;
   const pounding::OptionsDatabase database = pounding::read_options_database(comm, line, &files);
   pounding::ReadScene read = pounding::read_scene(database);
+  pounding::use_vector_unit(comm, read.scene.vector_unit);
   for (const std::string& ignored : pounding::ignored_variables()) {
     read.scene.warnings.push_back(ignored);
   }
@@ -69,7 +70,6 @@ int run_job(MPI_Comm comm, std::span<const std::string> words) {
 }  // namespace
 
 int main(int count, char** words) {
-  if (!pounding::fits_this_machine()) return 1;
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a log grows line by line
   pounding::yield_where_crowded();
   pounding::prepare_hdf5();  // before MPI: else HDF5 closes its files once more at the end of it

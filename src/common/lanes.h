@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -10,12 +11,16 @@
 /// Parts of a kernel that must not become calls.
 #define POUNDING_INLINE inline __attribute__((always_inline))
 
-/// Four doubles at once, by the compiler's vector types: AVX where the build allows it, two SSE
-/// halves elsewhere.
+/// Four doubles at once, by the compiler's vector types: AVX where the unit has it, two SSE halves
+/// elsewhere.
 namespace pounding {
 
 /// Doubles that one vector instruction takes at once.
 inline constexpr int lane_count = 4;
+
+/// Alignment of a class with members of type Lanes [B]: that of the type is the unit's, and code of
+/// several units reads the same objects.
+inline constexpr std::size_t lane_alignment = 32;
 
 using Lanes = double __attribute__((vector_size(32)));
 using LaneMask = std::int64_t __attribute__((vector_size(32)));

@@ -9,13 +9,14 @@
 
 /// Eight doubles at once, one for each of eight members of an ensemble: one register of AVX-512,
 /// two of AVX, four of SSE2. Every operation is done lane by lane and rounded like that of a single
-/// double (add_product in lanes.h), so that no lane depends on its neighbours.
+/// double (add_product in lanes.h), so that no lane depends on its neighbours. The alignment is the
+/// same for every vector unit: code of all of them reads the same arrays.
 namespace pounding {
 
 /// Members that are stepped together.
 inline constexpr std::size_t octet_size = 8;
 
-struct Octet {
+struct alignas(64) Octet {
   using Lanes8 = double __attribute__((vector_size(64)));
   Lanes8 lanes;
 

@@ -1,35 +1,29 @@
 #pragma once
 
-#include <cstdio>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include <mpi.h>
+
+/// Vector units of x86-64 by their levels, v2 (SSE4.2), v3 (AVX2 and FMA), v4 (AVX-512): kernels are
+/// compiled once for each (cmake/vector_units.cmake), and the program uses those of one. Results of
+/// two units differ by round-off, as fused products are rounded once. A program that starts on a
+/// machine without the least of its units ends with a line, exit status 1: an instruction that is
+/// not there would kill it without a word.
 namespace pounding {
 
-/// Name of vector instructions that this build uses and this machine has not; null if it has all.
-/// Local.
-inline const char* missing_vector_unit() {
-  __builtin_cpu_init();
-#ifdef __AVX512F__
-  if (!__builtin_cpu_supports("avx512f")) return "AVX-512";
-#endif
-#ifdef __AVX2__
-  if (!__builtin_cpu_supports("avx2")) return "AVX2";
-#endif
-#ifdef __FMA__
-  if (!__builtin_cpu_supports("fma")) return "FMA";
-#endif
-  return nullptr;
-}
+/// Names of the units that the kernels are compiled for, from the least. Local.
+std::vector<std::string> compiled_vector_units();
 
-/// Whether the program can run here; if not, a line says why. Asked before anything is computed: an
-/// instruction that is not there kills a program without a word. Local.
-inline bool fits_this_machine() {
-  const char* const missing = missing_vector_unit();
-  if (missing == nullptr) return true;
-  std::fprintf(stderr,
-               "pounding: built for machines with %s, which this one has not; build it on this "
-               "one, or with -DPOUNDING_PORTABLE=ON\n",
-               missing);
-  return false;
-}
+/// Name of the unit whose kernels are in use: the best of this machine, unless another is asked for.
+/// Local.
+std::string vector_unit();
+
+/// Uses the kernels of a unit from now on, before anything is computed; `auto` is the best that the
+/// machines of all ranks have: ranks that solve one contact problem come to the same bits.
+/// Collective. Throws UserError on every rank for a unit that the program or one of the machines has
+/// not.
+void use_vector_unit(MPI_Comm comm, std::string_view name);
 
 }  // namespace pounding

@@ -56,6 +56,7 @@ void print_model(const Scene& scene, const Model& model) {
   if (model.equilibrium) print(rest_facts(scene, model));
   print(probe_places(scene, model.probes));
   print(partition_facts(model));
+  print(kernel_facts());
   print(warning_facts(model.warnings));
 }
 
@@ -128,6 +129,7 @@ void write_summary(const std::string& path, const FinishedRun& run) {
   facts.add("microseconds_per_step", microseconds_per_step(statistics));
   facts.add(phase_facts(statistics.phases));
   facts.add("partition", partition_facts(model));
+  facts.add("kernels", kernel_facts());
   facts.values["partition"]["interface_ranks"] = statistics.interface_ranks;
   if (statistics.prediction) facts.add("prediction", prediction_facts(*statistics.prediction));
   facts.add("interface_looks", statistics.interface_looks);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/vector_unit.h"
 #include "driver/subject_facts.h"
 #include "driver/time_step.h"
 
@@ -33,6 +34,12 @@ Facts warning_facts(std::span<const std::string> lines) {
 Facts partition_facts(const Model& model) {
   Facts facts{{{"imbalance", model.partition_imbalance}, {"edge_cut", model.partition_edge_cut}}};
   facts.say("\npartition: imbalance {imbalance:.3f}, cut edges {edge_cut}\n");
+  return facts;
+}
+
+Facts kernel_facts() {
+  Facts facts{{{"vector_unit", vector_unit()}}};
+  facts.say("kernels: vector unit {vector_unit}\n");
   return facts;
 }
 

@@ -44,9 +44,10 @@ Facts separation_facts(const Scene& scene, const Model& model);
 /// Facts of the forces that hold a scene at rest that starts there (rest_facts.cpp).
 Facts rest_facts(const Scene& scene, const Model& model);
 
-/// Facts of the ranks' parts, the time step, a step on ranks that are not there, energies, phases
-/// and warnings (run_facts.cpp).
+/// Facts of the ranks' parts, the kernels in use, the time step, a step on ranks that are not
+/// there, energies, phases and warnings (run_facts.cpp).
 Facts partition_facts(const Model& model);
+Facts kernel_facts();
 Facts time_step_facts(const Scene& scene, const Model& model);
 Facts prediction_facts(const RankPrediction& prediction);
 Facts energy_facts(const RunStatistics& run);

@@ -45,6 +45,8 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
   }
 }
 
+CdLagrange::~CdLagrange() = default;
+
 void CdLagrange::step(bool look_at_gap, bool with_energies, bool with_forces) {
   open(look_at_gap, with_energies);  // A = { i : g_i(u_n) <= g_tol }
   free_velocity(with_forces);        // v_free = v- + dt (g - iota a_g - alpha v-)

@@ -59,6 +59,7 @@ class CdLagrange {
   CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems, const GroundMotion& motion,
              double time_step, Profile& profile, const SupportMotion* supports = nullptr,
              const LoadHistories* loads = nullptr, RunLane lane = {});
+  ~CdLagrange();
 
   /// Takes an interaction in, after those that it has; before the first step. Returns it.
   template <typename Kind>

@@ -70,6 +70,9 @@ StructureStep::StructureStep(const LinearSystem& system, StructureState& state, 
   if (system.coupled_mass) coupled_ = std::make_unique<CoupledStep>(system, state, filters_);
 }
 
+StructureStep::StructureStep(StructureStep&& other) noexcept = default;
+StructureStep::~StructureStep() = default;
+
 double StructureStep::ground_step_at(std::size_t dof) const {
   const double known = known_step_.empty() ? 0 : known_step_[dof];
   if (system_.generalised) {

@@ -35,10 +35,13 @@ struct StepRequest {
 /// one step on (update.h) while the range is in the nearest cache; the sums for the energy balance
 /// are taken on the way. Dofs whose mass is coupled wait for `complete`. v+ is free of contact
 /// until `correct` is called.
-class StructureStep final : public stiffness::ForceReceiver, public interactions::SteppedStructure {
+class alignas(lane_alignment) StructureStep final : public stiffness::ForceReceiver,
+                                                    public interactions::SteppedStructure {
  public:
   /// References must outlive this object.
   StructureStep(const LinearSystem& system, StructureState& state, double time_step);
+  StructureStep(StructureStep&& other) noexcept;
+  ~StructureStep() override;
 
   const std::vector<double>& displacement() const override { return state_.displacement; }
   const std::vector<double>& velocity() const override { return state_.velocity; }

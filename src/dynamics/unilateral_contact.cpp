@@ -19,6 +19,8 @@ UnilateralContact::UnilateralContact(MPI_Comm comm, interactions::ContactProblem
   }
 }
 
+UnilateralContact::~UnilateralContact() = default;
+
 void UnilateralContact::attach(std::span<interactions::SteppedStructure* const> structures) {
   for (std::size_t s = 0; s < structures.size(); ++s) {
     structures[s]->watch(problem_.trace(s).dofs(), false);

@@ -26,6 +26,7 @@ class UnilateralContact final : public interactions::Interaction {
   /// `problem` and `state`, that of the structures in the step, must outlive this object.
   UnilateralContact(MPI_Comm comm, interactions::ContactProblem& problem, GapWatch watch,
                     const State& state);
+  ~UnilateralContact() override;
 
   void attach(std::span<interactions::SteppedStructure* const> structures) override;
   /// Detects contact.

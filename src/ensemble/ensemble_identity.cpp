@@ -16,7 +16,7 @@ namespace {
 constexpr auto of_no_effect = std::to_array<std::string_view>(
     {"title", "output", "ensemble", "dry_run", "progress_interval", "mesh_time_limit", "modes",
      "modes_solver", "partition", "csv_digits", "checkpoint_interval", "checkpoint_steps",
-     "fidelity_target", "fidelity_window"});
+     "fidelity_target", "fidelity_window", "vector_unit"});
 
 bool counts(const std::string& name) {
   return std::ranges::find(of_no_effect, name) == of_no_effect.end() &&

@@ -53,6 +53,8 @@ FillerRows::FillerRows(MPI_Comm comm, const Interface& interface, std::span<cons
   }
 }
 
+FillerRows::~FillerRows() = default;
+
 void FillerRows::attach(std::span<SteppedStructure* const> structures) {
   for (std::size_t s = 0; s < structures.size(); ++s) {
     structures[s]->watch(pairs_.rows().trace(s).dofs(), true);

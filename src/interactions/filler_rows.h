@@ -36,6 +36,7 @@ class FillerRows final : public Interaction {
   /// `contacts` of the scene. References must outlive this object. Collective over `comm`.
   FillerRows(MPI_Comm comm, const Interface& interface, std::span<const Contact> contacts,
              std::span<const LinearSystem> systems, std::span<const Mesh> meshes, double time_step);
+  ~FillerRows() override;
 
   void attach(std::span<SteppedStructure* const> structures) override;
   void begin(const Step& step) override;

@@ -58,6 +58,8 @@ InelasticElements::InelasticElements(std::size_t structure, const Mesh& mesh,
   state_ = Before(dofs_.size());
 }
 
+InelasticElements::~InelasticElements() = default;
+
 LocalIndex InelasticElements::place_of(LocalIndex node, int component) {
   const LocalIndex dof = mesh_.dof(node, component);
   if (dof >= 0 || !system_.supports) return dof;

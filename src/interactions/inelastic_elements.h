@@ -36,6 +36,7 @@ class InelasticElements final : public Interaction {
   /// object. Collective over the structure's communicator.
   InelasticElements(std::size_t structure, const Mesh& mesh, const LinearSystem& system,
                     double time_step, std::vector<RegionLaw> laws);
+  ~InelasticElements() override;
 
   void attach(std::span<SteppedStructure* const>) override {}
   void begin(const Step& step) override;

@@ -74,6 +74,8 @@ Recorder::Recorder(Layout layout, std::span<const LinearSystem> systems,
   if (layout_.continued.empty()) on_rank0(layout_.comm, [&] { create_file(layout_.path); });
 }
 
+Recorder::~Recorder() = default;
+
 RecordColumns Recorder::base_columns() const {
   RecordColumns columns{"bases", {}, {{"base_displacement", "m"}}, {}, base_values_};
   for (const ResolvedProbe& base : layout_.bases) {

@@ -52,6 +52,7 @@ class Recorder final : public Observer {
 
   /// Rank 0 creates the file, unless the run is a continued one. Collective.
   Recorder(Layout layout, std::span<const LinearSystem> systems, std::span<const Mesh> meshes);
+  ~Recorder() override;
 
   /// Takes the velocities that a new run starts with, or the records known to `continued` over from
   /// the history continued, which may be the file that is then replaced. Throws UserError on every

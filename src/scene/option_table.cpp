@@ -97,6 +97,7 @@ constexpr std::array option_rows{
     OptionRow{Block::run, "predict_ranks", Kind::integer, "ranks", value("0"), rank_count, "", "unknowns, messages, memory and time of a step foreseen on so many ranks, which need not be there; 0: none"},
     OptionRow{Block::run, "latency", Kind::real, "s", value("2e-6"), positive, "", "time of a short message between these ranks"},
     OptionRow{Block::run, "bandwidth", Kind::real, "B/s", value("1e10"), positive, "", "of long messages between these ranks"},
+    OptionRow{Block::run, "vector_unit", Kind::choice, "word", value("auto"), any, "auto|v2|v3|v4", "whose kernels compute: v2 (SSE4.2), v3 (AVX2 and FMA), v4 (AVX-512), or the best that every rank has"},
     OptionRow{Block::run, "progress_interval", Kind::real, "s", value("2"), positive, "", "phases of the start-up that take longer say how far they are, twice as late each time; in a log the steps as well"},
     OptionRow{Block::run, "output", Kind::text, "folder", value("results"), any, "a folder", "result folder"},
     OptionRow{Block::run, "csv_digits", Kind::integer, "-", value("9"), csv_digits, "", "significant digits of the numbers in spectra.csv, impacts.csv, energy.csv and forces.csv; 17: to the bit"},
@@ -349,7 +350,7 @@ constexpr std::array option_rows{
 constexpr std::array changeable_on_restart = std::to_array<std::string_view>({
     "title", "end_time", "courant", "time_step", "allow_unstable", "omega_max_tolerance", "progress_interval", "modes", "modes_solver", "write_modes", "write_model", "mesh_time_limit", "dry_run", "output",
     "checkpoint_interval", "checkpoint_steps", "export_matrices", "partition", "mesh_pieces", "write_mesh_pieces", "restart", "spectra_damping",
-    "spectra_frequencies", "spectra_start", "peak_frequency", "csv_digits", "fields_format", "predict_ranks", "latency", "bandwidth"});
+    "spectra_frequencies", "spectra_start", "peak_frequency", "csv_digits", "fields_format", "predict_ranks", "latency", "bandwidth", "vector_unit"});
 // clang-format on
 
 }  // namespace

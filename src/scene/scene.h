@@ -474,6 +474,7 @@ struct Scene {
   int predict_ranks = 0;           ///< ranks on which a step is foreseen; 0: none
   double latency = 0;              ///< of a message between these [s]
   double bandwidth = 0;            ///< of a message between these [B/s]
+  std::string vector_unit;         ///< whose kernels compute (use_vector_unit)
   double checkpoint_interval = 0;  ///< wall time between checkpoints [s]; 0: none
   int checkpoint_steps = 0;        ///< steps between checkpoints; 0: none
   std::string export_matrices;     ///< folder for the matrices of the scene; empty: none

@@ -16,7 +16,7 @@ constexpr auto of_the_run = std::to_array<std::string_view>(
      "checkpoint_steps", "export_matrices",   "csv_digits",      "partition",
      "mesh_pieces",      "write_mesh_pieces", "fields_interval", "fields_start",
      "fields_end",       "fields_format",     "predict_ranks",   "latency",
-     "bandwidth"});
+     "bandwidth",        "vector_unit"});
 
 bool is_silent(const std::string& name) {
   return std::ranges::find(of_the_run, name) != of_the_run.end() ||

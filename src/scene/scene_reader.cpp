@@ -133,6 +133,7 @@ class SceneReader {
     scene_.predict_ranks = options_.integer("predict_ranks");
     scene_.latency = options_.real("latency");
     scene_.bandwidth = options_.real("bandwidth");
+    scene_.vector_unit = options_.choice("vector_unit");
     scene_.law_cycles = options_.reals("law_cycles");
     std::erase(scene_.law_cycles, 0.0);
     scene_.output = options_.text("output");

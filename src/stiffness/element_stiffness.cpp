@@ -7,6 +7,7 @@
 #include "common/parallel.h"
 #include "mesh/ghost_dofs.h"
 #include "stiffness/element_sorter.h"
+#include "stiffness/strain_sorter.h"
 
 namespace pounding::stiffness {
 namespace {
@@ -106,6 +107,8 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
     MPI_Allreduce(MPI_IN_PLACE, count, 1, MPI_INT64_T, MPI_SUM, mesh.comm);
   }
 }
+
+ElementStiffness::~ElementStiffness() = default;
 
 /// Decides which chains of nodes may hand their forces over, by going through a product.
 void ElementStiffness::plan(const ProductForms& forms) {

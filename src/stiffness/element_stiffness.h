@@ -13,9 +13,10 @@
 #include "stiffness/rows/element_lines.h"
 #include "stiffness/rows/product_forms.h"
 #include "stiffness/stiffness.h"
-#include "stiffness/strain_sorter.h"
 
 namespace pounding::stiffness {
+
+struct GeneralElements;
 
 /// K applied element by element, without reading a matrix: bricks and rectangles share theirs,
 /// others bring the numbers of their strains. A rank holds every element that touches an owned
@@ -33,6 +34,7 @@ class ElementStiffness final : public Stiffness {
   /// Collective.
   ElementStiffness(const Structure& structure, const Mesh& mesh,
                    std::unique_ptr<Stiffness> assembled, const ProductForms& forms = {});
+  ~ElementStiffness() override;
 
   using Stiffness::apply;
   void start(const StiffnessArgument& w) const override { halo_->begin(w); }

@@ -1,5 +1,4 @@
 """What `cmake --install` leaves works from any folder: programs, shipped scenes, tools, the Python package."""
-import json
 import os
 import re
 import shutil
@@ -133,28 +132,18 @@ class Staged(unittest.TestCase):
 class Setup(unittest.TestCase):
     """run/setup hands its options to cmake each time, not the first time only."""
 
-    def portable(self, build, *words):
+    def units(self, build, *words):
         subprocess.run([os.path.join(program.SOURCE, "run", "setup"), *words], check=True, capture_output=True,
                        env={**os.environ, "POUNDING_BUILD": build, "POUNDING_TARGETS": "help"})
         cache = Path(build, "CMakeCache.txt").read_text()
-        return re.search(r"^POUNDING_PORTABLE:BOOL=(\w+)$", cache, re.MULTILINE)[1]
-
-    def compile(self, build, source):
-        """The files of a room as the build would."""
-        commands = json.loads(Path(build, "compile_commands.json").read_text())
-        command = next(one["command"] for one in commands if one["file"].endswith(source))
-        done = subprocess.run(["bash", "-c", re.sub(r" -o \S+", " -o /dev/null", command)], cwd=build,
-                              capture_output=True, text=True)
-        self.assertEqual(done.returncode, 0, done.stderr[-2000:])
-        self.assertNotIn("-march", command)
+        return re.search(r"^POUNDING_VECTOR_UNITS:STRING=(.*)$", cache, re.MULTILINE)[1]
 
     def test_options_count_after_the_first_time(self):
         with tempfile.TemporaryDirectory(prefix="pounding-") as build:
-            self.assertEqual(self.portable(build, "-DPOUNDING_TESTS=OFF"), "OFF")
-            self.assertEqual(self.portable(build, "-DPOUNDING_PORTABLE=ON"), "ON")
-            self.compile(build, "unity_common_cxx.cxx")  # vectors wider than those of every x86-64 machine
-            self.assertEqual(self.portable(build), "ON")
-            self.assertEqual(self.portable(build, "-DPOUNDING_PORTABLE=OFF"), "OFF")
+            every = self.units(build, "-DPOUNDING_TESTS=OFF")
+            self.assertEqual(self.units(build, "-DPOUNDING_VECTOR_UNITS=v3"), "v3")
+            self.assertEqual(self.units(build), "v3")
+            self.assertEqual(self.units(build, f"-DPOUNDING_VECTOR_UNITS={every}"), every)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,11 @@
 
 #include "common/lanes.h"
 
-/// One number of each element of a batch: of eight where the machine has AVX-512, else of four.
+#ifndef POUNDING_KERNELS
+#error "Batches are as wide as the vector unit: for kernels alone (cmake/vector_units.cmake)"
+#endif
+
+/// One number of each element of a batch: of eight where the unit has AVX-512, else of four.
 /// Nodes of elements stand in rows, component by component, which become columns and rows again.
 namespace pounding::stiffness {
 

@@ -1,15 +1,43 @@
 #include "common/vector_unit.h"
 
+#include <string>
+
 #include <gtest/gtest.h>
+
+#include "common/error.h"
 
 namespace pounding {
 namespace {
 
-TEST(VectorUnit, TheMachineThatRunsItHasIt) {
-  EXPECT_EQ(missing_vector_unit(), nullptr);
-  testing::internal::CaptureStderr();
-  EXPECT_TRUE(fits_this_machine());
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+/// Puts back the unit that was in use.
+class VectorUnit : public testing::Test {
+ protected:
+  ~VectorUnit() override { use_vector_unit(MPI_COMM_SELF, before_); }
+  std::string before_ = vector_unit();
+};
+
+TEST_F(VectorUnit, IsTheBestOfTheMachineAtFirst) {
+  use_vector_unit(MPI_COMM_SELF, "auto");
+  EXPECT_EQ(vector_unit(), before_);
+}
+
+TEST_F(VectorUnit, EveryCompiledOneUpToTheBestCanBeUsed) {
+  for (const std::string& name : compiled_vector_units()) {
+    use_vector_unit(MPI_COMM_SELF, name);
+    EXPECT_EQ(vector_unit(), name);
+    if (name == before_) break;
+  }
+}
+
+TEST_F(VectorUnit, AnotherIsRefusedByName) {
+  try {
+    use_vector_unit(MPI_COMM_SELF, "v9");
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.what(),
+              "option -vector_unit v9: the best that program and machine have is " + before_);
+  }
+  EXPECT_EQ(vector_unit(), before_);
 }
 
 }  // namespace

@@ -13,8 +13,6 @@ class Pounding(CMakePackage):
     version("main", branch="main")
     version("0.2.0", tag="v0.2.0")
 
-    variant("machine", default="native", values=lambda name: True,
-            description="vector unit to build for, a name that g++ knows (-march): that of the compute nodes")
     variant("tools", default=True, description="Python for the tools that draw, compare and study (pounding-tools)")
 
     depends_on("c", type="build")
@@ -45,7 +43,7 @@ class Pounding(CMakePackage):
     requires("%gcc@12:", msg="kernels are written with vectors of g++ 12 or later")
 
     def cmake_args(self):
-        return [self.define("POUNDING_TESTS", False), self.define_from_variant("POUNDING_MACHINE", "machine"),
+        return [self.define("POUNDING_TESTS", False),
                 self.define("PETSC_DIR", self.spec["petsc"].prefix), self.define("SLEPC_DIR", self.spec["slepc"].prefix),
                 self.define("PETSC_ARCH", "")]
 
