@@ -3,9 +3,9 @@
 
 Every FILE lists the objects of one unit, one per line. All their symbols become local, but for a table of functions; a
 function that kernels define becomes a jump through the table of the unit in use, pounding_kernels, which the program
-fills (src/common/vector_unit.cpp). Code of a unit is in a section of its name, text_v3 for instance. Data of kernels cannot be reached from elsewhere,
-tables of virtual functions neither: a class of a kernel has its destructor in its .cpp, else the linker says that
-its table is missing. Needs ld, nm, objdump, objcopy and as.
+fills (src/common/vector_unit.cpp). Code of a unit is in a section of its name, text_v3 for instance. Data of kernels
+cannot be reached from elsewhere, tables of virtual functions neither: a class of a kernel has its destructor in its
+.cpp, else the linker says that its table is missing. Needs ld, nm, objdump, objcopy and as.
 """
 
 import os

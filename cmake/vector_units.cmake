@@ -9,6 +9,7 @@ else()
 endif()
 set(POUNDING_VECTOR_UNITS ${units} CACHE STRING
   "Vector units that kernels are compiled for: v2 (SSE4.2), v3 (AVX2 and FMA), v4 (AVX-512)")
+list(SORT POUNDING_VECTOR_UNITS)  # the least first
 if(POUNDING_SANITIZE)  # checked once
   list(GET POUNDING_VECTOR_UNITS 0 POUNDING_VECTOR_UNITS)
 endif()
