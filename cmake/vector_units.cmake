@@ -54,6 +54,14 @@ function(flag_of_unit unit flag)
   endif()
 endfunction()
 
+# A program or test with the library and its kernels.
+function(link_core target)
+  target_link_libraries(${target} PRIVATE pounding_core)
+  if(TARGET joined_kernels)
+    add_dependencies(${target} joined_kernels)
+  endif()
+endfunction()
+
 # Adds the kernels of every unit to a library. Of one unit alone they are linked as they are.
 function(link_kernels library)
   set(lists)
@@ -82,8 +90,9 @@ function(link_kernels library)
     set(joined ${CMAKE_BINARY_DIR}/kernels/joined.o)
     add_custom_command(OUTPUT ${joined} COMMAND ${CMAKE_SOURCE_DIR}/cmake/join_units.py ${joined} ${named}
       DEPENDS ${objects} ${lists} ${CMAKE_SOURCE_DIR}/cmake/join_units.py VERBATIM COMMAND_EXPAND_LISTS)
-    set_source_files_properties(${joined} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
-    target_sources(${library} PRIVATE ${joined})
+    # Linked beside the library: as a source of it every other source would wait for the kernels.
+    add_custom_target(joined_kernels DEPENDS ${joined})
+    target_link_libraries(${library} INTERFACE ${joined})
     list(APPEND words POUNDING_JOINED_UNITS)
   endif()
   set_source_files_properties(${CMAKE_SOURCE_DIR}/src/common/vector_unit.cpp PROPERTIES
