@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <numeric>
 
 #include "common/scattered_number.h"
@@ -46,6 +47,11 @@ class BlockKrylov {
       next = grow(next);
       if (next.columns > 0 && !is_due()) continue;
       diagonalise();
+      if (lock_the_largest()) {
+        next = DenseMatrix(space_.columns().rows, 0);
+        add_fresh_block(next);
+        continue;
+      }
       const bool enough = converged() >= wanted_;
       if (enough && none_missed()) break;
       if (enough || next.columns == 0) add_fresh_block(next);
@@ -282,12 +288,30 @@ class BlockKrylov {
     return product(space_.columns(), s);
   }
 
+  /// Begins anew beside the pairs that have converged, as rigid motions do at once, where rounding
+  /// of theirs is more than the residual that the last wanted pair may have; whether it does.
+  bool lock_the_largest() {
+    const double last = theta_[std::min(wanted_, theta_.size()) - 1];
+    const double largest = last * residual_tolerance / std::numeric_limits<double>::epsilon();
+    const std::size_t end = converged();
+    std::size_t count = locked_;
+    while (count < end && theta_[count] > largest) ++count;
+    if (count == locked_) return false;
+    cut_down_to(count);
+    locked_ = count;
+    return true;
+  }
+
   void cut_down() {
-    const std::size_t kept = std::min(wanted_ + 2 * block_size_, space_.size() - block_size_);
+    cut_down_to(std::min(wanted_ + 2 * block_size_, space_.size() - block_size_));
+    locked_ = converged();
+  }
+
+  /// Makes the first Ritz vectors the space.
+  void cut_down_to(std::size_t kept) {
     space_.replace(ritz_vectors(kept));
     projected_ = DenseMatrix(kept, kept);
     for (std::size_t j = 0; j < kept; ++j) projected_.column(j)[j] = theta_[j];
-    locked_ = converged();
     before_ = 0;
     next_look_ = 0;
   }
