@@ -4,11 +4,13 @@ import os
 import pathlib
 import subprocess
 import tempfile
+import unittest
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BUILD = os.environ.get("POUNDING_BUILD", os.path.join(SOURCE, "build"))
 PROGRAM = os.path.abspath(os.path.join(BUILD, "pounding"))
 ALL = bool(os.environ.get("POUNDING_ALL"))  # run/test --all: also what takes long and seldom tells more
+long = unittest.skipUnless(ALL, "run/test --all")
 RANKS = int(os.environ.get("POUNDING_RANKS", 2))  # of a run whose test does not ask for another number
 SHARED = os.environ.get("POUNDING_SHARED", os.path.join(os.path.dirname(SOURCE), "shared"))
 # Folders, meshes and records of a test file are in one folder, which goes with its process.

@@ -68,6 +68,7 @@ class Study(unittest.TestCase):
         self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
         self.assertIn(part, done.stderr)
 
+    @program.long
     def test_parts_make_the_whole_and_tables_say_what_the_members_did(self):
         self.fragility("--part", "1/2", "--runner", "single", "--jobs", "2")
         self.refuse("are not there yet", "--collect")
@@ -86,6 +87,7 @@ class Study(unittest.TestCase):
         self.assertIn("6 runs, 0 finished before", more.stdout)
         self.assertIn("The runs apart say of 9 of 9", more.stdout)
 
+    @program.long
     def test_ensembles_give_one_table_on_any_ranks_and_interrupted(self):
         """Sixteen members and more, so that there are groups of eight for both ranks."""
         study = {"levels": [2.0, 5.0, 6.0], "full_order": {"share": 0},
@@ -237,6 +239,7 @@ class Study(unittest.TestCase):
         self.refuse("neither <structure>_stiffness_factor", factors={"left_mass": {"deviation": 1}})
         self.assertFalse((self.place / "out").exists())
 
+    @program.long
     def test_motions_that_depend_on_each_other_are_told(self):
         seeds = {"correlation": 1e-4, "x": {**STUDY["motions"]["x"], "seeds": [1, 2]}}
         self.refuse("1 of 1 pairs are correlated by 0.0001 or more, x 1 and x 2 by", "--dry-run", motions=seeds)

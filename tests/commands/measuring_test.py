@@ -80,6 +80,7 @@ class Benchmark(Measured):
 
 
 class Forms(unittest.TestCase):
+    @program.long
     def test_what_the_forms_of_the_plate_earn(self):
         folder = tempfile.mkdtemp(prefix="pounding-")
         result = script("benchmark", "--forms", "plate", "--ranks", 1, "--rounds", 1, "--seconds", 0.01,
@@ -104,6 +105,7 @@ class Forms(unittest.TestCase):
 
 
 class Plant(unittest.TestCase):
+    @program.long
     def test_the_coarsest_mesh(self):
         folder = tempfile.mkdtemp(prefix="pounding-")
         result = script("benchmark", "--plant", "1", "--ranks", 2, "--rounds", 1, "--output", folder)
@@ -116,6 +118,7 @@ class Plant(unittest.TestCase):
 
 
 class Faces(unittest.TestCase):
+    @program.long
     def test_faces_that_close_at_once(self):
         folder = tempfile.mkdtemp(prefix="pounding-")
         result = script("benchmark", "--faces", "5,12", "--ranks", 2, "--rounds", 1, "--output", folder)
@@ -131,6 +134,7 @@ class Faces(unittest.TestCase):
 
 
 class Shapes(unittest.TestCase):
+    @program.long
     def test_a_general_mesh_beside_one_in_rows(self):
         folder = tempfile.mkdtemp(prefix="pounding-")
         result = script("benchmark", "--shapes", "rectangles,triangles,skewed", "--ranks", 1, "--rounds", 1,
@@ -151,6 +155,7 @@ class Shapes(unittest.TestCase):
 
 
 class Scaling(Measured):
+    @program.long
     def test_measured_and_modelled_points(self):
         scene = os.path.join(tempfile.mkdtemp(prefix="pounding-"), "coarse.yaml")
         with open(scene, "w") as file:

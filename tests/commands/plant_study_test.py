@@ -15,6 +15,7 @@ class PlantStudy(unittest.TestCase):
         with open(os.path.join(folder, "comparison", f"{name}.csv")) as file:
             return list(csv.DictReader(line for line in file if not line.startswith("#")))
 
+    @program.long
     def test_pounding_beside_none_and_going_on(self):
         """A block that starts towards the frame strikes it; what is finished is not run again."""
         with tempfile.TemporaryDirectory() as folder:

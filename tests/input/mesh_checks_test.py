@@ -310,6 +310,7 @@ class Gmsh(MeshCase):
                               "$Elements\n1\n1 1 2 1 1 1 7\n$EndElements\n", ".msh")
         self.refuse(TABLE + ["-t_mesh", mesh], mesh, "Gmsh")
 
+    @program.long
     def test_recursion(self):
         self.refuse(self.geometry('Macro Again\n Call Again;\nReturn\nCall Again;\n')
                     + ["-mesh_time_limit", "10"], "Gmsh")

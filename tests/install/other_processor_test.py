@@ -27,7 +27,7 @@ def sources_of(tests):
     return sorted(str(file) for file in seen if file.suffix == ".cpp")
 
 
-@unittest.skipUnless(program.ALL, "run/test --all")
+@program.long
 @unittest.skipUnless(shutil.which(COMPILER) and shutil.which(EMULATOR) and GOOGLETEST.exists(), "no cross compiler here")
 class OnAarch64(unittest.TestCase):
     def test_kernels_pass_their_tests(self):

@@ -49,6 +49,7 @@ class Frame(Plant):
         self.close(second, 11.7, 0.03)
         self.assertAlmostEqual(moving / 623e3, 0.12, delta=0.015)
 
+    @program.long
     def test_finer_mesh(self):
         coarse, fine = (self.on_rock("frame", 3, m, 2) for m in (2, 4))
         for axis in (X, Y):
@@ -90,6 +91,7 @@ class Block(Plant):
             steps[factor] = block["stable_time_step"]
         self.assertGreater(steps[0.1] / steps[1], 1.05)
 
+    @program.long
     def test_finer_mesh(self):
         coarse, fine = (strongest(self.on_rock("block", 4, m), X)[0] for m in (2, 4))
         self.close(coarse, fine, 0.01)

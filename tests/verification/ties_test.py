@@ -355,6 +355,7 @@ class BesideMatchedMeshes(unittest.TestCase):
             found = self.measured([*scene, *mesh(m1=m1, m2=m2, n1=12, n2=12, plates=1)], ranks)
             self.assertLess(abs(found / matched - 1).max(), 2e-3)
 
+    @program.long
     def test_sag_converges_as_one_mesh(self):
         """2 beside 3 cells, 4 beside 6, 8 beside 12: the error falls as that of one mesh of the coarser cells, and is
         smaller."""
