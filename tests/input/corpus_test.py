@@ -1,6 +1,6 @@
-"""Broken inputs by the hundred, half of them on 1 rank and a sixth on 2 (all on both with POUNDING_ALL): one line that names
-culprit and remedy, exit status 1 on every rank, no results, no hang. The cases are data in tests/input/corpus; a
-table of them is printed.
+"""Broken inputs by the hundred, half of them on 1 rank and a sixth on 2 (all on both with POUNDING_ALL): one line
+that names culprit and remedy, exit status 1 on every rank, no results, no hang. The cases are data in
+tests/input/corpus; a table of them is printed.
 
     PYTHONPATH=tests /usr/bin/python3 tests/input/corpus_test.py Corpus.test_meshes
     ... corpus_test.py --show "a bar of no length"      # what the program says to one case
