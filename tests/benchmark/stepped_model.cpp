@@ -26,8 +26,8 @@ constexpr double courant = 0.9;
 
 Structure concrete_structure(const std::string& name, const ModelRequest& request) {
   const bool plate = request.cells[0] > 0 && request.cells[2] == 0;
-  Structure structure = testing::solid_structure(name, 30e9, 0.2, 2400,
-                                                 plate ? ElementType::shell4 : ElementType::hex8);
+  Structure structure = testing_support::solid_structure(
+      name, 30e9, 0.2, 2400, plate ? ElementType::shell4 : ElementType::hex8);
   structure.regions[0].thickness = cell_size[2];
   structure.damping = damping;
   return structure;
@@ -93,8 +93,8 @@ std::vector<GlobalMesh> make_meshes(const ModelRequest& request,
   for (std::size_t d = 0; d < 3; ++d) {
     size[d] = cell_size[d] * request.cells[d];
   }
-  meshes.push_back(testing::box_mesh({0, 0, 0}, size, request.cells));
-  testing::clamp(meshes.back(), "x_min");
+  meshes.push_back(testing_support::box_mesh({0, 0, 0}, size, request.cells));
+  testing_support::clamp(meshes.back(), "x_min");
   std::vector<double>& x = meshes.back().coordinates;
   for (std::size_t i = 0; request.skew && i < x.size(); i += 3) x[i] += 0.3 * x[i + 1];
   return meshes;
@@ -165,7 +165,7 @@ void leave_out(const std::string& form, SteppedModel& model) {
       hide_nodes(model.systems[s]);
     } else {
       model.systems[s].stiffness = std::make_unique<stiffness::ElementStiffness>(
-          model.structures[s], model.meshes[s], nullptr, testing::forms_without(form));
+          model.structures[s], model.meshes[s], nullptr, testing_support::forms_without(form));
     }
   }
   return_freed_memory();

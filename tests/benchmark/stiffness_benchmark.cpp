@@ -25,13 +25,14 @@ struct Block {
                                    static_cast<int>(state.range(1)),
                                    static_cast<int>(state.range(2))};
     if (cells[2] == 0) {
-      testing::FrameMesh plate;
+      testing_support::FrameMesh plate;
       plate.add_plate({0, 0, 0}, {0.25 * cells[0], 0, 0}, {0, 0.3 * cells[1], 0},
                       {cells[0], cells[1]}, 0.22);
       build(plate.mesh(), plate.structure());
     } else {
-      build(testing::box_mesh({0, 0, 0}, {0.25 * cells[0], 0.3 * cells[1], 0.22 * cells[2]}, cells),
-            testing::solid_structure("block", 30e9, 0.2, 2400));
+      build(testing_support::box_mesh({0, 0, 0}, {0.25 * cells[0], 0.3 * cells[1], 0.22 * cells[2]},
+                                      cells),
+            testing_support::solid_structure("block", 30e9, 0.2, 2400));
     }
   }
 

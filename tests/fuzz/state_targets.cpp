@@ -37,8 +37,8 @@ struct BoxModel {
 using Box = std::shared_ptr<const BoxModel>;
 
 Box make_box() {
-  GlobalMesh global = testing::box_mesh({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
-  testing::clamp(global, "x_min");
+  GlobalMesh global = testing_support::box_mesh({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
+  testing_support::clamp(global, "x_min");
   const Partition partition = partition_meshes({&global, 1}, {}, 1);
   auto box = std::make_shared<BoxModel>();
   box->mesh = distribute_mesh(MPI_COMM_SELF, "box", global, partition, 0);
@@ -121,8 +121,8 @@ Scene scene_in_pieces(const std::string& folder) {
 }
 
 std::string piece_seed(const std::string& folder) {
-  GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
-  testing::clamp(mesh, "x_min");
+  GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
+  testing_support::clamp(mesh, "x_min");
   const Partition partition = partition_meshes({&mesh, 1}, {}, 2);
   const MeshCutter cutter(mesh, partition, 0);
   write_mesh_piece(scene_in_pieces(folder), 0, "cut",
@@ -206,7 +206,7 @@ struct Matrices {
 
   Matrices(Box of, const std::string& parent) : folder(parent + "/matrices"), box(std::move(of)) {
     std::filesystem::create_directories(folder);
-    structure = testing::solid_structure("box", 30e9, 0.2, 2400);
+    structure = testing_support::solid_structure("box", 30e9, 0.2, 2400);
     structure.matrices = folder;
     const char* const components[] = {"ux", "uy", "uz"};
     std::ostringstream rows;

@@ -93,6 +93,20 @@ class OneDefinition(unittest.TestCase):
             self.assertEqual({name: sorted(of) for name, of in files.items() if len(of) > 1}, {}, folder)
         self.assertGreater(rooms, 10)
 
+    def test_tests_that_are_compiled_together_have_namespaces_of_their_own(self):
+        for program in ("unit", "parallel"):
+            seen = collections.Counter()
+            for folder, _, names in os.walk(os.path.join(ROOT, "tests", program)):
+                for name in names:
+                    if name.endswith("_test.cpp"):
+                        seen[name] += 1
+                        with open(os.path.join(folder, name)) as file:
+                            text = file.read()
+                        self.assertIn(f"\nnamespace {name[:-4]} {{\n", text, name)
+                        self.assertNotIn("\nnamespace {\n", text, name)
+            self.assertGreater(len(seen), 20)
+            self.assertEqual({name: times for name, times in seen.items() if times > 1}, {})
+
     def test_a_hidden_name_is_found(self):
         text = """namespace pounding {
         int seen(double x) { return 0; }

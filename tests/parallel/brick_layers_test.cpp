@@ -10,19 +10,19 @@
 #include "support/built_stiffness.h"
 
 namespace pounding {
-namespace {
+namespace brick_layers_test {
 
-using testing::build_stiffness;
-using testing::BuiltStiffness;
-using testing::difference_to_assembled;
-using testing::move_nodes;
-using testing::random_field;
+using testing_support::build_stiffness;
+using testing_support::BuiltStiffness;
+using testing_support::difference_to_assembled;
+using testing_support::move_nodes;
+using testing_support::random_field;
 
 constexpr double tolerance = 1e-13;
 constexpr double noise = 1e-12;  // [m]
 
 Structure concrete() {
-  return testing::solid_structure("box", 30e9, 0.2, 2400);
+  return testing_support::solid_structure("box", 30e9, 0.2, 2400);
 }
 
 /// Owners of the nodes by place.
@@ -56,7 +56,8 @@ constexpr std::array<std::array<int, 3>, 6> slabs{
     {{21, 13, 1}, {13, 21, 1}, {21, 1, 13}, {13, 1, 21}, {1, 21, 13}, {1, 13, 21}}};
 
 GlobalMesh slab_of(const std::array<int, 3>& cells) {
-  return testing::box_mesh({1, -2, 0}, {0.25 * cells[0], 0.3 * cells[1], 0.22 * cells[2]}, cells);
+  return testing_support::box_mesh({1, -2, 0}, {0.25 * cells[0], 0.3 * cells[1], 0.22 * cells[2]},
+                                   cells);
 }
 
 TEST(BrickLayers, ThinSlabsOnEveryAxis) {
@@ -69,7 +70,7 @@ TEST(BrickLayers, ThinSlabsOnEveryAxis) {
           for (std::size_t i = 0; i < mesh.free_components.size(); i += 37) {
             mesh.free_components[i] = 0;
           }
-          testing::clamp(mesh, "x_max");
+          testing_support::clamp(mesh, "x_max");
         }
         const auto built = build_stiffness(mesh, concrete());
         EXPECT_EQ(built.stiffness->kinds().bricks, 273);
@@ -86,7 +87,7 @@ TEST(BrickLayers, SeveralLayers) {
        {std::array<int, 3>{12, 9, 2}, {3, 12, 9}, {9, 2, 12}, {4, 5, 6}}) {
     for (const bool turned : {false, true}) {
       GlobalMesh mesh = slab_of(cells);
-      testing::clamp(mesh, "z_min");
+      testing_support::clamp(mesh, "z_min");
       if (turned) turn(mesh);
       EXPECT_LT(difference_to_assembled(build_stiffness(mesh, concrete())), tolerance);
     }
@@ -198,7 +199,7 @@ TEST(BrickLayers, SymmetricAndTheSameOnAnyNumberOfRanks) {
         });
       }
       add_noise(mesh);
-      testing::clamp(mesh, "x_min");
+      testing_support::clamp(mesh, "x_min");
       const auto built = build_stiffness(mesh, concrete());
       const stiffness::ElementKinds kinds = built.stiffness->kinds();
       EXPECT_EQ(kinds.bricks > 0, kind == Kind::straight || kind == Kind::turned);
@@ -211,5 +212,5 @@ TEST(BrickLayers, SymmetricAndTheSameOnAnyNumberOfRanks) {
   }
 }
 
-}  // namespace
+}  // namespace brick_layers_test
 }  // namespace pounding

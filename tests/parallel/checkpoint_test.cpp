@@ -14,7 +14,7 @@
 #include "support/box_mesh.h"
 
 namespace pounding {
-namespace {
+namespace checkpoint_test {
 
 namespace fs = std::filesystem;
 
@@ -22,13 +22,13 @@ const LinearSystem full;  // a model whose dofs are components of nodes
 
 /// A box whose nodes rotate from the middle on and are clamped at one end.
 GlobalMesh mixed_box(double length = 3) {
-  GlobalMesh global = testing::box_mesh({0, 0, 0}, {length, 1, 1}, {9, 2, 2});
+  GlobalMesh global = testing_support::box_mesh({0, 0, 0}, {length, 1, 1}, {9, 2, 2});
   for (std::size_t node = 0; node < global.node_tags.size(); ++node) {
     if (global.coordinates[3 * node] > length / 2) {
       global.free_components[node] = 0x3f;
     }
   }
-  testing::clamp(global, "x_min");
+  testing_support::clamp(global, "x_min");
   return global;
 }
 
@@ -187,7 +187,7 @@ TEST_F(CheckpointFile, OfAnotherSceneIsRefusedOnEveryRank) {
   GlobalMesh freer = mixed_box();
   freer.free_components[5] ^= 0x38;
   says(identity, distribute(comm, freer), "free dofs in it");
-  says(identity, distribute(comm, testing::box_mesh({0, 0, 0}, {3, 1, 1}, {8, 2, 2})),
+  says(identity, distribute(comm, testing_support::box_mesh({0, 0, 0}, {3, 1, 1}, {8, 2, 2})),
        "nodes in it");
 }
 
@@ -242,8 +242,8 @@ TEST(FileBlocks, RowsComeToTheirPlacesAndBack) {
 
 TEST(NodeTable, ColumnsFollowFromTheRotations) {
   EXPECT_EQ(component_columns(distribute(PETSC_COMM_WORLD, mixed_box())), 6u);
-  EXPECT_EQ(component_columns(
-                distribute(PETSC_COMM_WORLD, testing::box_mesh({0, 0, 0}, {3, 1, 1}, {9, 2, 2}))),
+  EXPECT_EQ(component_columns(distribute(
+                PETSC_COMM_WORLD, testing_support::box_mesh({0, 0, 0}, {3, 1, 1}, {9, 2, 2}))),
             3u);
 }
 
@@ -266,5 +266,5 @@ TEST(NodeTable, RowsAreNodesInFileOrder) {
   }
 }
 
-}  // namespace
+}  // namespace checkpoint_test
 }  // namespace pounding

@@ -12,14 +12,14 @@
 #include "support/scaled_structure.h"
 
 namespace pounding {
-namespace {
+namespace coupled_mass_test {
 
-using testing::build_system;
-using testing::BuiltSystem;
-using testing::DampedStructure;
-using testing::dense_mass;
-using testing::DenseSystem;
-using testing::scaled_structure;
+using testing_support::build_system;
+using testing_support::BuiltSystem;
+using testing_support::DampedStructure;
+using testing_support::dense_mass;
+using testing_support::DenseSystem;
+using testing_support::scaled_structure;
 
 /// The dt at which the largest eigenvalue of (M + S)^-1 (2 dt C + dt^2 K) is 4, the mass term of C
 /// with M + S if `safe`.
@@ -61,7 +61,7 @@ TEST(CoupledMass, ModesAreThoseOfTheDenseMatrices) {
   for (unsigned seed = 0; seed < 4; ++seed) {
     const DampedStructure damped = scaled_structure(seed);
     const BuiltSystem built = build_system(damped.mesh, damped.structure);
-    const DenseSystem dense = testing::dense_system(damped);
+    const DenseSystem dense = testing_support::dense_system(damped);
     const auto squares = testing_support::generalized_eigenvalues(
         dense.stiffness, dense_mass(damped, dense), dense.mass.size());
     const ModalResult modes = lowest_modes(built.system, built.mesh, 5);
@@ -79,7 +79,7 @@ TEST(CoupledMass, StabilityLimitIsThatOfTheDenseMatrices) {
   for (unsigned seed = 0; seed < 4; ++seed) {
     const DampedStructure damped = scaled_structure(seed);
     const BuiltSystem built = build_system(damped.mesh, damped.structure);
-    const DenseSystem dense = testing::dense_system(damped);
+    const DenseSystem dense = testing_support::dense_system(damped);
     const double limit = stability_limit(built.system, built.mesh);
     EXPECT_NEAR(limit / dense_limit(damped, dense, true), 1, 1e-9) << seed;
     EXPECT_LE(limit, dense_limit(damped, dense, false) * (1 + 1e-9)) << seed;
@@ -87,5 +87,5 @@ TEST(CoupledMass, StabilityLimitIsThatOfTheDenseMatrices) {
   }
 }
 
-}  // namespace
+}  // namespace coupled_mass_test
 }  // namespace pounding

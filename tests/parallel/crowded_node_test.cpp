@@ -9,7 +9,7 @@
 #include "common/parallel.h"
 
 namespace pounding {
-namespace {
+namespace crowded_node_test {
 
 /// What Open MPI does while it waits, by its own word.
 bool yields_when_idle() {
@@ -35,5 +35,5 @@ TEST(CrowdedNode, IsOneWithMoreRanksThanProcessors) {
   EXPECT_EQ(yields_when_idle(), crowded);
 }
 
-}  // namespace
+}  // namespace crowded_node_test
 }  // namespace pounding

@@ -8,15 +8,15 @@
 #include "support/built_stiffness.h"
 
 namespace pounding {
-namespace {
+namespace element_stiffness_test {
 
-using testing::build_stiffness;
-using testing::difference_to_assembled;
-using testing::move_nodes;
-using testing::random_field;
+using testing_support::build_stiffness;
+using testing_support::difference_to_assembled;
+using testing_support::move_nodes;
+using testing_support::random_field;
 
 Structure concrete(ElementType type = ElementType::hex8) {
-  return testing::solid_structure("box", 30e9, 0.2, 2400, type);
+  return testing_support::solid_structure("box", 30e9, 0.2, 2400, type);
 }
 
 constexpr double tolerance = 1e-13;
@@ -24,7 +24,7 @@ constexpr double tolerance = 1e-13;
 TEST(ElementStiffness, FreeSlabOfBricks) {
   for (const ElementType type : {ElementType::hex8, ElementType::hex8_full}) {
     const auto built = build_stiffness(
-        testing::box_mesh({0, 0, 0}, {3, 2.4, 0.22}, {6, 5, 1}, type), concrete(type));
+        testing_support::box_mesh({0, 0, 0}, {3, 2.4, 0.22}, {6, 5, 1}, type), concrete(type));
     EXPECT_EQ(built.stiffness->kinds().bricks, 30);
     EXPECT_EQ(built.stiffness->kinds().other, 0);
     EXPECT_LT(difference_to_assembled(built), tolerance);
@@ -34,15 +34,15 @@ TEST(ElementStiffness, FreeSlabOfBricks) {
 TEST(ElementStiffness, RowsOfEveryLength) {
   for (int cells = 1; cells <= 9; ++cells) {
     const auto built = build_stiffness(
-        testing::box_mesh({-1, 2, 0}, {0.3 * cells, 0.6, 0.5}, {cells, 2, 2}), concrete());
+        testing_support::box_mesh({-1, 2, 0}, {0.3 * cells, 0.6, 0.5}, {cells, 2, 2}), concrete());
     EXPECT_LT(difference_to_assembled(built), tolerance) << cells << " cells";
   }
 }
 
 TEST(ElementStiffness, ClampedFace) {
   for (const char* face : {"x_min", "z_min"}) {
-    GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {2, 1, 1.5}, {7, 4, 5});
-    testing::clamp(mesh, face);
+    GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {2, 1, 1.5}, {7, 4, 5});
+    testing_support::clamp(mesh, face);
     const auto built = build_stiffness(mesh, concrete());
     EXPECT_EQ(built.stiffness->kinds().bricks, 140);
     EXPECT_LT(difference_to_assembled(built), tolerance);
@@ -50,7 +50,7 @@ TEST(ElementStiffness, ClampedFace) {
 }
 
 TEST(ElementStiffness, SingleComponentsClamped) {
-  GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {2, 1, 1}, {5, 3, 2});
+  GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {2, 1, 1}, {5, 3, 2});
   for (std::size_t i = 0; i < mesh.free_components.size(); ++i) {
     mesh.free_components[i] = static_cast<std::uint8_t>(1 + i % 7);
   }
@@ -58,7 +58,7 @@ TEST(ElementStiffness, SingleComponentsClamped) {
 }
 
 TEST(ElementStiffness, CellsOfTwoSizes) {
-  GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {8, 5, 1}, {8, 5, 1});
+  GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {8, 5, 1}, {8, 5, 1});
   move_nodes(mesh, [](Vector3 x) {
     return Vector3{x[0] + (x[0] > 2.5 ? 0.5 : 0), 0.5 * x[1] + (x[1] > 3.5 ? 0.1 : 0), x[2]};
   });
@@ -68,7 +68,7 @@ TEST(ElementStiffness, CellsOfTwoSizes) {
 }
 
 TEST(ElementStiffness, NodesListedFromAnotherCorner) {
-  GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {6, 5, 1}, {6, 5, 1});
+  GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {6, 5, 1}, {6, 5, 1});
   auto& list = mesh.regions[0].connectivity;
   for (std::size_t e = 0; e < list.size(); e += 16) {  // every second brick, turned about z
     std::rotate(&list[e], &list[e + 1], &list[e + 4]);
@@ -80,7 +80,7 @@ TEST(ElementStiffness, NodesListedFromAnotherCorner) {
 }
 
 TEST(ElementStiffness, BricksTurnedInSpace) {
-  GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {3, 2, 1}, {7, 5, 2});
+  GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {3, 2, 1}, {7, 5, 2});
   const double c = std::cos(0.7);
   const double s = std::sin(0.7);
   move_nodes(mesh, [=](Vector3 x) {
@@ -93,9 +93,9 @@ TEST(ElementStiffness, BricksTurnedInSpace) {
 }
 
 TEST(ElementStiffness, ShearedMeshByItsStrains) {
-  GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {3, 2, 1}, {7, 5, 2});
+  GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {3, 2, 1}, {7, 5, 2});
   move_nodes(mesh, [](Vector3 x) { return Vector3{x[0] + 0.3 * x[1], x[1], x[2]}; });
-  testing::clamp(mesh, "z_min");
+  testing_support::clamp(mesh, "z_min");
   const auto built = build_stiffness(mesh, concrete());
   EXPECT_EQ(built.stiffness->kinds().general, 70);
   EXPECT_EQ(built.stiffness->kinds().bricks, 0);
@@ -103,7 +103,7 @@ TEST(ElementStiffness, ShearedMeshByItsStrains) {
 }
 
 TEST(ElementStiffness, DistortedMesh) {
-  GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {4, 3, 2}, {5, 4, 3});
+  GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {4, 3, 2}, {5, 4, 3});
   move_nodes(mesh, [](Vector3 x) {
     return Vector3{x[0] + 0.1 * std::sin(3 * x[1] + x[2]), x[1] + 0.1 * std::cos(2 * x[0] * x[2]),
                    x[2] + 0.05 * std::sin(5 * x[0])};
@@ -117,7 +117,7 @@ TEST(ElementStiffness, DistortedMesh) {
 TEST(ElementStiffness, ExtrudedMesh) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (const std::size_t turns : {0, 1, 2}) {
-      GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {4, 3, 2}, {5, 4, 3});
+      GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {4, 3, 2}, {5, 4, 3});
       move_nodes(mesh, [&](Vector3 x) {
         const std::size_t d = (axis + 1) % 3, e = (axis + 2) % 3;
         const double first = x[d];
@@ -145,7 +145,7 @@ TEST(ElementStiffness, ExtrudedMesh) {
 
 /// A slab with a node out of place, and beams along two of its edges.
 GlobalMesh slab_with_beams(Structure& structure) {
-  GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {6, 5, 0.22}, {9, 7, 1});
+  GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {6, 5, 0.22}, {9, 7, 1});
   mesh.coordinates[3 * 11] += 0.1;
   ElementSet beams;
   beams.group = "beams";
@@ -199,10 +199,10 @@ TEST(ElementStiffness, SameBitsOnEveryProduct) {
 /// A structure of fewer nodes than ranks have room for leaves some ranks empty.
 TEST(ElementStiffness, OneBrickOnAllRanks) {
   const auto built =
-      build_stiffness(testing::box_mesh({0, 0, 0}, {1, 2, 3}, {1, 1, 1}), concrete());
+      build_stiffness(testing_support::box_mesh({0, 0, 0}, {1, 2, 3}, {1, 1, 1}), concrete());
   EXPECT_EQ(built.stiffness->kinds().bricks, 1);
   EXPECT_LT(difference_to_assembled(built), tolerance);
 }
 
-}  // namespace
+}  // namespace element_stiffness_test
 }  // namespace pounding

@@ -10,11 +10,11 @@
 #include "support/scaled_structure.h"
 
 namespace pounding {
-namespace {
+namespace energy_norm_test {
 
-using testing::BuiltSystem;
-using testing::DampedStructure;
-using testing::DenseSystem;
+using testing_support::BuiltSystem;
+using testing_support::DampedStructure;
+using testing_support::DenseSystem;
 
 constexpr unsigned structures = 4;
 constexpr double plenty = 1e9;
@@ -74,21 +74,22 @@ struct Comparison {
 
 Comparison compare(const DampedStructure& damped, double part_of_limit, std::size_t every,
                    double work) {
-  const BuiltSystem built = testing::build_system(damped.mesh, damped.structure);
-  const DenseSystem dense = testing::dense_system(damped);
+  const BuiltSystem built = testing_support::build_system(damped.mesh, damped.structure);
+  const DenseSystem dense = testing_support::dense_system(damped);
   const double dt = part_of_limit * stability_limit(built.system, built.mesh);
   const double margin = smallest_energy_margin(built.system, built.mesh, dt);
   EnergyNorm norm(built.system, dt, margin, work);
   const std::vector<double> force = force_on(dense.mass.size(), every);
   return {norm.bound(owned_part(built, dense, force)),
-          std::sqrt(dense_square(damped, dense, testing::dense_mass(damped, dense), dt, force))};
+          std::sqrt(
+              dense_square(damped, dense, testing_support::dense_mass(damped, dense), dt, force))};
 }
 
 TEST(EnergyNorm, BoundsThatOfTheDenseMatricesClosely) {
   for (unsigned seed = 0; seed < structures; ++seed) {
     for (const bool scaled : {false, true}) {
-      const DampedStructure damped =
-          scaled ? testing::scaled_structure(seed) : testing::random_structure(seed);
+      const DampedStructure damped = scaled ? testing_support::scaled_structure(seed)
+                                            : testing_support::random_structure(seed);
       for (const double part : {0.5, 0.99, 0.9999}) {
         for (const std::size_t every : {1, 1000}) {
           const auto [bound, exact] = compare(damped, part, every, plenty);
@@ -101,8 +102,8 @@ TEST(EnergyNorm, BoundsThatOfTheDenseMatricesClosely) {
 }
 
 TEST(EnergyNorm, IsABoundHoweverFewProductsItMayCost) {
-  const DampedStructure damped = testing::random_structure(1);
-  const auto dofs = static_cast<double>(testing::dense_system(damped).mass.size());
+  const DampedStructure damped = testing_support::random_structure(1);
+  const auto dofs = static_cast<double>(testing_support::dense_system(damped).mass.size());
   double coarse = 0;  // without any
   for (const double products : {0.0, 2.0, 5.0, 20.0}) {
     const auto [bound, exact] = compare(damped, 0.999, 7, products * dofs);
@@ -116,9 +117,9 @@ TEST(EnergyNorm, IsABoundHoweverFewProductsItMayCost) {
 }
 
 TEST(EnergyNorm, IsNoCloserThanEnough) {
-  const DampedStructure damped = testing::random_structure(1);
-  const BuiltSystem built = testing::build_system(damped.mesh, damped.structure);
-  const DenseSystem dense = testing::dense_system(damped);
+  const DampedStructure damped = testing_support::random_structure(1);
+  const BuiltSystem built = testing_support::build_system(damped.mesh, damped.structure);
+  const DenseSystem dense = testing_support::dense_system(damped);
   const double dt = 0.999 * stability_limit(built.system, built.mesh);
   const double margin = smallest_energy_margin(built.system, built.mesh, dt);
   const std::vector<double> force = owned_part(built, dense, force_on(dense.mass.size(), 7));
@@ -134,11 +135,11 @@ TEST(EnergyNorm, IsNoCloserThanEnough) {
 }
 
 TEST(EnergyNorm, IsInfiniteWhereTheEnergyIsNoBound) {
-  const DampedStructure damped = testing::random_structure(1);
-  const BuiltSystem built = testing::build_system(damped.mesh, damped.structure);
+  const DampedStructure damped = testing_support::random_structure(1);
+  const BuiltSystem built = testing_support::build_system(damped.mesh, damped.structure);
   EnergyNorm norm(built.system, 1, -1e-3, plenty);
   EXPECT_TRUE(std::isinf(norm.bound(std::vector<double>(built.system.lumped_mass.size(), 1.0))));
 }
 
-}  // namespace
+}  // namespace energy_norm_test
 }  // namespace pounding

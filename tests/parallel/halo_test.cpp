@@ -6,7 +6,7 @@
 #include "common/parallel.h"
 
 namespace pounding {
-namespace {
+namespace halo_test {
 
 /// Rank r owns r + 1 dofs; each rank asks for the first dof of every other rank and the last one of
 /// the rank before, in an order of its own.
@@ -63,5 +63,5 @@ TEST(Halo, RanksThatShareNothingStaySilent) {
   }
 }
 
-}  // namespace
+}  // namespace halo_test
 }  // namespace pounding

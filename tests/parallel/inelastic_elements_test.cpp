@@ -17,13 +17,13 @@
 #include "system/inelastic_laws.h"
 
 namespace pounding {
-namespace {
+namespace inelastic_elements_test {
 
 using interactions::ElementLaw;
 using interactions::InelasticElements;
-using testing::build_system;
-using testing::BuiltSystem;
-using testing::DampedStructure;
+using testing_support::build_system;
+using testing_support::BuiltSystem;
+using testing_support::DampedStructure;
 
 /// f = K (u - p), so g = -K p, p following u so that sqrt((u - p)^T K (u - p)) stays at most
 /// `strength`: an element that is elastic up to there and then flows, known to no room of the
@@ -81,7 +81,7 @@ class FlowingElement final : public ElementLaw {
 
 /// Bricks of three materials on springs, some of scaled mass; two of the materials are marked.
 DampedStructure thrown_body(bool inelastic, bool uniform) {
-  DampedStructure damped = testing::scaled_structure(3);
+  DampedStructure damped = testing_support::scaled_structure(3);
   damped.structure.initial_velocity = {0.4, -0.1, 0.2};
   damped.structure.initial_displacement = {1e-5, 0, 0};
   for (Region& region : damped.structure.regions) {
@@ -211,5 +211,5 @@ TEST(InelasticElements, GoOnFromWhatTheySaved) {
   EXPECT_EQ(whole.squares(), continued.squares());
 }
 
-}  // namespace
+}  // namespace inelastic_elements_test
 }  // namespace pounding

@@ -13,7 +13,7 @@
 #include "support/mast.h"
 
 namespace pounding {
-namespace {
+namespace interaction_test {
 
 constexpr double yield_force = 2e3;  // [N]
 constexpr double spring = 1e6;       // [N/m]
@@ -96,11 +96,11 @@ class YieldingGround final : public interactions::Interaction {
 };
 
 /// A mast that is thrown sideways.
-testing::Mast thrown_mast() {
-  return testing::build_mast({0, 0, 0}, {1, 0.5, 0});
+testing_support::Mast thrown_mast() {
+  return testing_support::build_mast({0, 0, 0}, {1, 0.5, 0});
 }
 
-double time_step_of(const testing::Mast& mast) {
+double time_step_of(const testing_support::Mast& mast) {
   return 0.3 * stable_time_step(Rayleigh{}, mast.built.system.element_frequency_bound);
 }
 
@@ -111,7 +111,7 @@ struct OnGround {
   CdLagrange stepper;
   YieldingGround& ground;
 
-  explicit OnGround(const testing::Mast& mast)
+  explicit OnGround(const testing_support::Mast& mast)
       : stepper(PETSC_COMM_WORLD, {&mast.built.system, 1}, still, time_step_of(mast), profile),
         ground(stepper.add(std::make_unique<YieldingGround>(mast.built.mesh, mast.built.system,
                                                             time_step_of(mast)))) {}
@@ -126,7 +126,7 @@ struct OnGround {
 };
 
 TEST(Interaction, ThatNoRoomKnowsYieldsAndClosesTheLedger) {
-  const testing::Mast mast = thrown_mast();
+  const testing_support::Mast mast = thrown_mast();
   OnGround run(mast);
   EnergyBalance& energy = run.stepper.energy();
   std::vector<StructureEnergy> energies(1);
@@ -148,13 +148,13 @@ TEST(Interaction, ThatNoRoomKnowsYieldsAndClosesTheLedger) {
 }
 
 TEST(Interaction, GivesOneMotionOnAnyRanks) {
-  const testing::Mast mast = thrown_mast();
+  const testing_support::Mast mast = thrown_mast();
   constexpr double of_one_rank = 1.0898403641672343e-3;
   EXPECT_NEAR(OnGround(mast).run(500), of_one_rank, 1e-12 * of_one_rank);
 }
 
 TEST(Interaction, GoesOnFromWhatItSaved) {
-  const testing::Mast mast = thrown_mast();
+  const testing_support::Mast mast = thrown_mast();
   OnGround whole(mast);
   whole.run(300);
   SavedState saved;
@@ -165,5 +165,5 @@ TEST(Interaction, GoesOnFromWhatItSaved) {
   EXPECT_EQ(whole.ground.yielded(), continued.ground.yielded());
 }
 
-}  // namespace
+}  // namespace interaction_test
 }  // namespace pounding

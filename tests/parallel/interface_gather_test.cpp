@@ -6,7 +6,7 @@
 #include "common/parallel.h"
 
 namespace pounding {
-namespace {
+namespace interface_gather_test {
 
 /// Interface dofs dealt out in turns; the last of three or more ranks knows none.
 std::vector<int> dofs_of(int rank, int size, int dofs) {
@@ -61,5 +61,5 @@ TEST_P(InterfaceGathered, EveryMemberGetsAllValuesInEveryTurn) {
 INSTANTIATE_TEST_SUITE_P(Ways, InterfaceGathered, testing::Values(true, false),
                          [](const auto& info) { return info.param ? "memory" : "messages"; });
 
-}  // namespace
+}  // namespace interface_gather_test
 }  // namespace pounding

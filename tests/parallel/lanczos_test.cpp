@@ -12,9 +12,9 @@
 #include "support/frame_mesh.h"
 
 namespace pounding {
-namespace {
+namespace lanczos_test {
 
-using testing::BuiltSystem;
+using testing_support::BuiltSystem;
 
 constexpr double young = 200e9;
 constexpr double density = 7800;
@@ -23,7 +23,7 @@ const EigenvalueEffort least{1e-3, 0};
 /// Largest eigenvalue of the whole model's dense matrices.
 double dense_largest(const GlobalMesh& global, const Structure& structure) {
   const Partition whole = partition_meshes({&global, 1}, {}, 1, {}, {});
-  BuiltSystem built = testing::build_system(PETSC_COMM_SELF, global, structure, whole);
+  BuiltSystem built = testing_support::build_system(PETSC_COMM_SELF, global, structure, whole);
   const std::size_t n = built.system.lumped_mass.size();
   std::vector<double> stiffness(n * n);
   std::vector<double> unit(n, 0.0);
@@ -43,7 +43,7 @@ double dense_largest(const GlobalMesh& global, const Structure& structure) {
 
 void expect_bounds(const GlobalMesh& mesh, const Structure& structure, const char* what) {
   const double omega = std::sqrt(dense_largest(mesh, structure));
-  const BuiltSystem built = testing::build_system(mesh, structure);
+  const BuiltSystem built = testing_support::build_system(mesh, structure);
   const double found = largest_frequency(built.system, built.mesh).omega_max;
   EXPECT_NEAR(found / omega, 1, 1e-9) << what;
   EXPECT_GE(found, omega * (1 - 1e-12)) << what;
@@ -56,15 +56,15 @@ void expect_bounds(const GlobalMesh& mesh, const Structure& structure, const cha
 }
 
 TEST(Lanczos, BoundsTheLargestFrequencyOfBricks) {
-  const GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {2, 1.1, 0.9}, {6, 4, 2});
-  expect_bounds(mesh, testing::solid_structure("block", young, 0.2, density), "bricks");
+  const GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {2, 1.1, 0.9}, {6, 4, 2});
+  expect_bounds(mesh, testing_support::solid_structure("block", young, 0.2, density), "bricks");
 }
 
 TEST(Lanczos, BoundsTheLargestFrequencyOfShellsAndBeams) {
-  testing::FrameMesh plate;
+  testing_support::FrameMesh plate;
   plate.add_plate({0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {6, 6}, 0.2);
   expect_bounds(plate.mesh(), plate.structure(), "plate");
-  testing::FrameMesh table;
+  testing_support::FrameMesh table;
   table.add_plate({0, 0, 3}, {3, 0, 0}, {0, 3, 0}, {3, 3}, 0.2);
   for (const auto& [x, y] : {std::pair{0.0, 0.0}, {3.0, 0.0}, {3.0, 3.0}, {0.0, 3.0}}) {
     table.add_beams({x, y, 0}, {x, y, 3}, 4, {1, 0, 0});
@@ -119,7 +119,7 @@ Chain chain(int bars, double defect, double beta = 0) {
 /// is all that a few hundred products give.
 TEST(Lanczos, BoundsCrowdedFrequenciesClosely) {
   const Chain bars = chain(4000, 0);
-  const BuiltSystem built = testing::build_system(bars.mesh, bars.structure);
+  const BuiltSystem built = testing_support::build_system(bars.mesh, bars.structure);
   const double omega = 2 * std::sqrt(young / density);
   const LargestFrequency quick = largest_frequency(built.system, built.mesh, least);
   EXPECT_GT(quick.excess, 0);
@@ -133,7 +133,7 @@ TEST(Lanczos, BoundsCrowdedFrequenciesClosely) {
 /// 1 / r = 1 + 2 d: 0.8 % above the next ones for d = 0.1, and of a few nodes among thousands.
 TEST(Lanczos, FindsOneStiffElementAmongThousands) {
   const Chain bars = chain(4000, 0.1);
-  const BuiltSystem built = testing::build_system(bars.mesh, bars.structure);
+  const BuiltSystem built = testing_support::build_system(bars.mesh, bars.structure);
   const double r = 1 / 1.2;
   const double omega = std::sqrt(young / density * (2 + r + 1 / r));
   for (const EigenvalueEffort& effort : {EigenvalueEffort{}, least}) {
@@ -149,7 +149,7 @@ TEST(Lanczos, FindsOneStiffElementAmongThousands) {
 
 TEST(Lanczos, StableStepOfAnyDampingIsOnTheSafeSideByTheTolerance) {
   const Chain bars = chain(700, 0, 1e-4);
-  const BuiltSystem built = testing::build_system(bars.mesh, bars.structure);
+  const BuiltSystem built = testing_support::build_system(bars.mesh, bars.structure);
   ASSERT_TRUE(built.system.extra_damping);
   const double exact = stability_limit(built.system, built.mesh);
   const double quick = stability_limit(built.system, built.mesh, least);
@@ -173,5 +173,5 @@ TEST(Lanczos, MissesLessWithEveryProduct) {
   EXPECT_NEAR(1.648 * 1000 * std::exp(-std::sqrt(e) * 629) / 1e-9, 1, 1e-9);
 }
 
-}  // namespace
+}  // namespace lanczos_test
 }  // namespace pounding

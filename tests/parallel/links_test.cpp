@@ -8,7 +8,7 @@
 #include "system/trace.h"
 
 namespace pounding {
-namespace {
+namespace links_test {
 
 /// A chain of bars along x, one metre each, nodes 0 .. cells.
 GlobalMesh chain(int cells) {
@@ -44,7 +44,7 @@ Structure ties() {
 
 TEST(Links, ThatShareNodesLiveOnOneRank) {
   constexpr int cells = 9;
-  const auto built = testing::build_system(chain(cells), ties());
+  const auto built = testing_support::build_system(chain(cells), ties());
   ASSERT_TRUE(built.system.links);
   const auto here = static_cast<int>(built.system.links->links().size());
   EXPECT_TRUE(here == 0 || here == cells);
@@ -54,7 +54,7 @@ TEST(Links, ThatShareNodesLiveOnOneRank) {
 }
 
 TEST(Links, MeasureElongationsAlongTheirAxes) {
-  const auto built = testing::build_system(chain(4), ties());
+  const auto built = testing_support::build_system(chain(4), ties());
   const Links& bars = *built.system.links;
   const Mesh& mesh = built.mesh;
   std::vector<double> w(static_cast<std::size_t>(mesh.owned_dofs), 0.0);
@@ -89,5 +89,5 @@ TEST(Links, AreNotMadeForAStructureWithoutThem) {
   EXPECT_FALSE(Links::build(structure, mesh));
 }
 
-}  // namespace
+}  // namespace links_test
 }  // namespace pounding

@@ -9,19 +9,19 @@
 #include "support/built_system.h"
 
 namespace pounding {
-namespace {
+namespace lowest_iteration_test {
 
-using testing::build_system;
-using testing::BuiltSystem;
+using testing_support::build_system;
+using testing_support::BuiltSystem;
 
 GlobalMesh tower(bool clamped) {
-  GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {2, 2.3, 6}, {6, 6, 14});
-  if (clamped) testing::clamp(mesh, "z_min");
+  GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {2, 2.3, 6}, {6, 6, 14});
+  if (clamped) testing_support::clamp(mesh, "z_min");
   return mesh;
 }
 
 BuiltSystem built_tower(bool clamped) {
-  return build_system(tower(clamped), testing::solid_structure("tower", 30e9, 0.2, 2400));
+  return build_system(tower(clamped), testing_support::solid_structure("tower", 30e9, 0.2, 2400));
 }
 
 double dot(MPI_Comm comm, const std::vector<double>& a, const std::vector<double>& b) {
@@ -70,9 +70,10 @@ TEST(LowestIteration, FindsRigidMotionsOfAFreeBody) {
 
 /// A square section: bending modes come in equal pairs, of which none may be missed.
 TEST(LowestIteration, FindsBothOfEqualFrequencies) {
-  GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {1, 1, 6}, {4, 4, 20});
-  testing::clamp(mesh, "z_min");
-  const BuiltSystem built = build_system(mesh, testing::solid_structure("mast", 30e9, 0.2, 2400));
+  GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {1, 1, 6}, {4, 4, 20});
+  testing_support::clamp(mesh, "z_min");
+  const BuiltSystem built =
+      build_system(mesh, testing_support::solid_structure("mast", 30e9, 0.2, 2400));
   const auto modes =
       lowest_modes(built.system, built.mesh, 4, false, SolverChoice::iterative).modes;
   EXPECT_NEAR(modes[1].frequency / modes[0].frequency, 1, 1e-8);
@@ -85,5 +86,5 @@ TEST(LowestIteration, IsNotTakenWhereTheFactorFits) {
   EXPECT_TRUE(must_iterate(built.system, built.system.stiffest_matrix(), SolverChoice::iterative));
 }
 
-}  // namespace
+}  // namespace lowest_iteration_test
 }  // namespace pounding

@@ -8,10 +8,10 @@
 #include "support/dense_damping.h"
 
 namespace pounding {
-namespace {
+namespace matrix_free_test {
 
-using testing::build_system;
-using testing::BuiltSystem;
+using testing_support::build_system;
+using testing_support::BuiltSystem;
 
 /// The structure with products by elements, and with an assembled matrix.
 struct Pair {
@@ -27,14 +27,14 @@ Pair build_pair(const GlobalMesh& mesh, const Structure& structure, bool with_ma
 }
 
 GlobalMesh clamped_block() {
-  GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {2, 1.1, 0.9}, {7, 4, 3});
-  testing::clamp(mesh, "x_min");
+  GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {2, 1.1, 0.9}, {7, 4, 3});
+  testing_support::clamp(mesh, "x_min");
   return mesh;
 }
 
 TEST(MatrixFree, LargestFrequencyIsThatOfTheMatrix) {
   const auto [free, assembled] =
-      build_pair(clamped_block(), testing::solid_structure("block", 30e9, 0.2, 2400));
+      build_pair(clamped_block(), testing_support::solid_structure("block", 30e9, 0.2, 2400));
   EXPECT_EQ(free.system.stiffest_matrix(), nullptr);
   const LargestFrequency found = largest_frequency(free.system, free.mesh);
   const LargestFrequency expected = largest_frequency(assembled.system, assembled.mesh);
@@ -44,7 +44,7 @@ TEST(MatrixFree, LargestFrequencyIsThatOfTheMatrix) {
 
 TEST(MatrixFree, StabilityLimitIsThatOfTheMatrices) {
   for (unsigned seed = 0; seed < 3; ++seed) {
-    const testing::DampedStructure damped = testing::random_structure(seed);
+    const testing_support::DampedStructure damped = testing_support::random_structure(seed);
     const auto [free, assembled] = build_pair(damped.mesh, damped.structure);
     EXPECT_EQ(free.system.stiffest_matrix(), nullptr);
     const double limit = stability_limit(assembled.system, assembled.mesh);
@@ -55,8 +55,9 @@ TEST(MatrixFree, StabilityLimitIsThatOfTheMatrices) {
 }
 
 TEST(MatrixFree, ModesAskForTheMatrixAndGiveItBack) {
-  const auto [free, assembled] = build_pair(
-      clamped_block(), testing::solid_structure("block", 30e9, 0.2, 2400), /*with_matrix=*/true);
+  const auto [free, assembled] =
+      build_pair(clamped_block(), testing_support::solid_structure("block", 30e9, 0.2, 2400),
+                 /*with_matrix=*/true);
   ASSERT_NE(free.system.stiffest_matrix(), nullptr);
   const auto found = lowest_modes(free.system, free.mesh, 6).modes;
   const auto expected = lowest_modes(assembled.system, assembled.mesh, 6).modes;
@@ -83,11 +84,11 @@ double quotient_of(const ScaledOperator& a, const LinearSystem& system, std::vec
 /// A = M^-1/2 (2 K + 3 K) M^-1/2 + 7 I against PETSc's scaled matrix.
 TEST(MatrixFree, ScaledOperatorSumsItsTerms) {
   BuiltSystem built =
-      build_system(clamped_block(), testing::solid_structure("block", 30e9, 0.2, 2400));
+      build_system(clamped_block(), testing_support::solid_structure("block", 30e9, 0.2, 2400));
   const stiffness::Stiffness& stiffness = built.system.stiffest();
   const ScaledOperator found(built.system, {{2, &stiffness}, {3, &stiffness}}, 7);
   const ScaledOperator once(built.system, {{1, &stiffness}});
-  std::vector<double> x = testing::random_field(built.mesh, 3);
+  std::vector<double> x = testing_support::random_field(built.mesh, 3);
   double square = 0;
   for (const double value : x) square += value * value;
   MPI_Allreduce(MPI_IN_PLACE, &square, 1, MPI_DOUBLE, MPI_SUM, built.mesh.comm);
@@ -103,5 +104,5 @@ TEST(MatrixFree, ScaledOperatorSumsItsTerms) {
   EXPECT_NEAR(quotient_of(found, built.system, x) / (5 * quotient + 7 * square), 1, 1e-12);
 }
 
-}  // namespace
+}  // namespace matrix_free_test
 }  // namespace pounding

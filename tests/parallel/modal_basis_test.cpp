@@ -12,19 +12,19 @@
 #include "support/built_system.h"
 
 namespace pounding {
-namespace {
+namespace modal_basis_test {
 
-using testing::build_system;
-using testing::BuiltSystem;
+using testing_support::build_system;
+using testing_support::BuiltSystem;
 
 const Structure& concrete() {
-  static const Structure structure = testing::solid_structure("box", 30e9, 0.2, 2400);
+  static const Structure structure = testing_support::solid_structure("box", 30e9, 0.2, 2400);
   return structure;
 }
 
 GlobalMesh tower(bool clamped, std::array<int, 3> cells = {5, 4, 9}) {
-  GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {2, 2.3, 6}, cells);
-  if (clamped) testing::clamp(mesh, "z_min");
+  GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {2, 2.3, 6}, cells);
+  if (clamped) testing_support::clamp(mesh, "z_min");
   return mesh;
 }
 
@@ -218,16 +218,16 @@ TEST(BlockKrylov, FindsWhatAFullMatrixHas) {
 }
 
 TEST(BlockKrylov, FindsEveryOneOfEqualFrequencies) {
-  GlobalMesh mast = testing::box_mesh({0, 0, 0}, {1, 1, 6}, {3, 3, 14});
-  testing::clamp(mast, "z_min");
+  GlobalMesh mast = testing_support::box_mesh({0, 0, 0}, {1, 1, 6}, {3, 3, 14});
+  testing_support::clamp(mast, "z_min");
   expect_lowest(mast, 25);
-  expect_lowest(testing::box_mesh({0, 0, 0}, {1, 1, 1}, {5, 5, 5}), 30);
+  expect_lowest(testing_support::box_mesh({0, 0, 0}, {1, 1, 1}, {5, 5, 5}), 30);
 }
 
 TEST(BlockKrylov, FindsRigidMotionsBesideFastModes) {
   expect_lowest(tower(false, {4, 3, 8}), 20);
-  expect_lowest(testing::box_mesh({0, 0, 0}, {0.02, 0.015, 0.5}, {3, 2, 30}), 20, 1.3e5);
-  expect_lowest(testing::box_mesh({0, 0, 0}, {0.002, 0.0015, 0.05}, {3, 2, 30}), 60, 1.3e7);
+  expect_lowest(testing_support::box_mesh({0, 0, 0}, {0.02, 0.015, 0.5}, {3, 2, 30}), 20, 1.3e5);
+  expect_lowest(testing_support::box_mesh({0, 0, 0}, {0.002, 0.0015, 0.05}, {3, 2, 30}), 60, 1.3e7);
 }
 
 /// Copies of a mesh beside each other, which nothing joins.
@@ -253,8 +253,8 @@ GlobalMesh copies_of(const GlobalMesh& one, int count) {
 }
 
 TEST(BlockKrylov, FindsMoreEqualFrequenciesThanABlockHasColumns) {
-  GlobalMesh post = testing::box_mesh({0, 0, 0}, {1, 1, 3}, {1, 1, 3});
-  testing::clamp(post, "z_min");
+  GlobalMesh post = testing_support::box_mesh({0, 0, 0}, {1, 1, 3}, {1, 1, 3});
+  testing_support::clamp(post, "z_min");
   expect_lowest(copies_of(post, 23), 50);
   expect_lowest(copies_of(post, 40), 90);
 }
@@ -316,5 +316,5 @@ TEST(BlockKrylov, CutsItsSpaceDownAndGoesOn) {
   }
 }
 
-}  // namespace
+}  // namespace modal_basis_test
 }  // namespace pounding

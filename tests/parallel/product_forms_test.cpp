@@ -10,13 +10,13 @@
 #include "support/named_forms.h"
 
 namespace pounding {
-namespace {
+namespace product_forms_test {
 
-using testing::build_system;
-using testing::BuiltStiffness;
-using testing::difference_to_assembled;
-using testing::FrameMesh;
-using testing::named_forms;
+using testing_support::build_system;
+using testing_support::BuiltStiffness;
+using testing_support::difference_to_assembled;
+using testing_support::FrameMesh;
+using testing_support::named_forms;
 
 constexpr double tolerance = 1e-13;
 
@@ -25,19 +25,20 @@ void expect_same_without_any_form(const GlobalMesh& mesh, const Structure& struc
     auto [distributed, system] = build_system(mesh, structure);
     BuiltStiffness built{std::move(distributed), std::move(system), nullptr};
     built.stiffness = std::make_unique<stiffness::ElementStiffness>(
-        structure, built.mesh, std::move(built.system.stiffness), testing::forms_without(name));
+        structure, built.mesh, std::move(built.system.stiffness),
+        testing_support::forms_without(name));
     EXPECT_LT(difference_to_assembled(built), tolerance) << "without " << name;
   }
 }
 
 TEST(ProductForms, SlabOfBricksOneOfThemTurned) {
-  const Structure concrete = testing::solid_structure("box", 30e9, 0.2, 2400);
+  const Structure concrete = testing_support::solid_structure("box", 30e9, 0.2, 2400);
   for (const bool turned : {false, true}) {
-    GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {3.15, 2.34, 0.22}, {21, 13, 1});
-    testing::clamp(mesh, "x_min");
+    GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {3.15, 2.34, 0.22}, {21, 13, 1});
+    testing_support::clamp(mesh, "x_min");
     for (std::size_t n = 100; n < mesh.free_components.size(); n += 41) mesh.free_components[n] = 2;
     if (turned) {
-      testing::move_nodes(mesh, [](Vector3 x) {
+      testing_support::move_nodes(mesh, [](Vector3 x) {
         return Vector3{0.8 * x[0] - 0.6 * x[1], 0.6 * x[0] + 0.8 * x[1], x[2]};
       });
     }
@@ -46,11 +47,13 @@ TEST(ProductForms, SlabOfBricksOneOfThemTurned) {
 }
 
 TEST(ProductForms, BlocksWithAndWithoutRightAngles) {
-  const Structure concrete = testing::solid_structure("box", 30e9, 0.2, 2400);
+  const Structure concrete = testing_support::solid_structure("box", 30e9, 0.2, 2400);
   for (const double skew : {0.0, 0.3}) {
-    GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {2.5, 1.2, 1.5}, {10, 6, 5});
-    testing::clamp(mesh, "z_min");
-    testing::move_nodes(mesh, [&](Vector3 x) { return Vector3{x[0] + skew * x[1], x[1], x[2]}; });
+    GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {2.5, 1.2, 1.5}, {10, 6, 5});
+    testing_support::clamp(mesh, "z_min");
+    testing_support::move_nodes(mesh, [&](Vector3 x) {
+      return Vector3{x[0] + skew * x[1], x[1], x[2]};
+    });
     expect_same_without_any_form(mesh, concrete);
   }
 }
@@ -65,5 +68,5 @@ TEST(ProductForms, FloorOfShellsOnBeams) {
   expect_same_without_any_form(frame.mesh(), frame.structure());
 }
 
-}  // namespace
+}  // namespace product_forms_test
 }  // namespace pounding

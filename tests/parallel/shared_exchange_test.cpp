@@ -11,7 +11,7 @@
 #include "common/parallel.h"
 
 namespace pounding {
-namespace {
+namespace shared_exchange_test {
 
 /// Keeps this process on one processor, the same on all ranks, while it lives. Collective.
 class OneProcessor {
@@ -71,5 +71,5 @@ TEST(SharedExchange, RanksThatShareAProcessorGiveItToEachOther) {
   EXPECT_EQ(wrong, 0);
 }
 
-}  // namespace
+}  // namespace shared_exchange_test
 }  // namespace pounding

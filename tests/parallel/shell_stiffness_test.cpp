@@ -8,13 +8,13 @@
 #include "support/frame_mesh.h"
 
 namespace pounding {
-namespace {
+namespace shell_stiffness_test {
 
-using testing::build_stiffness;
-using testing::BuiltStiffness;
-using testing::difference_to_assembled;
-using testing::FrameMesh;
-using testing::move_nodes;
+using testing_support::build_stiffness;
+using testing_support::BuiltStiffness;
+using testing_support::difference_to_assembled;
+using testing_support::FrameMesh;
+using testing_support::move_nodes;
 
 constexpr double tolerance = 1e-13;
 
@@ -220,8 +220,8 @@ TEST(ShellStiffness, HandsEveryDofOverOnce) {
   constexpr double beta = 0.37;
   const std::size_t n = built.system.lumped_mass.size();
   for (int repeat = 0; repeat < 2; ++repeat) {
-    std::vector<double> u = testing::random_field(built.mesh, 1);
-    std::vector<double> v = testing::random_field(built.mesh, 2);
+    std::vector<double> u = testing_support::random_field(built.mesh, 1);
+    std::vector<double> v = testing_support::random_field(built.mesh, 2);
     std::vector<double> w(u);
     std::vector<double> expected(n);
     for (std::size_t i = 0; i < n; ++i) w[i] += beta * v[i];
@@ -239,7 +239,7 @@ TEST(ShellStiffness, HandsEveryDofOverOnce) {
 
 TEST(ShellStiffness, IsChosenForShells) {
   FrameMesh frame = floor_on_columns();
-  const auto built = testing::build_system(frame.mesh(), frame.structure());
+  const auto built = testing_support::build_system(frame.mesh(), frame.structure());
   const LinearSystem system =
       build_finite_element_system(frame.structure(), built.mesh, StiffnessMethod::automatic);
   EXPECT_EQ(system.stiffness_method,
@@ -252,7 +252,7 @@ TEST(ShellStiffness, IsChosenForIrregularQuadranglesAndNotForFrames) {
     return Vector3{x[0] + 0.02 * std::sin(7 * x[0] * x[1]), x[1] + 0.02 * std::sin(9 * x[0]), x[2]};
   });
   const auto method = [](FrameMesh& frame, StiffnessMethod asked) {
-    const auto built = testing::build_system(frame.mesh(), frame.structure());
+    const auto built = testing_support::build_system(frame.mesh(), frame.structure());
     return build_finite_element_system(frame.structure(), built.mesh, asked).stiffness_method;
   };
   const std::string general =
@@ -294,5 +294,5 @@ TEST(ShellStiffness, GeneralShapesWithNodesHeldInPart) {
   EXPECT_LT(difference_to_assembled(built), tolerance);
 }
 
-}  // namespace
+}  // namespace shell_stiffness_test
 }  // namespace pounding

@@ -8,12 +8,12 @@
 #include "support/built_system.h"
 
 namespace pounding {
-namespace {
+namespace slivers_test {
 
-using testing::box_mesh;
-using testing::build_system;
-using testing::BuiltSystem;
-using testing::solid_structure;
+using testing_support::box_mesh;
+using testing_support::build_system;
+using testing_support::BuiltSystem;
+using testing_support::solid_structure;
 
 constexpr int layers = 9;
 constexpr int across = 2;
@@ -93,5 +93,5 @@ TEST(Slivers, AreJudgedWithinTheirGroup) {
   EXPECT_EQ(build_system(column(5, 0.001), concrete()).system.slivers.size(), 1u);
 }
 
-}  // namespace
+}  // namespace slivers_test
 }  // namespace pounding

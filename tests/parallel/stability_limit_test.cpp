@@ -10,14 +10,14 @@
 #include "support/dense_damping.h"
 
 namespace pounding {
-namespace {
+namespace stability_limit_test {
 
-using testing::build_system;
-using testing::BuiltSystem;
-using testing::DampedStructure;
-using testing::dense_system;
-using testing::DenseSystem;
-using testing::random_structure;
+using testing_support::build_system;
+using testing_support::BuiltSystem;
+using testing_support::DampedStructure;
+using testing_support::dense_system;
+using testing_support::DenseSystem;
+using testing_support::random_structure;
 
 constexpr unsigned structures = 8;
 
@@ -30,10 +30,11 @@ DampedStructure oscillator(double stiffness, double rate) {
   damped.mesh.coordinates = {0, 0, 0};
   damped.mesh.components = {0x07};
   damped.mesh.free_components = damped.mesh.components;
-  Region& mass = testing::add_region(damped, "mass", ElementType::point_mass, {0});
+  Region& mass = testing_support::add_region(damped, "mass", ElementType::point_mass, {0});
   mass.mass = 8;
   mass.damping = Rayleigh{rate, 0};
-  Region& support = testing::add_region(damped, "support", ElementType::grounded_spring, {0});
+  Region& support =
+      testing_support::add_region(damped, "support", ElementType::grounded_spring, {0});
   support.stiffness = {stiffness};
   support.dashpot = {1e9};
   return damped;
@@ -44,7 +45,7 @@ TEST(StabilityLimit, IsThatOfTheDenseMatrices) {
     const DampedStructure damped = random_structure(seed);
     const BuiltSystem built = build_system(damped.mesh, damped.structure);
     ASSERT_TRUE(built.system.extra_damping);
-    const double expected = testing::dense_stability_limit(dense_system(damped));
+    const double expected = testing_support::dense_stability_limit(dense_system(damped));
     const double limit = stability_limit(built.system, built.mesh);
     EXPECT_NEAR(limit / expected, 1, 1e-9) << seed;
     EXPECT_LE(limit, expected * (1 + 1e-12)) << seed;
@@ -70,7 +71,7 @@ TEST(StabilityLimit, MarginIsThatOfTheDenseMatrices) {
   const double limit = stability_limit(built.system, built.mesh);
   for (const double part : {0.3, 0.9, 0.999, 1.1}) {
     const double margin = smallest_energy_margin(built.system, built.mesh, part * limit);
-    EXPECT_NEAR(margin, 1 - testing::largest_growth(dense, part * limit) / 4, 1e-9) << part;
+    EXPECT_NEAR(margin, 1 - testing_support::largest_growth(dense, part * limit) / 4, 1e-9) << part;
     EXPECT_EQ(margin > 0, part < 1) << part;
   }
 }
@@ -143,5 +144,5 @@ TEST(ExtraDamping, IsWhatTheStructuresAlphaAndBetaDoNotTell) {
   }
 }
 
-}  // namespace
+}  // namespace stability_limit_test
 }  // namespace pounding

@@ -10,14 +10,14 @@
 #include "support/mast.h"
 
 namespace pounding {
-namespace {
+namespace state_test {
 
-using testing::build_mast;
-using testing::Mast;
+using testing_support::build_mast;
+using testing_support::Mast;
 
 TEST(State, StartsWithOneDisplacementAndVelocityOfAllTranslations) {
   const Mast mast = build_mast({0.1, -0.2, 0.3}, {4, 5, 6});
-  const testing::BuiltSystem& built = mast.built;
+  const testing_support::BuiltSystem& built = mast.built;
   const State state({&built.system, 1});
   ASSERT_EQ(state.structures.size(), 1U);
   const StructureState& body = state.structures[0];
@@ -64,5 +64,5 @@ TEST(StateVectors, GivePetscWhatTheStepLeftInTheArrays) {
   }
 }
 
-}  // namespace
+}  // namespace state_test
 }  // namespace pounding

@@ -13,18 +13,19 @@
 #include "system/finite_element_system.h"
 
 namespace pounding {
-namespace {
+namespace system_test {
 
 constexpr double young = 30e9;
 constexpr double density = 2400;
 
-using Built = testing::BuiltSystem;
-using testing::build_system;
+using Built = testing_support::BuiltSystem;
+using testing_support::build_system;
 
 TEST(System, EveryNodeAndElementIsOwnedOnce) {
-  GlobalMesh global = testing::box_mesh({0, 0, 0}, {4, 2, 1}, {8, 4, 2});
-  testing::clamp(global, "x_min");
-  const Built built = build_system(global, testing::solid_structure("box", young, 0.2, density));
+  GlobalMesh global = testing_support::box_mesh({0, 0, 0}, {4, 2, 1}, {8, 4, 2});
+  testing_support::clamp(global, "x_min");
+  const Built built =
+      build_system(global, testing_support::solid_structure("box", young, 0.2, density));
   std::array<long, 4> counts{built.mesh.owned_nodes, built.mesh.owned_dofs, 0, 0};
   for (const ElementBlock& block : built.mesh.blocks) {
     for (const auto counted : block.counted) {
@@ -43,16 +44,17 @@ TEST(System, EveryNodeAndElementIsOwnedOnce) {
 }
 
 TEST(System, MassIsDensityTimesVolume) {
-  GlobalMesh global = testing::box_mesh({0, 0, 0}, {4, 2, 1}, {4, 3, 2});
-  testing::clamp(global, "x_min");
-  const Built built = build_system(global, testing::solid_structure("box", young, 0.2, density));
+  GlobalMesh global = testing_support::box_mesh({0, 0, 0}, {4, 2, 1}, {4, 3, 2});
+  testing_support::clamp(global, "x_min");
+  const Built built =
+      build_system(global, testing_support::solid_structure("box", young, 0.2, density));
   EXPECT_NEAR(built.system.total_mass, density * 8, 1e-8);
 }
 
 /// Force of an affine displacement is zero inside and equals the traction resultant at the ends.
 TEST(System, ProductOfAUniaxialStretchIsTheBarForce) {
-  const GlobalMesh global = testing::box_mesh({0, 0, 0}, {4, 2, 1}, {5, 3, 2});
-  Built built = build_system(global, testing::solid_structure("box", young, 0.0, density));
+  const GlobalMesh global = testing_support::box_mesh({0, 0, 0}, {4, 2, 1}, {5, 3, 2});
+  Built built = build_system(global, testing_support::solid_structure("box", young, 0.0, density));
   std::vector<double> w(built.system.lumped_mass.size(), 0.0);
   std::vector<double> q(w.size(), 0.0);
   for (LocalIndex node = 0; node < built.mesh.owned_nodes; ++node) {
@@ -83,12 +85,13 @@ TEST(System, ProductOfAUniaxialStretchIsTheBarForce) {
 /// A bar of N cubes without Poisson effect, guided sideways: c sin((2j - 1) pi / 4N) / (pi h).
 TEST(System, ModesOfAFixedFreeBarAreTheLumpedClosedForm) {
   constexpr int cells = 12;
-  GlobalMesh global = testing::box_mesh({0, 0, 0}, {6, 0.5, 0.5}, {cells, 1, 1});
-  testing::clamp(global, "x_min");
+  GlobalMesh global = testing_support::box_mesh({0, 0, 0}, {6, 0.5, 0.5}, {cells, 1, 1});
+  testing_support::clamp(global, "x_min");
   for (auto& mask : global.free_components) {
     mask &= 0x01;
   }
-  const Built built = build_system(global, testing::solid_structure("bar", young, 0.0, density));
+  const Built built =
+      build_system(global, testing_support::solid_structure("bar", young, 0.0, density));
   const ModalResult result = lowest_modes(built.system, built.mesh, 3);
   const double speed = std::sqrt(young / density);
   for (int j = 1; j <= 3; ++j) {
@@ -108,8 +111,9 @@ TEST(System, ModesOfAFixedFreeBarAreTheLumpedClosedForm) {
 }
 
 TEST(System, FreeBodyHasSixRigidModes) {
-  const GlobalMesh global = testing::box_mesh({0, 0, 0}, {3, 2.5, 0.22}, {6, 5, 1});
-  const Built built = build_system(global, testing::solid_structure("slab", young, 0.2, density));
+  const GlobalMesh global = testing_support::box_mesh({0, 0, 0}, {3, 2.5, 0.22}, {6, 5, 1});
+  const Built built =
+      build_system(global, testing_support::solid_structure("slab", young, 0.2, density));
   const ModalResult result = lowest_modes(built.system, built.mesh, 8);
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_LT(result.modes[i].frequency, 0.01);
@@ -118,16 +122,16 @@ TEST(System, FreeBodyHasSixRigidModes) {
 }
 
 TEST(System, RefusesAnImpossibleElementOnEveryRank) {
-  GlobalMesh global = testing::box_mesh({0, 0, 0}, {4, 2, 1}, {4, 2, 1});
+  GlobalMesh global = testing_support::box_mesh({0, 0, 0}, {4, 2, 1}, {4, 2, 1});
   std::swap(global.regions[0].connectivity[0], global.regions[0].connectivity[6]);
   const std::string message = testing_support::refusal_of(
-      [&] { build_system(global, testing::solid_structure("box", young, 0.2, density)); });
+      [&] { build_system(global, testing_support::solid_structure("box", young, 0.2, density)); });
   EXPECT_NE(message.find("element 1 of group 'body'"), std::string::npos) << message;
 }
 
 TEST(Partition, LinkedNodesStayOnOneRank) {
-  const std::vector<GlobalMesh> meshes{testing::box_mesh({0, 0, 0}, {8, 2, 1}, {16, 4, 2}),
-                                       testing::box_mesh({8, 0, 0}, {8, 2, 1}, {16, 4, 2})};
+  const std::vector<GlobalMesh> meshes{testing_support::box_mesh({0, 0, 0}, {8, 2, 1}, {16, 4, 2}),
+                                       testing_support::box_mesh({8, 0, 0}, {8, 2, 1}, {16, 4, 2})};
   std::vector<NodeLink> links;
   const auto& left = meshes[0].groups.at("x_max").nodes;
   const auto& right = meshes[1].groups.at("x_min").nodes;
@@ -152,8 +156,8 @@ int owners_of(const std::vector<int>& owner) {
 TEST(Partition, KeepsStructuresWholeWhereSharingCostsMore) {
   for (const int cells : {4, 20}) {
     const std::vector<GlobalMesh> meshes{
-        testing::box_mesh({0, 0, 0}, {4, 2, 1}, {2 * cells, cells, 4}),
-        testing::box_mesh({5, 0, 0}, {2, 2, 1}, {cells, cells, 4})};
+        testing_support::box_mesh({0, 0, 0}, {4, 2, 1}, {2 * cells, cells, 4}),
+        testing_support::box_mesh({5, 0, 0}, {2, 2, 1}, {cells, cells, 4})};
     const auto share = [&](PartitionBy by, int parts) {
       return partition_meshes(meshes, {}, parts, {}, {}, by);
     };
@@ -176,7 +180,7 @@ TEST(Partition, KeepsStructuresWholeWhereSharingCostsMore) {
 }
 
 TEST(Partition, MoreRanksThanElementsLeavesSomeEmpty) {
-  const std::vector<GlobalMesh> meshes{testing::box_mesh({0, 0, 0}, {1, 1, 1}, {2, 1, 1})};
+  const std::vector<GlobalMesh> meshes{testing_support::box_mesh({0, 0, 0}, {1, 1, 1}, {2, 1, 1})};
   const Partition partition = partition_meshes(meshes, {}, 5);
   for (const int owner : partition.node_owner[0]) {
     EXPECT_GE(owner, 0);
@@ -184,5 +188,5 @@ TEST(Partition, MoreRanksThanElementsLeavesSomeEmpty) {
   }
 }
 
-}  // namespace
+}  // namespace system_test
 }  // namespace pounding

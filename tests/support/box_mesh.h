@@ -7,7 +7,7 @@
 #include "mesh/global_mesh.h"
 #include "scene/scene.h"
 
-namespace pounding::testing {
+namespace pounding::testing_support {
 
 /// A brick of nx x ny x nz hexahedra with the groups "body", "x_min", "x_max", ... "z_max".
 inline GlobalMesh box_mesh(Vector3 origin, Vector3 size, std::array<int, 3> cells,
@@ -94,4 +94,4 @@ inline Structure solid_structure(const std::string& name, double young, double p
   return structure;
 }
 
-}  // namespace pounding::testing
+}  // namespace pounding::testing_support

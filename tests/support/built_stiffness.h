@@ -10,7 +10,7 @@
 #include "stiffness/element_stiffness.h"
 #include "support/built_system.h"
 
-namespace pounding::testing {
+namespace pounding::testing_support {
 
 /// A structure with both products.
 struct BuiltStiffness {
@@ -82,4 +82,4 @@ inline void move_nodes(GlobalMesh& mesh, const std::function<Vector3(Vector3)>& 
   }
 }
 
-}  // namespace pounding::testing
+}  // namespace pounding::testing_support

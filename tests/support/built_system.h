@@ -5,7 +5,7 @@
 #include "system/finite_element_system.h"
 #include "system/mass_scaling.h"
 
-namespace pounding::testing {
+namespace pounding::testing_support {
 
 struct BuiltSystem {
   Mesh mesh;
@@ -31,4 +31,4 @@ inline BuiltSystem build_system(const GlobalMesh& global, const Structure& struc
   return build_system(comm, global, structure, partition);
 }
 
-}  // namespace pounding::testing
+}  // namespace pounding::testing_support

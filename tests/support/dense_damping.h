@@ -14,7 +14,7 @@
 #include "unit/elements/dense_eigen.h"
 
 /// Small structures damped differently from region to region, and their dense matrices.
-namespace pounding::testing {
+namespace pounding::testing_support {
 
 struct DampedStructure {
   GlobalMesh mesh;
@@ -92,15 +92,16 @@ struct DenseSystem {
   std::vector<double> damping;    ///< shape (n, n)
 };
 
-struct DenseElement {
+/// Places of the nodes of an element and of its displacements among the free dofs.
+struct PlacedElement {
   std::vector<double> x;          ///< positions of its nodes, one after the other [m]
   std::vector<std::size_t> dofs;  ///< of its displacements; the number of dofs where clamped
 };
 
-inline DenseElement dense_element(const GlobalMesh& mesh, const ElementSet& set, std::size_t e,
-                                  const DenseSystem& dense) {
+inline PlacedElement placed_element(const GlobalMesh& mesh, const ElementSet& set, std::size_t e,
+                                    const DenseSystem& dense) {
   const auto nodes = static_cast<std::size_t>(element_layout(set.type).nodes);
-  DenseElement element;
+  PlacedElement element;
   for (std::size_t a = 0; a < nodes; ++a) {
     const GlobalIndex node = set.connectivity[e * nodes + a];
     const Vector3 position = mesh.position(node);
@@ -134,7 +135,7 @@ inline DenseSystem dense_system(const DampedStructure& damped) {
     const std::size_t size = 3 * static_cast<std::size_t>(element_layout(set.type).nodes);
     for (std::size_t e = 0; e < set.tags.size(); ++e) {
       std::vector<double> k(size * size), m(size);
-      const auto [x, dofs] = dense_element(mesh, set, e, dense);
+      const auto [x, dofs] = placed_element(mesh, set, e, dense);
       element_matrices(set.type, x, element_properties(region), k, m);
       for (std::size_t i = 0; i < size; ++i) {
         if (dofs[i] == n) continue;
@@ -176,4 +177,4 @@ inline double dense_stability_limit(const DenseSystem& dense) {
   return low;
 }
 
-}  // namespace pounding::testing
+}  // namespace pounding::testing_support

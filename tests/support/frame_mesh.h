@@ -9,7 +9,7 @@
 #include "mesh/global_mesh.h"
 #include "scene/scene.h"
 
-namespace pounding::testing {
+namespace pounding::testing_support {
 
 /// A structure of plates and beams that share the nodes at which they meet. Every group is a region
 /// of its own, of concrete.
@@ -96,4 +96,4 @@ class FrameMesh {
   std::int64_t elements_ = 0;
 };
 
-}  // namespace pounding::testing
+}  // namespace pounding::testing_support

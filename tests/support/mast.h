@@ -5,7 +5,7 @@
 #include "support/built_system.h"
 #include "support/dense_damping.h"
 
-namespace pounding::testing {
+namespace pounding::testing_support {
 
 /// A steel tube of five beams along z, clamped at its foot: six components per node.
 struct Mast {
@@ -34,4 +34,4 @@ inline Mast build_mast(const Vector3& displacement, const Vector3& velocity) {
   return {mast.structure, build_system(mast.mesh, mast.structure)};
 }
 
-}  // namespace pounding::testing
+}  // namespace pounding::testing_support

@@ -7,7 +7,7 @@
 
 #include "stiffness/rows/product_forms.h"
 
-namespace pounding::testing {
+namespace pounding::testing_support {
 
 /// A form by its name in ProductForms.
 struct NamedForm {
@@ -43,4 +43,4 @@ inline stiffness::ProductForms forms_without(std::string_view name) {
   return forms;
 }
 
-}  // namespace pounding::testing
+}  // namespace pounding::testing_support

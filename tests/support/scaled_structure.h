@@ -9,7 +9,7 @@
 #include "system/mass_scaling.h"
 
 /// A small structure whose stiff elements have their mass scaled, and its dense mass.
-namespace pounding::testing {
+namespace pounding::testing_support {
 
 /// Bricks on springs with dashpots, and a chain of stiff bars along the lower edges of the body,
 /// all of whose springs and bars, and most of whose bricks, have their mass scaled.
@@ -35,7 +35,7 @@ inline std::vector<double> dense_mass(const DampedStructure& damped, const Dense
     const std::size_t size = 3 * static_cast<std::size_t>(element_layout(set.type).nodes);
     for (std::size_t e = 0; traits_of(set.type).scalable && e < set.tags.size(); ++e) {
       std::vector<double> k(size * size), m(size), added(size * size);
-      const auto [x, dofs] = dense_element(damped.mesh, set, e, dense);
+      const auto [x, dofs] = placed_element(damped.mesh, set, e, dense);
       element_matrices(set.type, x, element_properties(region), k, m);
       add_element_mass(damped.structure.mass_scaling, damped.structure.damping_of(region), k, m,
                        added, 1, holding_part(set.type));
@@ -49,4 +49,4 @@ inline std::vector<double> dense_mass(const DampedStructure& damped, const Dense
   return mass;
 }
 
-}  // namespace pounding::testing
+}  // namespace pounding::testing_support

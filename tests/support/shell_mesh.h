@@ -7,7 +7,7 @@
 #include "mesh/global_mesh.h"
 #include "scene/scene.h"
 
-namespace pounding::testing {
+namespace pounding::testing_support {
 
 /// Shells of quadrangles put together side by side: common points are common nodes.
 class ShellMesh {
@@ -83,4 +83,4 @@ inline Structure shell_structure(const std::string& name, const std::vector<doub
   return structure;
 }
 
-}  // namespace pounding::testing
+}  // namespace pounding::testing_support

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace crowded_node_test {
 
 constexpr const char* yields = "OMPI_MCA_mpi_yield_when_idle";
 
@@ -97,5 +97,5 @@ TEST_F(CrowdedNode, LeavesTheUserTheChoice) {
   EXPECT_EQ(seen_by_a_rank("2", first_of(all_processors()), "0").choice, "0");
 }
 
-}  // namespace
+}  // namespace crowded_node_test
 }  // namespace pounding

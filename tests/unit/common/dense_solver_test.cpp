@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace dense_solver_test {
 
 TEST(DenseSolver, InvertsDefiniteMatrices) {
   std::mt19937 random(3);
@@ -39,5 +39,5 @@ TEST(DenseSolver, SaysThatAMatrixIsNotDefinite) {
   EXPECT_FALSE(invert_definite(matrix));
 }
 
-}  // namespace
+}  // namespace dense_solver_test
 }  // namespace pounding

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace disjoint_sets_test {
 
 TEST(DisjointSets, BeginAsOneSetForEachNumber) {
   DisjointSets sets(3);
@@ -27,5 +27,5 @@ TEST(DisjointSets, AreNamedByTheirSmallestMemberHoweverTheyWereJoined) {
   }
 }
 
-}  // namespace
+}  // namespace disjoint_sets_test
 }  // namespace pounding

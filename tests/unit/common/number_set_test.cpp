@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace number_set_test {
 
 TEST(NumberSet, IsAnOrderedSet) {
   NumberSet set;
@@ -44,5 +44,5 @@ TEST(NumberSet, EmptyHasNoNumbers) {
   EXPECT_EQ(set.place(0), -1);
 }
 
-}  // namespace
+}  // namespace number_set_test
 }  // namespace pounding

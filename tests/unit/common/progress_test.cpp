@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace progress_test {
 
 struct Close {
   void operator()(std::FILE* file) const { std::fclose(file); }
@@ -58,5 +58,5 @@ TEST(Progress, NeedsNoWordFromThePhase) {
   EXPECT_EQ(lines.front().find("  a: modes: 0.0 s"), 0u) << lines.front();
 }
 
-}  // namespace
+}  // namespace progress_test
 }  // namespace pounding

@@ -9,7 +9,7 @@
 #include "support/refusal.h"
 
 namespace pounding {
-namespace {
+namespace saved_state_test {
 
 TEST(SavedState, GivesBackWhatWasPut) {
   SavedState saved("here");
@@ -51,5 +51,5 @@ TEST(SavedState, KnowsWhetherDofsAreFinite) {
   EXPECT_FALSE(saved.dofs_are_finite());
 }
 
-}  // namespace
+}  // namespace saved_state_test
 }  // namespace pounding

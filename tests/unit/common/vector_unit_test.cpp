@@ -7,7 +7,7 @@
 #include "common/error.h"
 
 namespace pounding {
-namespace {
+namespace vector_unit_test {
 
 /// Puts back the unit that was in use.
 class VectorUnit : public testing::Test {
@@ -40,5 +40,5 @@ TEST_F(VectorUnit, AnotherIsRefusedByName) {
   EXPECT_EQ(vector_unit(), before_);
 }
 
-}  // namespace
+}  // namespace vector_unit_test
 }  // namespace pounding

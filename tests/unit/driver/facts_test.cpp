@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace facts_test {
 
 const Json body{
     {"mass", 1234.56}, {"place", {1.0, 2.5, -3.0}}, {"gap", {0.001, 0.002}}, {"none", 0}};
@@ -59,5 +59,5 @@ TEST(Facts, NothingIsNullEmptyOrZero) {
   EXPECT_EQ(kept.dump(), R"({"f":[0,1]})");
 }
 
-}  // namespace
+}  // namespace facts_test
 }  // namespace pounding

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace run_progress_test {
 
 TEST(RunProgress, DurationsAreInWords) {
   EXPECT_EQ(duration_text(0), "0 s");
@@ -62,5 +62,5 @@ TEST(RunProgress, TerminalsGetOneLine) {
   EXPECT_EQ(text.size(), 2u * 80);  // no terminal: 80 columns, of which the last stays free
 }
 
-}  // namespace
+}  // namespace run_progress_test
 }  // namespace pounding

@@ -10,7 +10,7 @@
 #include "driver/warnings.h"
 
 namespace pounding {
-namespace {
+namespace watchdog_test {
 
 EnergyLine taken(double damping, double devices, double bars) {
   EnergyLine line;
@@ -135,5 +135,5 @@ TEST(Warnings, DoubtDisplacementsAboveATwentiethOfTheModel) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace watchdog_test
 }  // namespace pounding

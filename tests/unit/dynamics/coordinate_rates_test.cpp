@@ -8,7 +8,7 @@
 #include "stiffness/diagonal_stiffness.h"
 
 namespace pounding {
-namespace {
+namespace coordinate_rates_test {
 
 constexpr double time_step = 1e-3;
 constexpr double peak = 5;  // m/s2
@@ -161,5 +161,5 @@ TEST(CoordinateRates, LetTheWatchWaitWithoutEnergies) {
   EXPECT_FALSE(watch.due(next + 2));
 }
 
-}  // namespace
+}  // namespace coordinate_rates_test
 }  // namespace pounding

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace energy_balance_test {
 
 /// The largest residual of the run over the largest term, both of any line.
 TEST(EnergyBalance, RemembersTheLargestResidualAndTheLargestTerm) {
@@ -92,5 +92,5 @@ TEST(EnergyBalance, ShowsAStiffnessThatIsNotSymmetric) {
   EXPECT_GT(std::abs(masses.line_after(20).residual), 1e-10);
 }
 
-}  // namespace
+}  // namespace energy_balance_test
 }  // namespace pounding

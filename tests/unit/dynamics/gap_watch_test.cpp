@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace gap_watch_test {
 
 constexpr double time_step = 1e-3;
 constexpr double energy = 8;      // J
@@ -68,5 +68,5 @@ TEST(GapWatch, LooksAtEveryStepWhereTheEnergyIsNoBound) {
   EXPECT_EQ(next_look(std::numeric_limits<double>::infinity()), 2);
 }
 
-}  // namespace
+}  // namespace gap_watch_test
 }  // namespace pounding

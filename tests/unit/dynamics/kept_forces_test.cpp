@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace kept_forces_test {
 
 /// A force of its own at every dof.
 std::vector<double> numbered(std::size_t count) {
@@ -77,5 +77,5 @@ TEST(KeptForces, FiltersForcesOfInelasticElementsAsWell) {
   EXPECT_DOUBLE_EQ(kept.at(2).acting, 1.5 * (102 + 3) - 0.25 * 8 - 3);
 }
 
-}  // namespace
+}  // namespace kept_forces_test
 }  // namespace pounding

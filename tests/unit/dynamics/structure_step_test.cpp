@@ -8,7 +8,7 @@
 #include "stiffness/diagonal_stiffness.h"
 
 namespace pounding {
-namespace {
+namespace structure_step_test {
 
 constexpr double time_step = 1e-3;
 constexpr double round_off = 4e-15;
@@ -411,5 +411,5 @@ TEST(DampedDofs, AreThoseWithARowOfTheExtraDamping) {
   EXPECT_EQ(dofs_of_extra_forces(nodes_in_a_row({Kind::lone})), std::vector<char>{0});
 }
 
-}  // namespace
+}  // namespace structure_step_test
 }  // namespace pounding

@@ -11,7 +11,7 @@
 #include "dense_model.h"
 
 namespace pounding {
-namespace {
+namespace bar2_test {
 
 using testing_support::dense_element;
 using testing_support::DenseModel;
@@ -109,5 +109,5 @@ TEST(Bar2, ZeroLengthIsRefused) {
   EXPECT_NO_THROW(dense_element(ElementType::bar, {0, 0, 0, 0, 0, 1e-9}, concrete_bar()));
 }
 
-}  // namespace
+}  // namespace bar2_test
 }  // namespace pounding

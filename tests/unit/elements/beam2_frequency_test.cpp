@@ -9,7 +9,7 @@
 #include "dense_model.h"
 
 namespace pounding {
-namespace {
+namespace beam2_frequency_test {
 
 using testing_support::DenseModel;
 
@@ -174,5 +174,5 @@ TEST(Beam2Frequency, PortalFirstFrequencyWithOurMasses) {
   EXPECT_LT(portal(16, true).frequencies()[0], 17.378);
 }
 
-}  // namespace
+}  // namespace beam2_frequency_test
 }  // namespace pounding

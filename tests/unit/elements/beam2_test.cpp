@@ -12,7 +12,7 @@
 #include "elements/element.h"
 
 namespace pounding {
-namespace {
+namespace beam2_test {
 
 using testing_support::dense_element;
 using testing_support::DenseModel;
@@ -256,5 +256,5 @@ TEST(Beam2, ImpossibleBeamsAreRefused) {
   EXPECT_NO_THROW(dense_element(ElementType::euler_beam, {0, 0, 0, 0, 0, 2}, hea160({1e-5, 0, 1})));
 }
 
-}  // namespace
+}  // namespace beam2_test
 }  // namespace pounding

@@ -10,7 +10,7 @@
 #include "dense_model.h"
 
 namespace pounding {
-namespace {
+namespace element_test {
 
 using testing_support::dense_element;
 using testing_support::DenseElement;
@@ -222,5 +222,5 @@ TEST(Element, WrongShapesAreRefused) {
   EXPECT_THROW(element_lumped_mass(ElementType::bar, long_x, steel(), m), std::logic_error);
 }
 
-}  // namespace
+}  // namespace element_test
 }  // namespace pounding

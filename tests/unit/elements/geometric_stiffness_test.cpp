@@ -9,7 +9,7 @@
 #include "elements/element.h"
 
 namespace pounding {
-namespace {
+namespace geometric_stiffness_test {
 
 constexpr double force = 7;
 
@@ -137,5 +137,5 @@ TEST(GeometricStiffness, AColumnFlexibleInShearBucklesAtEngessersLoad) {
   EXPECT_FALSE(stands(1.0005 * expected));
 }
 
-}  // namespace
+}  // namespace geometric_stiffness_test
 }  // namespace pounding

@@ -7,7 +7,7 @@
 #include "brick_mesh.h"
 
 namespace pounding {
-namespace {
+namespace hex8_cantilever_test {
 
 using testing_support::brick_cantilever;
 using testing_support::BrickCantilever;
@@ -100,5 +100,5 @@ TEST(Hex8Cantilever, ConcreteCantileverFrequencies) {
   }
 }
 
-}  // namespace
+}  // namespace hex8_cantilever_test
 }  // namespace pounding

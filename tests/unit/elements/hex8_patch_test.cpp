@@ -8,7 +8,7 @@
 #include "dense_model.h"
 
 namespace pounding {
-namespace {
+namespace hex8_patch_test {
 
 using testing_support::DenseModel;
 
@@ -89,5 +89,5 @@ TEST(Hex8Patch, MassIsTheRowSumOfEachNode) {
   EXPECT_NEAR(total, 1, 1e-14);
 }
 
-}  // namespace
+}  // namespace hex8_patch_test
 }  // namespace pounding

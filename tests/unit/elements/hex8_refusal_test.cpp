@@ -10,7 +10,7 @@
 #include "solid_refusal.h"
 
 namespace pounding {
-namespace {
+namespace hex8_refusal_test {
 
 using testing_support::box;
 using testing_support::concrete;
@@ -83,5 +83,5 @@ TEST(Hex8Refusal, IncompressibleMaterialIsRefusedNotNaN) {
   EXPECT_THROW(dense_element(ElementType::hex8, box(1, 1, 1), p), ElementError);
 }
 
-}  // namespace
+}  // namespace hex8_refusal_test
 }  // namespace pounding

@@ -9,7 +9,7 @@
 #include "brick_mesh.h"
 
 namespace pounding {
-namespace {
+namespace hex8_test {
 
 using testing_support::box;
 using testing_support::dense_element;
@@ -183,5 +183,5 @@ TEST(Hex8, MassIsTheShareOfVolume) {
   }
 }
 
-}  // namespace
+}  // namespace hex8_test
 }  // namespace pounding

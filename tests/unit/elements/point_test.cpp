@@ -5,7 +5,7 @@
 #include "elements/element.h"
 
 namespace pounding {
-namespace {
+namespace point_test {
 
 TEST(Point, MassOnDisplacementsAndInertiaOnRotations) {
   ElementProperties properties{.mass = 12, .rotary_inertia = {1, 2, 3}};
@@ -138,5 +138,5 @@ TEST(Soil, MixedMotionsAreCoupled) {
   }
 }
 
-}  // namespace
+}  // namespace point_test
 }  // namespace pounding

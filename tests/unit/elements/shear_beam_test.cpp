@@ -10,7 +10,7 @@
 #include "elements/beam2.h"
 
 namespace pounding {
-namespace {
+namespace shear_beam_test {
 
 using testing_support::dense_element;
 using testing_support::DenseModel;
@@ -266,5 +266,5 @@ TEST(ShearBeam, ModesThatCountFallByAThousandthAtMost) {
   EXPECT_LT(with.back(), 0.99 * without.back());
 }
 
-}  // namespace
+}  // namespace shear_beam_test
 }  // namespace pounding

@@ -10,7 +10,7 @@
 #include "turned_shell.h"
 
 namespace pounding {
-namespace {
+namespace shell3_test {
 
 using testing_support::Cells;
 using testing_support::dense_shell;
@@ -143,5 +143,5 @@ TEST(Shell3, ImpossibleTrianglesAreRefused) {
   refused(oblique, 0, "thickness 0 m is not positive");
 }
 
-}  // namespace
+}  // namespace shell3_test
 }  // namespace pounding

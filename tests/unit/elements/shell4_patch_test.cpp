@@ -8,7 +8,7 @@
 #include "shell_model.h"
 
 namespace pounding {
-namespace {
+namespace shell4_patch_test {
 
 using testing_support::inner;
 using testing_support::ShellModel;
@@ -105,5 +105,5 @@ TEST(Shell4Patch, MassIsTheAreaTimesTheThickness) {
   }
 }
 
-}  // namespace
+}  // namespace shell4_patch_test
 }  // namespace pounding

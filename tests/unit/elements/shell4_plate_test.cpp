@@ -7,7 +7,7 @@
 #include "shell_model.h"
 
 namespace pounding {
-namespace {
+namespace shell4_plate_test {
 
 using testing_support::Cells;
 using testing_support::ShellModel;
@@ -132,5 +132,5 @@ TEST(Shell4Plate, VeryThinPlateDoesNotLock) {
   EXPECT_NEAR(model.solve(load)[6 * centre + 2] / 4.062352660673776, 1, 0.006);
 }
 
-}  // namespace
+}  // namespace shell4_plate_test
 }  // namespace pounding

@@ -8,7 +8,7 @@
 #include "shell_model.h"
 
 namespace pounding {
-namespace {
+namespace shell4_refusal_test {
 
 using testing_support::dense_shell;
 
@@ -73,5 +73,5 @@ TEST(Shell4Refusal, WarpIsAcceptedUpToATenthOfTheSize) {
   expect_refused(x, "warped: its nodes are 0.1");
 }
 
-}  // namespace
+}  // namespace shell4_refusal_test
 }  // namespace pounding

@@ -9,7 +9,7 @@
 #include "turned_shell.h"
 
 namespace pounding {
-namespace {
+namespace shell4_test {
 
 using testing_support::dense_shell;
 using testing_support::inner;
@@ -163,5 +163,5 @@ TEST(Shell4, ResistsShearAcrossItsThickness) {
   EXPECT_NEAR(0.5 * inner(u, force) / (0.5 * 5.0 / 6 * 12.5e9 * 0.22 * g * g * area), 1, 1e-12);
 }
 
-}  // namespace
+}  // namespace shell4_test
 }  // namespace pounding

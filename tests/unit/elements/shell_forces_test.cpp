@@ -12,7 +12,7 @@
 #include "turned_shell.h"
 
 namespace pounding {
-namespace {
+namespace shell_forces_test {
 
 using testing_support::dense_shell;
 using testing_support::inner;
@@ -198,5 +198,5 @@ TEST(ShellForces, RefuseAnElementThatCannotBe) {
   EXPECT_THROW(rows_of(flat), ElementError);
 }
 
-}  // namespace
+}  // namespace shell_forces_test
 }  // namespace pounding

@@ -11,7 +11,7 @@
 #include "solid_refusal.h"
 
 namespace pounding {
-namespace {
+namespace tet4_test {
 
 using testing_support::concrete;
 using testing_support::cut_cell;
@@ -85,5 +85,5 @@ TEST(Tet4, CantileverConvergesFromAbove) {
   EXPECT_GT(std::log(errors[1] / errors[2]) / std::log(1.5), 1.5) << errors[1] << ' ' << errors[2];
 }
 
-}  // namespace
+}  // namespace tet4_test
 }  // namespace pounding

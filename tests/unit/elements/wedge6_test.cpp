@@ -11,7 +11,7 @@
 #include "solid_refusal.h"
 
 namespace pounding {
-namespace {
+namespace wedge6_test {
 
 using testing_support::concrete;
 using testing_support::cut_cell;
@@ -98,5 +98,5 @@ TEST(Wedge6, CantileverConvergesWithTheSquareOfTheMesh) {
   EXPECT_NEAR(std::log2(errors[1] / errors[2]), 2, 0.2) << errors[1] << ' ' << errors[2];
 }
 
-}  // namespace
+}  // namespace wedge6_test
 }  // namespace pounding

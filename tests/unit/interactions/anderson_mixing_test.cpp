@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding::interactions {
-namespace {
+namespace anderson_mixing_test {
 
 /// x <- x + (b - A x) / 2 with A = diag(1, ..., 1/64): the slowest part falls by 1 / 128 a step.
 std::vector<double> image_of(const std::vector<double>& x) {
@@ -55,5 +55,5 @@ TEST(AndersonMixing, ForgetsStepsThatDoNotTell) {
   EXPECT_EQ(x, image);
 }
 
-}  // namespace
+}  // namespace anderson_mixing_test
 }  // namespace pounding::interactions

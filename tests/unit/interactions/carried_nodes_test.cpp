@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding::interactions {
-namespace {
+namespace carried_nodes_test {
 
 using Flags = std::vector<char>;
 
@@ -48,5 +48,5 @@ TEST(CarriedNodes, FollowNodesThatFaceSomething) {
   EXPECT_EQ(scene.carried({0, 1, 2, 3, 4, 5}, {1, 0, 1, 1, 1, 1}), (Flags{0, 0, 0, 0, 1, 1}));
 }
 
-}  // namespace
+}  // namespace carried_nodes_test
 }  // namespace pounding::interactions

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding::interactions {
-namespace {
+namespace contact_components_test {
 
 using Groups = std::vector<std::vector<int>>;
 
@@ -46,5 +46,5 @@ TEST(ContactComponents, ADofOutOfRangeIsRefused) {
   EXPECT_THROW(coupled_components(Groups{{-1}}, 3), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace contact_components_test
 }  // namespace pounding::interactions

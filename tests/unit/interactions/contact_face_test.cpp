@@ -9,14 +9,14 @@
 #include "support/shell_mesh.h"
 
 namespace pounding::interactions {
-namespace {
+namespace contact_face_test {
 
 constexpr double thickness = 0.2;
 
 /// A wall in the plane x, from y = 0 to 2 and z = 0 to 1, of two quadrangles in the group "face".
 /// `turned`: the second has its nodes the other way round.
 GlobalMesh wall(double x, bool turned = false) {
-  testing::ShellMesh mesh;
+  testing_support::ShellMesh mesh;
   mesh.add_shell(0, {{{x, 0, 0}, {x, 1, 0}, {x, 1, 1}, {x, 0, 1}}}, "face");
   std::array<Vector3, 4> second{{{x, 1, 0}, {x, 2, 0}, {x, 2, 1}, {x, 1, 1}}};
   if (turned) {
@@ -29,7 +29,7 @@ GlobalMesh wall(double x, bool turned = false) {
 /// Where a floor from x to x + length (negative: to smaller x) meets walls of the other thickness
 /// `above` and `below` it, at z = 1; the group "face" is their common edge.
 GlobalMesh floor_at_wall(double x, double length, bool above, bool below) {
-  testing::ShellMesh mesh;
+  testing_support::ShellMesh mesh;
   const Vector3 a{x, 0, 1};
   const Vector3 b{x, 1, 1};
   mesh.add_shell(0, {{a, b, {x + length, 1, 1}, {x + length, 0, 1}}});
@@ -55,8 +55,8 @@ Scene scene_of(std::vector<Structure> structures, const std::string& secondary =
 }
 
 Scene two_walls(double second = thickness) {
-  return scene_of(
-      {testing::shell_structure("left", {thickness}), testing::shell_structure("right", {second})});
+  return scene_of({testing_support::shell_structure("left", {thickness}),
+                   testing_support::shell_structure("right", {second})});
 }
 
 /// The one gap of all pairs, which push along +x.
@@ -90,11 +90,11 @@ TEST(ContactFace, GapThatTheUserGivesIsAsGivenWhateverTheThickness) {
 }
 
 TEST(ContactFace, WallBesideASolidLosesItsOwnHalfOnly) {
-  const Scene scene = scene_of(
-      {testing::shell_structure("left", {thickness}), testing::solid_structure("right", 1, 0, 1)},
-      "face", "x_min");
-  const std::vector<GlobalMesh> meshes{wall(0),
-                                       testing::box_mesh({0.25, 0, 0}, {1, 2, 1}, {1, 2, 1})};
+  const Scene scene = scene_of({testing_support::shell_structure("left", {thickness}),
+                                testing_support::solid_structure("right", 1, 0, 1)},
+                               "face", "x_min");
+  const std::vector<GlobalMesh> meshes{
+      wall(0), testing_support::box_mesh({0.25, 0, 0}, {1, 2, 1}, {1, 2, 1})};
   EXPECT_NEAR(common_gap(find_interface(scene, meshes)), 0.15, 1e-15);
 }
 
@@ -112,8 +112,8 @@ TEST(ContactFace, ShellsOfOneFaceLookToOneSideInWhateverOrderTheirNodesAre) {
 
 TEST(ContactFace, FloorEdgeAtAWallLooksAwayFromTheFloor) {
   // Whatever the order in the mesh, with walls above and below, or at the roof with one below.
-  const Scene scene = scene_of({testing::shell_structure("left", {0.3, thickness}),
-                                testing::shell_structure("right", {0.3, thickness})});
+  const Scene scene = scene_of({testing_support::shell_structure("left", {0.3, thickness}),
+                                testing_support::shell_structure("right", {0.3, thickness})});
   for (const bool left_above : {true, false}) {
     for (const bool right_above : {true, false}) {
       const std::vector<GlobalMesh> meshes{floor_at_wall(0, -3, left_above, true),
@@ -127,9 +127,9 @@ TEST(ContactFace, FloorEdgeAtAWallLooksAwayFromTheFloor) {
 }
 
 TEST(ContactFace, FloorEdgeAtAWallMeetsAFloorAloneAndAWallAlone) {
-  const Scene scene = scene_of({testing::shell_structure("left", {0.3, thickness}),
-                                testing::shell_structure("right", {thickness})});
-  testing::ShellMesh lone;
+  const Scene scene = scene_of({testing_support::shell_structure("left", {0.3, thickness}),
+                                testing_support::shell_structure("right", {thickness})});
+  testing_support::ShellMesh lone;
   lone.add_shell(0, {{{0.25, 0, 1}, {0.25, 1, 1}, {3, 1, 1}, {3, 0, 1}}});
   lone.add_facet("face", std::array<Vector3, 2>{{{0.25, 0, 1}, {0.25, 1, 1}}});
   const GlobalMesh roof = floor_at_wall(0, -3, false, true);
@@ -138,8 +138,8 @@ TEST(ContactFace, FloorEdgeAtAWallMeetsAFloorAloneAndAWallAlone) {
 }
 
 TEST(ContactFace, FloorEdgeAtAWallBesideARigidWallMustBePlain) {
-  Scene scene = scene_of({testing::shell_structure("left", {0.3, thickness}),
-                          testing::shell_structure("right", {0.3, thickness})});
+  Scene scene = scene_of({testing_support::shell_structure("left", {0.3, thickness}),
+                          testing_support::shell_structure("right", {0.3, thickness})});
   scene.contacts[0].primary = {"wall", ""};
   scene.contacts[0].gap.values = {0.01};
   const GlobalMesh other = floor_at_wall(1, 3, true, true);
@@ -153,8 +153,8 @@ TEST(ContactFace, FloorEdgeAtAWallBesideARigidWallMustBePlain) {
 /// A trough of three boxes around y = 0, open above: the group "face" is what looks inside, walls
 /// at x = -0.15 and `ahead`.
 GlobalMesh trough(double ahead) {
-  GlobalMesh mesh = testing::box_mesh({-1.15, 0, -1}, {1, 1, 3}, {1, 1, 3});
-  const GlobalMesh other = testing::box_mesh({ahead, 0, -2}, {1, 1, 4}, {1, 1, 4});
+  GlobalMesh mesh = testing_support::box_mesh({-1.15, 0, -1}, {1, 1, 3}, {1, 1, 3});
+  const GlobalMesh other = testing_support::box_mesh({ahead, 0, -2}, {1, 1, 4}, {1, 1, 4});
   const auto first = mesh.node_count();
   const auto shifted = [&](GlobalIndex node) { return node + first; };
   mesh.coordinates.insert(mesh.coordinates.end(), other.coordinates.begin(),
@@ -183,11 +183,11 @@ GlobalMesh trough(double ahead) {
 
 TEST(ContactFace, WallAheadIsMetAndNotTheNearerOneBehind) {
   // A body 0.1 m wide in a trough: its face has one wall 0.15 m behind and one 0.2 m ahead.
-  Scene scene = scene_of(
-      {testing::solid_structure("left", 1, 0, 1), testing::solid_structure("right", 1, 0, 1)},
-      "x_max", "face");
-  const std::vector<GlobalMesh> meshes{testing::box_mesh({-0.1, 0, 0}, {0.1, 1, 1}, {1, 1, 1}),
-                                       trough(0.2)};
+  Scene scene = scene_of({testing_support::solid_structure("left", 1, 0, 1),
+                          testing_support::solid_structure("right", 1, 0, 1)},
+                         "x_max", "face");
+  const std::vector<GlobalMesh> meshes{
+      testing_support::box_mesh({-0.1, 0, 0}, {0.1, 1, 1}, {1, 1, 1}), trough(0.2)};
   // The longer wall decides where the whole looks.
   const Interface interface = find_interface(scene, meshes);
   ASSERT_EQ(interface.constraints.size(), 4u);
@@ -195,21 +195,22 @@ TEST(ContactFace, WallAheadIsMetAndNotTheNearerOneBehind) {
 }
 
 TEST(ContactFace, FacesThatLookAwayFromEachOtherAreRefusedWithTheDistance) {
-  Scene scene = scene_of(
-      {testing::solid_structure("left", 1, 0, 1), testing::solid_structure("right", 1, 0, 1)},
-      "x_min", "x_max");
-  const std::vector<GlobalMesh> meshes{testing::box_mesh({0, 0, 0}, {3, 1, 1}, {3, 1, 1}),
-                                       testing::box_mesh({3.05, 0, 0}, {3, 1, 1}, {3, 1, 1})};
+  Scene scene = scene_of({testing_support::solid_structure("left", 1, 0, 1),
+                          testing_support::solid_structure("right", 1, 0, 1)},
+                         "x_min", "x_max");
+  const std::vector<GlobalMesh> meshes{
+      testing_support::box_mesh({0, 0, 0}, {3, 1, 1}, {3, 1, 1}),
+      testing_support::box_mesh({3.05, 0, 0}, {3, 1, 1}, {3, 1, 1})};
   EXPECT_NE(
       testing_support::refusal_of([&] { find_interface(scene, meshes); }).find("by up to 6.05 m"),
       std::string::npos);
 }
 
 TEST(ContactFace, FacetInsideABodyIsCounted) {
-  Scene scene = scene_of(
-      {testing::solid_structure("left", 1, 0, 1), testing::solid_structure("right", 1, 0, 1)},
-      "inner", "x_min");
-  GlobalMesh left = testing::box_mesh({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
+  Scene scene = scene_of({testing_support::solid_structure("left", 1, 0, 1),
+                          testing_support::solid_structure("right", 1, 0, 1)},
+                         "inner", "x_min");
+  GlobalMesh left = testing_support::box_mesh({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
   Facet facet;
   facet.count = 4;
   for (GlobalIndex n = 0, k = 0; n < left.node_count(); ++n) {
@@ -219,12 +220,13 @@ TEST(ContactFace, FacetInsideABodyIsCounted) {
   }
   std::swap(facet.nodes[2], facet.nodes[3]);
   left.groups["inner"] = {{facet.corners().begin(), facet.corners().end()}, {facet}};
-  const std::vector<GlobalMesh> meshes{left, testing::box_mesh({2.1, 0, 0}, {1, 1, 1}, {1, 1, 1})};
+  const std::vector<GlobalMesh> meshes{
+      left, testing_support::box_mesh({2.1, 0, 0}, {1, 1, 1}, {1, 1, 1})};
   const Interface interface = find_interface(scene, meshes);
   EXPECT_EQ(interface.reports[0].inner_facets, 1);
   ASSERT_EQ(interface.warnings.size(), 1u);
   EXPECT_NE(interface.warnings[0].find("1 facets have elements on both"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace contact_face_test
 }  // namespace pounding::interactions

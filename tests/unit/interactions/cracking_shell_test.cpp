@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding::interactions {
-namespace {
+namespace cracking_shell_test {
 
 using Damage = CrackingShell::Damage;
 
@@ -161,5 +161,5 @@ TEST(CrackingLaw, NeverGivesEnergyWhateverTheStepsAre) {
   }
 }
 
-}  // namespace
+}  // namespace cracking_shell_test
 }  // namespace pounding::interactions

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding::interactions {
-namespace {
+namespace crossing_test {
 
 GlobalMesh two_points(const Vector3& a, const Vector3& b) {
   GlobalMesh mesh;
@@ -45,5 +45,5 @@ TEST(Crossing, SnapsToEnds) {
   EXPECT_EQ(found->second, 1);
 }
 
-}  // namespace
+}  // namespace crossing_test
 }  // namespace pounding::interactions

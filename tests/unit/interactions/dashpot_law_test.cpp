@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding::interactions {
-namespace {
+namespace dashpot_law_test {
 
 TEST(DashpotLaw, PullsByTheMeanOfTheRatesBeforeAndAfter) {
   constexpr double c = 30;
@@ -38,5 +38,5 @@ TEST(DashpotLaw, NeverMakesAMassFaster) {
   }
 }
 
-}  // namespace
+}  // namespace dashpot_law_test
 }  // namespace pounding::interactions

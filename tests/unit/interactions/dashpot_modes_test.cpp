@@ -7,7 +7,7 @@
 #include "common/dense_solver.h"
 
 namespace pounding::interactions {
-namespace {
+namespace dashpot_modes_test {
 
 /// Seven coordinates of different masses with dashpots of very different strengths between them.
 struct Braked {
@@ -94,5 +94,5 @@ TEST(DashpotModes, LeaveAloneWhatTheyDoNotHold) {
   for (std::size_t i = 1; i < Braked::size; ++i) EXPECT_NEAR(velocity[i], braked.free[i], 1e-15);
 }
 
-}  // namespace
+}  // namespace dashpot_modes_test
 }  // namespace pounding::interactions

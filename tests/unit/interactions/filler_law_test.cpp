@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding::interactions {
-namespace {
+namespace filler_law_test {
 
 constexpr double thickness = 0.1;  // m
 constexpr double area = 2;         // m2
@@ -131,5 +131,5 @@ TEST(FillerLaw, NoEnergyGrowsBelowTheStepOfItsUnloadingSlope) {
   }
 }
 
-}  // namespace
+}  // namespace filler_law_test
 }  // namespace pounding::interactions

@@ -11,7 +11,7 @@
 #include "support/full_rows.h"
 
 namespace pounding::interactions {
-namespace {
+namespace friction_solver_test {
 
 /// Points on bodies with so many motions: H = J J^T, singular when there are fewer than rows.
 struct Example {
@@ -338,5 +338,5 @@ TEST(FrictionSolver, SolvesPilesThatAreThrownAbout) {
   }
 }
 
-}  // namespace
+}  // namespace friction_solver_test
 }  // namespace pounding::interactions

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding::interactions {
-namespace {
+namespace gap_field_test {
 
 Contact joint(double deviation, double length, int seed, const std::string& name = "floor") {
   Contact contact;
@@ -91,5 +91,5 @@ TEST(GapField, CovarianceFallsWithTheDistance) {
   }
 }
 
-}  // namespace
+}  // namespace gap_field_test
 }  // namespace pounding::interactions

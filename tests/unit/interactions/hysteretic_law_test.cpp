@@ -12,7 +12,7 @@
 #include "interactions/laws/yield_law.h"
 
 namespace pounding::interactions {
-namespace {
+namespace hysteretic_law_test {
 
 using Rule = HystereticRule;
 using Table = std::vector<std::pair<double, double>>;  // elongation, force by hand
@@ -337,5 +337,5 @@ TEST(HystereticLaw, OfTwoSlopesHardensAsABilinearLinkDoes) {
   EXPECT_TRUE(link.has_yielded(memory));
 }
 
-}  // namespace
+}  // namespace hysteretic_law_test
 }  // namespace pounding::interactions

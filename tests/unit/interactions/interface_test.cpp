@@ -6,12 +6,12 @@
 #include "support/box_mesh.h"
 
 namespace pounding::interactions {
-namespace {
+namespace interface_test {
 
 Scene two_boxes(std::vector<double> gap = {}) {
   Scene scene;
-  scene.structures = {testing::solid_structure("left", 1, 0, 1),
-                      testing::solid_structure("right", 1, 0, 1)};
+  scene.structures = {testing_support::solid_structure("left", 1, 0, 1),
+                      testing_support::solid_structure("right", 1, 0, 1)};
   Contact contact;
   contact.name = "face";
   contact.secondary = {"left", "x_max"};
@@ -22,8 +22,9 @@ Scene two_boxes(std::vector<double> gap = {}) {
 }
 
 TEST(Interface, MatchedFacesPairNodeToNodeWithGapFromGeometry) {
-  const std::vector<GlobalMesh> meshes{testing::box_mesh({0, 0, 0}, {2, 3, 1}, {2, 3, 1}),
-                                       testing::box_mesh({2.05, 0, 0}, {1, 3, 1}, {1, 3, 1})};
+  const std::vector<GlobalMesh> meshes{
+      testing_support::box_mesh({0, 0, 0}, {2, 3, 1}, {2, 3, 1}),
+      testing_support::box_mesh({2.05, 0, 0}, {1, 3, 1}, {1, 3, 1})};
   const Interface interface = find_interface(two_boxes(), meshes);
   ASSERT_EQ(interface.constraints.size(), 8u);
   EXPECT_EQ(interface.reports[0].matched, 8);
@@ -39,8 +40,8 @@ TEST(Interface, MatchedFacesPairNodeToNodeWithGapFromGeometry) {
 }
 
 TEST(Interface, UnmatchedFacesWeighThePrimaryNodesToOne) {
-  const std::vector<GlobalMesh> meshes{testing::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 3, 3}),
-                                       testing::box_mesh({1, 0, 0}, {1, 1, 1}, {1, 2, 2})};
+  const std::vector<GlobalMesh> meshes{testing_support::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 3, 3}),
+                                       testing_support::box_mesh({1, 0, 0}, {1, 1, 1}, {1, 2, 2})};
   const Interface interface = find_interface(two_boxes(), meshes);
   ASSERT_EQ(interface.constraints.size(), 16u);
   for (const Constraint& constraint : interface.constraints) {
@@ -61,8 +62,8 @@ TEST(Interface, UnmatchedFacesWeighThePrimaryNodesToOne) {
 }
 
 TEST(Interface, CornerGapsAreBilinearOnTheFace) {
-  const std::vector<GlobalMesh> meshes{testing::box_mesh({0, 0, 0}, {1, 2, 1}, {1, 4, 2}),
-                                       testing::box_mesh({1, 0, 0}, {1, 2, 1}, {1, 4, 2})};
+  const std::vector<GlobalMesh> meshes{testing_support::box_mesh({0, 0, 0}, {1, 2, 1}, {1, 4, 2}),
+                                       testing_support::box_mesh({1, 0, 0}, {1, 2, 1}, {1, 4, 2})};
   const Interface interface = find_interface(two_boxes({0.01, 0.02, 0.05, 0.03}), meshes);
   for (const Constraint& constraint : interface.constraints) {
     const double s = constraint.place[0] / 2;
@@ -76,8 +77,9 @@ TEST(Interface, CornerGapsAreBilinearOnTheFace) {
 }
 
 TEST(Interface, OverlappingBodiesHaveANegativeGap) {
-  const std::vector<GlobalMesh> meshes{testing::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1}),
-                                       testing::box_mesh({0.999, 0, 0}, {1, 1, 1}, {1, 1, 1})};
+  const std::vector<GlobalMesh> meshes{
+      testing_support::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1}),
+      testing_support::box_mesh({0.999, 0, 0}, {1, 1, 1}, {1, 1, 1})};
   const Interface interface = find_interface(two_boxes(), meshes);
   for (const Constraint& constraint : interface.constraints) {
     EXPECT_NEAR(constraint.initial_gap, -1e-3, 1e-15);
@@ -85,16 +87,17 @@ TEST(Interface, OverlappingBodiesHaveANegativeGap) {
 }
 
 TEST(Interface, EccentricFacesReportTheNodesThatFaceNothing) {
-  const std::vector<GlobalMesh> meshes{testing::box_mesh({0, 0, 0}, {1, 4, 1}, {1, 4, 1}),
-                                       testing::box_mesh({1, 2, 0}, {1, 4, 1}, {1, 4, 1})};
+  const std::vector<GlobalMesh> meshes{testing_support::box_mesh({0, 0, 0}, {1, 4, 1}, {1, 4, 1}),
+                                       testing_support::box_mesh({1, 2, 0}, {1, 4, 1}, {1, 4, 1})};
   const Interface interface = find_interface(two_boxes(), meshes);
   EXPECT_EQ(interface.reports[0].pairs, 6);
   EXPECT_EQ(interface.reports[0].unmatched_nodes, 4);
 }
 
 TEST(Interface, TwoPassesConstrainTheNodesOfBothSides) {
-  const std::vector<GlobalMesh> meshes{testing::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 3, 3}),
-                                       testing::box_mesh({1.01, 0, 0}, {1, 1, 1}, {1, 2, 2})};
+  const std::vector<GlobalMesh> meshes{
+      testing_support::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 3, 3}),
+      testing_support::box_mesh({1.01, 0, 0}, {1, 1, 1}, {1, 2, 2})};
   Scene scene = two_boxes();
   scene.contacts[0].passes = 2;
   const Interface interface = find_interface(scene, meshes);
@@ -113,8 +116,8 @@ TEST(Interface, TwoPassesConstrainTheNodesOfBothSides) {
 }
 
 TEST(Interface, AWallNeedsNothingButTheFaceAndItsDistance) {
-  const std::vector<GlobalMesh> meshes{testing::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 2, 2}),
-                                       testing::box_mesh({9, 0, 0}, {1, 1, 1}, {1, 1, 1})};
+  const std::vector<GlobalMesh> meshes{testing_support::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 2, 2}),
+                                       testing_support::box_mesh({9, 0, 0}, {1, 1, 1}, {1, 1, 1})};
   Scene scene = two_boxes({0.3});
   scene.contacts[0].secondary.group = "x_min";
   scene.contacts[0].primary = {"wall", ""};
@@ -179,8 +182,8 @@ TEST(Interface, ShellEdgesMeetInTheirPlaneAndWithinTheirThickness) {
 }
 
 TEST(Interface, RefusesFacesThatLookAway) {
-  const std::vector<GlobalMesh> meshes{testing::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1}),
-                                       testing::box_mesh({2, 0, 0}, {1, 1, 1}, {1, 1, 1})};
+  const std::vector<GlobalMesh> meshes{testing_support::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1}),
+                                       testing_support::box_mesh({2, 0, 0}, {1, 1, 1}, {1, 1, 1})};
   Scene scene = two_boxes();
   scene.contacts[0].primary.group = "x_max";
   EXPECT_THROW(find_interface(scene, meshes), UserError);
@@ -190,13 +193,13 @@ TEST(Interface, RefusesFacesThatLookAway) {
 
 /// Two cubes of 1 m face to face, 2 m in all, with a gap given.
 Interface cubes_with_gap(double gap, bool wall = false) {
-  const GlobalMesh left = testing::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
+  const GlobalMesh left = testing_support::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
   Scene scene = two_boxes({gap});
   if (wall) {
     scene.contacts[0].primary = {"wall", ""};
   }
-  return find_interface(scene,
-                        std::vector{left, testing::box_mesh({1, 0, 0}, {1, 1, 1}, {1, 1, 1})});
+  return find_interface(
+      scene, std::vector{left, testing_support::box_mesh({1, 0, 0}, {1, 1, 1}, {1, 1, 1})});
 }
 
 TEST(Interface, DoubtsGapsThatMayBeInAnotherUnit) {
@@ -220,7 +223,7 @@ TEST(Interface, CountsWhatOverlapsAndNotWhatTouches) {
 }
 
 TEST(ContactFace, MeetsASkewedFacetWhereItsMapSays) {
-  GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
+  GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
   Facet facet = mesh.groups.at("x_max").facets[0];
   // A corner pulled within the plane: the map is bilinear, no longer affine.
   mesh.coordinates[static_cast<std::size_t>(3 * facet.nodes[2] + 1)] += 0.4;
@@ -241,5 +244,5 @@ TEST(ContactFace, MeetsASkewedFacetWhereItsMapSays) {
   }
 }
 
-}  // namespace
+}  // namespace interface_test
 }  // namespace pounding::interactions

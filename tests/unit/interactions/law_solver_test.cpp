@@ -13,7 +13,7 @@
 #include "interactions/laws/yield_law.h"
 
 namespace pounding::interactions {
-namespace {
+namespace law_solver_test {
 
 constexpr double time_step = 1e-3;
 
@@ -177,5 +177,5 @@ TEST(LawSolver, IsIdleWhereNothingPulls) {
   EXPECT_FALSE(solver.is_idle(std::vector<double>{-1e-3, 1e-6}, memory));
 }
 
-}  // namespace
+}  // namespace law_solver_test
 }  // namespace pounding::interactions

@@ -17,7 +17,7 @@
 #include "support/source_folder.h"
 
 namespace pounding::interactions {
-namespace {
+namespace lcp_test {
 
 using Vector = std::vector<double>;
 
@@ -416,5 +416,5 @@ TEST(Lcp, ReferenceClosedGapsAndTowersGiveUniqueNodalImpulses) {
   }
 }
 
-}  // namespace
+}  // namespace lcp_test
 }  // namespace pounding::interactions

@@ -9,7 +9,7 @@
 #include "interactions/laws/relieving_law.h"
 
 namespace pounding::interactions {
-namespace {
+namespace pendulum_law_test {
 
 constexpr double stiffness = 100;
 constexpr double hardening = 0.2;
@@ -71,5 +71,5 @@ TEST(PendulumLaw, RelievedItPullsLessByWhatTheMatrixHolds) {
                    10 / radius * 0.1 + 0.5 * (1 - hardening) * stiffness * 0.1);
 }
 
-}  // namespace
+}  // namespace pendulum_law_test
 }  // namespace pounding::interactions

@@ -15,7 +15,7 @@
 #include "support/full_rows.h"
 
 namespace pounding::interactions {
-namespace {
+namespace proportioning_test {
 
 using Vector = std::vector<double>;
 
@@ -240,5 +240,5 @@ TEST(CoupledLcp, BothSolversAnswerAlikeAtTheirBorder) {
   }
 }
 
-}  // namespace
+}  // namespace proportioning_test
 }  // namespace pounding::interactions

@@ -9,7 +9,7 @@
 #include "support/passive_oscillator.h"
 
 namespace pounding::interactions {
-namespace {
+namespace series_law_test {
 
 constexpr double dt = 1e-3;
 
@@ -103,5 +103,5 @@ TEST(SeriesLaw, DoesNotMoveTheStableStep) {
   for (const SeriesLaw& law : laws()) expect_energy_never_grows(law, {0, 1}, dt, 3000);
 }
 
-}  // namespace
+}  // namespace series_law_test
 }  // namespace pounding::interactions

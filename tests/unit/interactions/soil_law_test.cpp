@@ -10,7 +10,7 @@
 #include "support/passive_oscillator.h"
 
 namespace pounding::interactions {
-namespace {
+namespace soil_law_test {
 
 constexpr double dt = 1e-3;
 
@@ -134,5 +134,5 @@ TEST(SoilLaw, DoesNotMoveTheStableStep) {
   }
 }
 
-}  // namespace
+}  // namespace soil_law_test
 }  // namespace pounding::interactions

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding::interactions {
-namespace {
+namespace tension_law_test {
 
 constexpr double damping_rate = 0.7;  // of the damped one [N/m]
 const TensionLaw undamped{3, 0};
@@ -214,5 +214,5 @@ TEST(TensionLaw, PeriodConvergesInSecondOrder) {
   EXPECT_LT(error(0.0025), error(0.01) / 12);
 }
 
-}  // namespace
+}  // namespace tension_law_test
 }  // namespace pounding::interactions

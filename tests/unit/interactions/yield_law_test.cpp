@@ -10,7 +10,7 @@
 #include "interactions/laws/relieving_law.h"
 
 namespace pounding::interactions {
-namespace {
+namespace yield_law_test {
 
 /// Steps of a law alone, from elongations that come from anywhere; the least loss of a step and all
 /// of it.
@@ -111,5 +111,5 @@ TEST(DamperLaw, SolvesForItsForceWhateverItsPower) {
   EXPECT_EQ(DamperLaw(1e3, 0.5, 1e-4).solve(0.1, 0, 0.1, 1e-6), 0);
 }
 
-}  // namespace
+}  // namespace yield_law_test
 }  // namespace pounding::interactions

@@ -10,7 +10,7 @@
 #include "common/error.h"
 
 namespace pounding {
-namespace {
+namespace file_digest_test {
 
 class Digest : public testing::Test {
  protected:
@@ -52,5 +52,5 @@ TEST_F(Digest, RefusesWhatIsNotThere) {
   EXPECT_THROW(digest_of_file((folder_ / "none").string()), UserError);
 }
 
-}  // namespace
+}  // namespace file_digest_test
 }  // namespace pounding

@@ -12,7 +12,7 @@
 
 /// HDF5 sees a sealed file only as it was written.
 namespace pounding {
-namespace {
+namespace file_seal_test {
 
 namespace fs = std::filesystem;
 
@@ -91,5 +91,5 @@ TEST_F(FileSeal, IsMissingInOtherFiles) {
   EXPECT_THROW(check_seal(path_), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace file_seal_test
 }  // namespace pounding

@@ -11,7 +11,7 @@
 
 /// What is written is read back, and what is damaged is refused.
 namespace pounding {
-namespace {
+namespace hdf5_test {
 
 namespace fs = std::filesystem;
 
@@ -139,5 +139,5 @@ TEST_F(Hdf5, GrowingFileIsReadableWheneverItsWriterIsKilled) {
   EXPECT_FALSE(fs::exists(path("growing.h5")));
 }
 
-}  // namespace
+}  // namespace hdf5_test
 }  // namespace pounding

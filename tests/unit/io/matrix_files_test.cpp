@@ -15,7 +15,7 @@
 
 /// Matrices out of files: what cannot be is refused with the file and the place.
 namespace pounding {
-namespace {
+namespace matrix_files_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -159,5 +159,5 @@ TEST(SquareMatrixChecks, LeaveClampedRowsAlone) {
   EXPECT_EQ(matrix.rows()[1], (std::vector<SquareMatrix::Entry>{{2, 1.0}}));
 }
 
-}  // namespace
+}  // namespace matrix_files_test
 }  // namespace pounding

@@ -9,9 +9,9 @@
 #include "support/box_mesh.h"
 
 namespace pounding {
-namespace {
+namespace connectivity_test {
 
-using testing::box_mesh;
+using testing_support::box_mesh;
 
 /// Adds nodes at some points, with the components of a mask, all free.
 GlobalIndex add_nodes(GlobalMesh& mesh, const std::vector<Vector3>& points, std::uint8_t mask) {
@@ -173,5 +173,5 @@ TEST(PointInElement, LinesShellsAndHexahedra) {
   EXPECT_FALSE(is_in_element(ElementType::hex8, brick, {-0.1, 0.5, 1}, 0.01));
 }
 
-}  // namespace
+}  // namespace connectivity_test
 }  // namespace pounding

@@ -12,7 +12,7 @@
 #include "mesh/element_properties.h"
 
 namespace pounding {
-namespace {
+namespace divide_beams_test {
 
 Region column(int parts) {
   Region region;
@@ -108,5 +108,5 @@ TEST(DivideBeams, HalfAWaveHasItsLimits) {
   EXPECT_NEAR(half_wave(p, fast) / (std::numbers::pi / fast * std::sqrt(shear / mass)), 1, 1e-3);
 }
 
-}  // namespace
+}  // namespace divide_beams_test
 }  // namespace pounding

@@ -10,13 +10,14 @@
 #include "support/box_mesh.h"
 
 namespace pounding {
-namespace {
+namespace element_groups_test {
 
 using Cells = std::array<int, 3>;
 
 /// Cubes of 1 m, numbered along x, then y, then z.
 std::vector<GlobalMesh> cubes(const Cells& cells) {
-  return {testing::box_mesh({0, 0, 0}, {1.0 * cells[0], 1.0 * cells[1], 1.0 * cells[2]}, cells)};
+  return {testing_support::box_mesh({0, 0, 0}, {1.0 * cells[0], 1.0 * cells[1], 1.0 * cells[2]},
+                                    cells)};
 }
 
 TEST(NodePlanes, LayersAcrossTheLongestExtentRowsAlongTheSecondLongest) {
@@ -113,5 +114,5 @@ TEST(Partition, RowsStayWholeAndPartsEven) {
   }
 }
 
-}  // namespace
+}  // namespace element_groups_test
 }  // namespace pounding

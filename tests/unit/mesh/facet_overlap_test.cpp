@@ -7,7 +7,7 @@
 #include "common/matrix3.h"
 
 namespace pounding {
-namespace {
+namespace facet_overlap_test {
 
 using Corners = std::vector<Vector3>;
 
@@ -82,5 +82,5 @@ TEST(FacetOverlap, OfLinesIsTheirCommonPart) {
   EXPECT_NEAR(cube, 5 * 4 * (1.0 / 5 - 1.0 / 6), 1e-14);
 }
 
-}  // namespace
+}  // namespace facet_overlap_test
 }  // namespace pounding

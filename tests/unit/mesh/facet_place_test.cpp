@@ -8,7 +8,7 @@
 #include "common/matrix3.h"
 
 namespace pounding {
-namespace {
+namespace facet_place_test {
 
 const std::vector<Vector3> triangle{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}};
 const std::vector<Vector3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -121,5 +121,5 @@ TEST(FacetPlace, HasNoNormalWithoutArea) {
   EXPECT_EQ(norm(nearest_place(flat, {0.5, 1, 0}).normal), 0);
 }
 
-}  // namespace
+}  // namespace facet_place_test
 }  // namespace pounding

@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace mesh_guard_test {
 
 int answer = -1;
 
@@ -100,5 +100,5 @@ TEST(MeshGuard, LetsReadAndStartThreads) {
             "done");
 }
 
-}  // namespace
+}  // namespace mesh_guard_test
 }  // namespace pounding

@@ -10,7 +10,7 @@
 #include "mesh/tied_nodes.h"
 
 namespace pounding {
-namespace {
+namespace mortar_test {
 
 /// A face of m x n cells on the unit square.
 struct Grid {
@@ -295,5 +295,5 @@ TEST(Mortar, WhatIsClampedOnAPlaneOfSymmetryFollowsThatPlane) {
   }
 }
 
-}  // namespace
+}  // namespace mortar_test
 }  // namespace pounding

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace node_owners_test {
 
 /// Nodes with these elements.
 NodeElements nodes(const std::vector<std::vector<idx_t>>& elements) {
@@ -46,5 +46,5 @@ TEST(NodeOwners, TheLongestCutIsDealtOutFirst) {
   EXPECT_EQ(node_owners(at, owner, middle, 3), (std::vector<int>{0, 0, 2, 2, 2}));
 }
 
-}  // namespace
+}  // namespace node_owners_test
 }  // namespace pounding

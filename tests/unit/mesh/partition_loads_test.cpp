@@ -5,7 +5,7 @@
 #include "elements/element_traits.h"
 
 namespace pounding {
-namespace {
+namespace partition_loads_test {
 
 constexpr std::uint8_t translations = 0x07;
 
@@ -72,5 +72,5 @@ TEST(PartitionLoads, StructuresExchangeApartAndReducedOnesNothing) {
   EXPECT_EQ(loads[1].elements, 4);
 }
 
-}  // namespace
+}  // namespace partition_loads_test
 }  // namespace pounding

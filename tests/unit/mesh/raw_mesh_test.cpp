@@ -9,7 +9,7 @@
 #include "support/box_mesh.h"
 
 namespace pounding {
-namespace {
+namespace raw_mesh_test {
 
 RawAnswer sample() {
   RawAnswer answer;
@@ -78,7 +78,7 @@ RawMesh raw_box(const GlobalMesh& mesh) {
 }
 
 TEST(UnusedElements, FacesArePlacesAndLinesAreLeftOut) {
-  const GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
+  const GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
   const std::vector<UnusedElements> unused = find_unused(raw_box(mesh), mesh, {{"body", 3}});
   ASSERT_EQ(unused.size(), 3U);
   EXPECT_EQ(unused[0].group, "");
@@ -92,7 +92,7 @@ TEST(UnusedElements, FacesArePlacesAndLinesAreLeftOut) {
 }
 
 TEST(RepeatedElements, AreRefusedInSolidsOfTwoGroups) {
-  GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
+  GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
   EXPECT_NO_THROW(check_repeated_elements("s", mesh));
   ElementSet again = mesh.regions[0];
   again.group = "again";
@@ -148,5 +148,5 @@ TEST(RepeatedFacets, LeaveTheFirst) {
   EXPECT_EQ(facets[2].nodes[0], 5);
 }
 
-}  // namespace
+}  // namespace raw_mesh_test
 }  // namespace pounding

@@ -12,7 +12,7 @@
 #include "support/refusal.h"
 
 namespace pounding {
-namespace {
+namespace unv_file_test {
 
 /// Numbers of ten columns.
 std::string line(std::initializer_list<int> values) {
@@ -158,5 +158,5 @@ TEST_F(UnvFile, WhatIsNotReadIsRefusedWithItsLine) {
   }
 }
 
-}  // namespace
+}  // namespace unv_file_test
 }  // namespace pounding

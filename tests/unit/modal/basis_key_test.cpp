@@ -12,11 +12,11 @@
 
 /// A stored basis is taken only for the structure it was made for.
 namespace pounding {
-namespace {
+namespace basis_key_test {
 
 namespace fs = std::filesystem;
-using testing::box_mesh;
-using testing::solid_structure;
+using testing_support::box_mesh;
+using testing_support::solid_structure;
 
 class KeyOfBasis : public ::testing::Test {
  public:
@@ -95,5 +95,5 @@ TEST_F(KeyOfBasis, ChangesWithTheModel) {
   changes([](KeyOfBasis& k) { k.request_.other_points.push_back({4, 0}); }, "probe points");
 }
 
-}  // namespace
+}  // namespace basis_key_test
 }  // namespace pounding

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace contact_patches_test {
 
 using Patches = std::vector<std::vector<std::size_t>>;
 
@@ -71,5 +71,5 @@ TEST(ContactPatches, OfPointsInOnePlaceAreOne) {
   EXPECT_EQ(points.patches(3), (Patches{{0, 1, 2, 3, 4}}));
 }
 
-}  // namespace
+}  // namespace contact_patches_test
 }  // namespace pounding

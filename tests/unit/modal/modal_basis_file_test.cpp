@@ -11,7 +11,7 @@
 #include "io/hdf5_file.h"
 
 namespace pounding {
-namespace {
+namespace modal_basis_file_test {
 
 namespace fs = std::filesystem;
 
@@ -108,5 +108,5 @@ TEST_F(ModalBasisFile, WithNumbersThatMustBeWholeIsRefused) {
   EXPECT_THAT(spoilt([](Content& c) { c.full_dofs = 2.5; }), refused);
 }
 
-}  // namespace
+}  // namespace modal_basis_file_test
 }  // namespace pounding

@@ -15,9 +15,9 @@
 #include "support/refusal.h"
 
 namespace pounding {
-namespace {
+namespace modal_basis_test {
 
-using testing::ReducedBox;
+using testing_support::ReducedBox;
 
 /// Phi f(omega^2) Phi^T at two points.
 template <typename Function>
@@ -208,5 +208,5 @@ TEST(ModalBasis, HoldsEveryModeBelowTheCutOff) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace modal_basis_test
 }  // namespace pounding

@@ -4,7 +4,7 @@
 #include "support/box_mesh.h"
 #include "system/finite_element_system.h"
 
-namespace pounding::testing {
+namespace pounding::testing_support {
 
 /// A brick of concrete that reaches from x = 0 to x = 2, on one rank, and places on its far face.
 struct ReducedBox {
@@ -40,4 +40,4 @@ struct ReducedBox {
   }
 };
 
-}  // namespace pounding::testing
+}  // namespace pounding::testing_support

@@ -10,9 +10,9 @@
 #include "system/trace.h"
 
 namespace pounding {
-namespace {
+namespace reduced_system_test {
 
-using testing::ReducedBox;
+using testing_support::ReducedBox;
 
 /// Some numbers in no order.
 std::vector<double> values(std::size_t count) {
@@ -204,5 +204,5 @@ TEST_F(ReducedSystem, NamesTheCoordinateThatMovesMost) {
   EXPECT_EQ(locate_largest(system, basis, motion), describe_coordinate(basis, 2));
 }
 
-}  // namespace
+}  // namespace reduced_system_test
 }  // namespace pounding

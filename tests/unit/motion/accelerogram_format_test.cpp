@@ -7,7 +7,7 @@
 #include "motion_files.h"
 
 namespace pounding {
-namespace {
+namespace accelerogram_format_test {
 
 using testing_support::MotionFiles;
 
@@ -268,5 +268,5 @@ TEST_F(AccelerogramFormat, PeakAndDuration) {
   EXPECT_EQ(Accelerogram{}.duration(), 0);
 }
 
-}  // namespace
+}  // namespace accelerogram_format_test
 }  // namespace pounding

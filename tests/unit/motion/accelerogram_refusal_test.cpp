@@ -9,7 +9,7 @@
 #include "motion_files.h"
 
 namespace pounding {
-namespace {
+namespace accelerogram_refusal_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -221,5 +221,5 @@ TEST_F(AccelerogramRefusal, UnknownOrContradictoryUnit) {
   EXPECT_THAT(refused("100\n-800\n300\n", "g", 0.01), HasSubstr("800 g"));
 }
 
-}  // namespace
+}  // namespace accelerogram_refusal_test
 }  // namespace pounding

@@ -9,7 +9,7 @@
 #include "motion_files.h"
 
 namespace pounding {
-namespace {
+namespace ground_motion_test {
 
 using ::testing::HasSubstr;
 using testing_support::MotionFiles;
@@ -252,5 +252,5 @@ TEST_F(GroundMotionTest, RefusesScalesThatMeanNothing) {
   EXPECT_THAT(made(2, 3), HasSubstr("exclude"));
 }
 
-}  // namespace
+}  // namespace ground_motion_test
 }  // namespace pounding

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace kinematic_interaction_test {
 
 constexpr double pi = std::numbers::pi;
 constexpr Embedment basement{8, 320, 12};  // 25 ms of travel
@@ -81,5 +81,5 @@ TEST(KinematicInteraction, NearTheSurfaceItIsTheMotionOfTheSurface) {
   EXPECT_NEAR(embedded_rotation(surface, {1e-9, 320, 12}).peak(), 0, 1e-12);
 }
 
-}  // namespace
+}  // namespace kinematic_interaction_test
 }  // namespace pounding

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace low_pass_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -57,5 +57,5 @@ TEST(LowPass, PeakOfAnImpulseDoesNotKnowTheInterval) {
   }
 }
 
-}  // namespace
+}  // namespace low_pass_test
 }  // namespace pounding

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace modal_combination_test {
 
 TEST(ModalCorrelation, IsThatOfTheTables) {
   // 5 % damping, ratios of the frequencies .9, .8, .7, .6, as printed for the CQC method.
@@ -36,5 +36,5 @@ TEST(ModalCorrelations, CombineSumsAndDifferences) {
   EXPECT_NEAR(apart.combined(std::vector<double>{3, 4}, 0, 2), 5, 1e-6);
 }
 
-}  // namespace
+}  // namespace modal_combination_test
 }  // namespace pounding

@@ -12,7 +12,7 @@
 #include "record_writers.h"
 
 namespace pounding {
-namespace {
+namespace record_formats_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -170,5 +170,5 @@ TEST_F(RecordFormats, WhatIsCutIsRefused) {
   }
 }
 
-}  // namespace
+}  // namespace record_formats_test
 }  // namespace pounding

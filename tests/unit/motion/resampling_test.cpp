@@ -9,7 +9,7 @@
 #include "motion/fourier.h"
 
 namespace pounding {
-namespace {
+namespace resampling_test {
 
 using std::numbers::pi;
 
@@ -96,5 +96,5 @@ TEST(Resampling, FourierPairInvertsAndNamesItsFrequencies) {
   for (std::size_t i = 0; i < 60; ++i) EXPECT_NEAR(back[i], wave[i], 1e-14);
 }
 
-}  // namespace
+}  // namespace resampling_test
 }  // namespace pounding

@@ -14,7 +14,7 @@
 #include "motion_files.h"
 
 namespace pounding {
-namespace {
+namespace response_spectrum_test {
 
 using std::numbers::pi;
 using testing_support::refusal;
@@ -293,5 +293,5 @@ TEST(ResponseSpectrum, RefusesArgumentsOutOfRange) {
   EXPECT_THAT(refusal([&] { response_spectrum(bad_a, 0.1, f, 0); }), ::testing::HasSubstr("accel"));
 }
 
-}  // namespace
+}  // namespace response_spectrum_test
 }  // namespace pounding

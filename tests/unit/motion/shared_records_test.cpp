@@ -8,7 +8,7 @@
 #include "motion_files.h"
 
 namespace pounding {
-namespace {
+namespace shared_records_test {
 
 using testing_support::refusal;
 using testing_support::shared_file;
@@ -101,5 +101,5 @@ TEST(SharedRecords, HeaderOfAnotherRecordIsRefused) {
     EXPECT_THAT(refusal([&] { read_accelerogram({file, unit}); }), ::testing::HasSubstr("10102"));
 }
 
-}  // namespace
+}  // namespace shared_records_test
 }  // namespace pounding

@@ -6,7 +6,7 @@
 #include "motion_files.h"
 
 namespace pounding {
-namespace {
+namespace signal_treatment_test {
 
 using ::testing::ElementsAre;
 using testing_support::refusal;
@@ -92,5 +92,5 @@ TEST(SignalTreatment, WithoutContactsNothingIsAPeak) {
   EXPECT_EQ(treat(signal, {}, Treatment::all_peaks, 0).acceleration, std::vector<double>(10));
 }
 
-}  // namespace
+}  // namespace signal_treatment_test
 }  // namespace pounding

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace spectral_distance_test {
 
 /// 100 frequencies per decade from 0.5 to 400 Hz with values by a law.
 template <typename Law>
@@ -54,5 +54,5 @@ TEST(SpectralDistance, DirectionsInWhichAProbeHardlyMovesAreLeftOut) {
   EXPECT_EQ(moving_channels(spectra), (std::vector<char>{1, 1, 0, 1, 1, 0}));
 }
 
-}  // namespace
+}  // namespace spectral_distance_test
 }  // namespace pounding

@@ -15,7 +15,7 @@
 #include "motion_files.h"
 
 namespace pounding {
-namespace {
+namespace spectrum_reference_test {
 
 using std::numbers::pi;
 using testing_support::shared_file;
@@ -179,5 +179,5 @@ TEST(ReferenceSpectra, SpectraOfRecordsFromOtherPrograms) {
   EXPECT_EQ(checked, 100);
 }
 
-}  // namespace
+}  // namespace spectrum_reference_test
 }  // namespace pounding

@@ -8,7 +8,7 @@
 #include "motion_files.h"
 
 namespace pounding {
-namespace {
+namespace spectrum_shape_test {
 
 TEST(SpectrumShape, RegulatoryFrequencies) {
   const auto f = regulatory_frequencies();
@@ -74,5 +74,5 @@ TEST(SpectrumShape, RefusesABroadeningOutOfRange) {
                 ::testing::HasSubstr("broadening"));
 }
 
-}  // namespace
+}  // namespace spectrum_shape_test
 }  // namespace pounding

@@ -8,7 +8,7 @@
 #include "motion/stretch_jump.h"
 
 namespace pounding::oscillator {
-namespace {
+namespace stretch_bound_test {
 
 /// One oscillator through one stretch, looked at in 16 places of every step.
 struct Walk {
@@ -118,5 +118,5 @@ TEST(StretchJump, IsTheStepsOneAfterTheOther) {
   }
 }
 
-}  // namespace
+}  // namespace stretch_bound_test
 }  // namespace pounding::oscillator

@@ -10,7 +10,7 @@
 #include "motion_files.h"
 
 namespace pounding {
-namespace {
+namespace support_motion_test {
 
 using ::testing::HasSubstr;
 using testing_support::MotionFiles;
@@ -125,5 +125,5 @@ TEST_F(SupportMotionTest, RefusesWhatNoGroundDoes) {
               HasSubstr("support own, rotation"));
 }
 
-}  // namespace
+}  // namespace support_motion_test
 }  // namespace pounding

@@ -15,7 +15,7 @@
 #include "support/source_folder.h"
 
 namespace pounding {
-namespace {
+namespace synthetic_test {
 
 using ::testing::HasSubstr;
 using testing_support::MotionFiles;
@@ -195,5 +195,5 @@ TEST_F(Synthetic, RefusesATargetOutOfReach) {
               HasSubstr("% rms from"));
 }
 
-}  // namespace
+}  // namespace synthetic_test
 }  // namespace pounding

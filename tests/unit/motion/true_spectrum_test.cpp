@@ -10,7 +10,7 @@
 #include "motion/response_spectrum.h"
 
 namespace pounding {
-namespace {
+namespace true_spectrum_test {
 
 using std::numbers::pi;
 
@@ -120,5 +120,5 @@ TEST(TrueSpectrum, LimitsOfStiffAndSoftOscillators) {
   EXPECT_EQ(peaks(a, 0.01, 0, 0.05).absolute_acceleration, 0);
 }
 
-}  // namespace
+}  // namespace true_spectrum_test
 }  // namespace pounding

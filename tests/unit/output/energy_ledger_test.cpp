@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace energy_ledger_test {
 
 EnergyLine line_at(int number) {
   return {static_cast<double>(number), 1, 2, 3, 4, 5, 6, 7, 8};
@@ -44,5 +44,5 @@ TEST(EnergyLedger, GoesOnAfterARestart) {
   }
 }
 
-}  // namespace
+}  // namespace energy_ledger_test
 }  // namespace pounding

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace force_window_test {
 
 struct Step {
   double start, end, impulse;
@@ -90,5 +90,5 @@ TEST(ForceWindow, GoesOnToTheBit) {
   EXPECT_EQ(whole.largest(), 0);
 }
 
-}  // namespace
+}  // namespace force_window_test
 }  // namespace pounding

@@ -8,7 +8,7 @@
 #include "../motion/motion_files.h"
 
 namespace pounding {
-namespace {
+namespace impact_catalogue_test {
 
 constexpr ImpactTimes times{0.01, 2e-3, 1e-3};
 
@@ -192,5 +192,5 @@ TEST_F(ImpactFile, RefusesWhatIsNoCatalogue) {
   EXPECT_NE(refused("contact,start,end\nroof,1\n").find("no impact"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace impact_catalogue_test
 }  // namespace pounding

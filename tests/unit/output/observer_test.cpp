@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace observer_test {
 
 using testing::ElementsAre;
 
@@ -87,5 +87,5 @@ TEST_F(ObserverList, GoesOnAtTheStepThatARunIsContinuedAt) {
   EXPECT_THAT(step(), ElementsAre("one begins", "step", "one observes"));
 }
 
-}  // namespace
+}  // namespace observer_test
 }  // namespace pounding

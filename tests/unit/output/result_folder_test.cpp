@@ -15,7 +15,7 @@
 
 /// A folder of results belongs to one run at a time, and holds what that one left.
 namespace pounding {
-namespace {
+namespace result_folder_test {
 
 namespace fs = std::filesystem;
 using testing::ElementsAre;
@@ -120,5 +120,5 @@ TEST_F(Folder, KeepsWhatItsRunGoesOnFrom) {
                                             "modes.h5", "fields.h5"));
 }
 
-}  // namespace
+}  // namespace result_folder_test
 }  // namespace pounding

@@ -6,7 +6,7 @@
 #include "support/refusal.h"
 
 namespace pounding {
-namespace {
+namespace command_line_test {
 
 CommandLine read(const std::vector<std::string>& words) {
   return read_command_line(words);
@@ -71,5 +71,5 @@ TEST(CommandLine, VariablesOfPetscAreNamed) {
   unsetenv("PETSC_OPTIONS");
 }
 
-}  // namespace
+}  // namespace command_line_test
 }  // namespace pounding

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace doubts_test {
 
 using ::testing::HasSubstr;
 
@@ -146,5 +146,5 @@ TEST(SceneDoubts, NothingPressesWithoutWeight) {
   EXPECT_TRUE(scene_doubts(heavy).empty());
 }
 
-}  // namespace
+}  // namespace doubts_test
 }  // namespace pounding

@@ -3,7 +3,7 @@
 
 /// What each kind of element asks of its group.
 namespace pounding::scene_cases {
-namespace {
+namespace element_options_test {
 
 using testing::ElementsAre;
 
@@ -222,5 +222,5 @@ TEST(ElementOptions, WallNeedsADistance) {
                  {"-floor2_passes 2", "wall"});
 }
 
-}  // namespace
+}  // namespace element_options_test
 }  // namespace pounding::scene_cases

@@ -1,7 +1,7 @@
 #include "scene_cases.h"
 
 namespace pounding::scene_cases {
-namespace {
+namespace modal_options_test {
 
 OptionsDatabase reduced(OptionsDatabase changes) {
   changes.merge(OptionsDatabase{{"tower_model", "modal"}, {"tower_modal_vectors", "40"}});
@@ -91,5 +91,5 @@ TEST(ModalOptions, RefuseOneFileForTwoBases) {
                  {"-annex_modal_basis one.h5", "tower"});
 }
 
-}  // namespace
+}  // namespace modal_options_test
 }  // namespace pounding::scene_cases

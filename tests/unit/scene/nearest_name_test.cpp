@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace nearest_name_test {
 
 TEST(NearestName, DistanceCountsEditsAndSwaps) {
   EXPECT_EQ(edit_distance("", "gap"), 3);
@@ -36,5 +36,5 @@ TEST(NearestName, SuggestionIsAQuestion) {
   EXPECT_EQ(suggestion("concret", {"steel", "concrete"}), "; did you mean concrete?");
 }
 
-}  // namespace
+}  // namespace nearest_name_test
 }  // namespace pounding

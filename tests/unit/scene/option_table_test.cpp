@@ -10,7 +10,7 @@
 #include "scene/petsc_options.h"
 
 namespace pounding {
-namespace {
+namespace option_table_test {
 
 TEST(OptionTable, PatternsAreUnique) {
   std::set<std::string_view> patterns;
@@ -163,5 +163,5 @@ TEST(OptionTable, ContinuedRunKeepsWhatTouchesTheMotion) {
   }
 }
 
-}  // namespace
+}  // namespace option_table_test
 }  // namespace pounding

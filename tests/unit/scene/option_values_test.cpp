@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace option_values_test {
 
 using testing::ElementsAre;
 
@@ -82,5 +82,5 @@ TEST(OptionValues, PiecesAreTrimmed) {
   EXPECT_THAT(split("", ','), ElementsAre(""));
 }
 
-}  // namespace
+}  // namespace option_values_test
 }  // namespace pounding

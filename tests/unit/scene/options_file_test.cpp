@@ -6,7 +6,7 @@
 #include "support/refusal.h"
 
 namespace pounding {
-namespace {
+namespace options_file_test {
 
 OptionsDatabase read(const std::string& text) {
   return parse_options_file(text, "case.yaml");
@@ -115,5 +115,5 @@ TEST(OptionsFile, AnchorsInsideThemselvesEnd) {
   EXPECT_THAT(refusal(laughs + "all: *a13\n"), testing::HasSubstr("more than 100000 options"));
 }
 
-}  // namespace
+}  // namespace options_file_test
 }  // namespace pounding

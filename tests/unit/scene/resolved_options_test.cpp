@@ -6,7 +6,7 @@
 
 /// The options in force, read back, give the same scene.
 namespace pounding::scene_cases {
-namespace {
+namespace resolved_options_test {
 
 void describe(std::ostream& out, const Structure& structure) {
   out << structure.name << ' ' << structure.mesh << '\n';
@@ -169,5 +169,5 @@ TEST(ResolvedOptions, KeepTheLibrariesOptionsAndDropWhatIsNotUsed) {
   EXPECT_TRUE(resolved.contains("floor2_primary"));
 }
 
-}  // namespace
+}  // namespace resolved_options_test
 }  // namespace pounding::scene_cases

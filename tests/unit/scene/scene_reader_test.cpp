@@ -6,7 +6,7 @@
 #include "scene_cases.h"
 
 namespace pounding::scene_cases {
-namespace {
+namespace scene_reader_test {
 
 using testing::Contains;
 using testing::ElementsAre;
@@ -199,5 +199,5 @@ TEST(SceneReader, SpectraOfTheirOwn) {
   EXPECT_THAT(scene.spectra.frequencies, ElementsAre(1, 2, 5));
 }
 
-}  // namespace
+}  // namespace scene_reader_test
 }  // namespace pounding::scene_cases

@@ -2,7 +2,7 @@
 
 /// Every mistake is one line: option, value seen, what is expected.
 namespace pounding::scene_cases {
-namespace {
+namespace scene_refusal_test {
 
 TEST(SceneRefusal, MissingOptions) {
   expect_refused({}, {"missing option -structures"});
@@ -155,5 +155,5 @@ TEST(SceneRefusal, MotionOptionsWithoutEffect) {
   expect_refused(with(pair(), {{"motion_z_pga", "1"}}), {"-motion_z_scale -0.5", "-motion_z_pga"});
 }
 
-}  // namespace
+}  // namespace scene_refusal_test
 }  // namespace pounding::scene_cases

@@ -11,7 +11,7 @@
 #include "scene/standard_materials.h"
 
 namespace pounding {
-namespace {
+namespace standard_sections_test {
 
 /// What tables list: area, inertias about y and z, torsion, in units of `length`.
 struct Listed {
@@ -181,5 +181,5 @@ TEST(StandardMaterials, AreThoseOfTheirStandards) {
   for (const std::string& name : standard_material_names()) EXPECT_TRUE(standard_material(name));
 }
 
-}  // namespace
+}  // namespace standard_sections_test
 }  // namespace pounding

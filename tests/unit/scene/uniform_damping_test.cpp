@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace uniform_damping_test {
 
 constexpr double two_pi = 2 * std::numbers::pi;
 
@@ -125,5 +125,5 @@ TEST(UniformDamping, OfNoneHasNoFilters) {
   EXPECT_EQ(damping.ratio_at(30), 0);
 }
 
-}  // namespace
+}  // namespace uniform_damping_test
 }  // namespace pounding

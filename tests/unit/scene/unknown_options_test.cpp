@@ -3,7 +3,7 @@
 #include "scene_cases.h"
 
 namespace pounding::scene_cases {
-namespace {
+namespace unknown_options_test {
 
 TEST(UnknownOptions, AreRefusedWithTheNearestName) {
   EXPECT_EQ(refusal(with(pair(), {{"tower_dampng_beta", "1e-5"}})),
@@ -66,5 +66,5 @@ TEST(UnknownOptions, OptionsOfTheLibrariesPass) {
   expect_refused(with(pair(), {{"options_file", "case.yaml"}}), {"-options_file"});
 }
 
-}  // namespace
+}  // namespace unknown_options_test
 }  // namespace pounding::scene_cases

@@ -13,7 +13,7 @@
 #include "soil/rectangle.h"
 
 namespace pounding {
-namespace {
+namespace impedance_fit_test {
 
 using std::numbers::pi;
 
@@ -196,5 +196,5 @@ TEST(ImpedanceFit, StaticStiffnessOfHystereticSoilIsKept) {
   for (const BlockFit& block : fit.blocks) EXPECT_LT(block.mean, 0.03);
 }
 
-}  // namespace
+}  // namespace impedance_fit_test
 }  // namespace pounding

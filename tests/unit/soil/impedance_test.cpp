@@ -11,7 +11,7 @@
 #include "soil/rectangle.h"
 
 namespace pounding {
-namespace {
+namespace impedance_test {
 
 constexpr HalfSpace third{300, 2000, 1.0 / 3};
 
@@ -199,5 +199,5 @@ TEST(Impedance, AtRestIsTheSpring) {
   }
 }
 
-}  // namespace
+}  // namespace impedance_test
 }  // namespace pounding

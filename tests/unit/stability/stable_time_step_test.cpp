@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace stable_time_step_test {
 
 /// Spectral radius of z^2 - (2 - 2 xi W - W^2) z + (1 - 2 xi W), the modal recurrence, W = omega
 /// dt.
@@ -55,5 +55,5 @@ TEST(StableTimeStep, RoundsDownToSixDigits) {
   EXPECT_GT(round_down(1e-6), 0.99999e-6);
 }
 
-}  // namespace
+}  // namespace stable_time_step_test
 }  // namespace pounding

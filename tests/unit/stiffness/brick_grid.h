@@ -4,7 +4,7 @@
 
 #include "stiffness/rows/element_rows.h"
 
-namespace pounding::testing {
+namespace pounding::testing_support {
 
 /// Bricks of an nx x ny x nz grid, x fastest.
 inline std::vector<stiffness::BrickElement> grid(int nx, int ny, int nz) {
@@ -23,4 +23,4 @@ inline std::vector<stiffness::BrickElement> grid(int nx, int ny, int nz) {
   return bricks;
 }
 
-}  // namespace pounding::testing
+}  // namespace pounding::testing_support

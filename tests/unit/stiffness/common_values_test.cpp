@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding::stiffness {
-namespace {
+namespace common_values_test {
 
 TEST(CommonValues, AreTheMiddleOfThoseThatBelongTogether) {
   CommonValues values(1e-10);
@@ -38,5 +38,5 @@ TEST(CommonValues, TooManyAreRounded) {
   EXPECT_EQ(values(5e-3 + 2e-7), values(5e-3 - 2e-7));
 }
 
-}  // namespace
+}  // namespace common_values_test
 }  // namespace pounding::stiffness

@@ -9,7 +9,7 @@
 #include "elements/gauss_rule.h"
 
 namespace pounding::stiffness {
-namespace {
+namespace element_frames_test {
 
 constexpr double tolerance = 1e-10;
 
@@ -115,5 +115,5 @@ TEST(ElementFrames, RefuseWhatIsNoRectangle) {
   expect_refused(trapezium);
 }
 
-}  // namespace
+}  // namespace element_frames_test
 }  // namespace pounding::stiffness

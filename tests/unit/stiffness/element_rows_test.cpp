@@ -5,9 +5,9 @@
 #include "unit/stiffness/brick_grid.h"
 
 namespace pounding::stiffness {
-namespace {
+namespace element_rows_test {
 
-using testing::grid;
+using testing_support::grid;
 
 TEST(ElementRows, AGridHasOneRunPerRow) {
   const auto bricks = grid(5, 3, 2);
@@ -61,5 +61,5 @@ TEST(ElementRows, TheBestRowsAreTheLongOnes) {
   EXPECT_EQ(best_rows(grid(1, 2, 16), 2 * 3 * 17).run_axis, 2);
 }
 
-}  // namespace
+}  // namespace element_rows_test
 }  // namespace pounding::stiffness

@@ -9,7 +9,7 @@
 #include "unit/elements/dense_eigen.h"
 
 namespace pounding {
-namespace {
+namespace coupled_mass_test {
 
 constexpr std::size_t width = CoupledMass::width;
 
@@ -202,5 +202,5 @@ TEST(Elimination, OfARingFillsInOneBlockPerNode) {
   }
 }
 
-}  // namespace
+}  // namespace coupled_mass_test
 }  // namespace pounding

@@ -14,7 +14,7 @@
 #include "unit/elements/dense_eigen.h"
 
 namespace pounding {
-namespace {
+namespace mass_scaling_test {
 
 constexpr std::size_t size = 12;
 constexpr Rayleigh damping{0.5, 1.2e-5};
@@ -240,5 +240,5 @@ TEST(MassScaling, TakesManyDofsWhoseFactorIsSmall) {
   EXPECT_EQ(clusters[0].nodes.size(), 10000u);
 }
 
-}  // namespace
+}  // namespace mass_scaling_test
 }  // namespace pounding

@@ -8,7 +8,7 @@
 #include "system/coupled_mass.h"
 
 namespace pounding {
-namespace {
+namespace rigid_body_test {
 
 /// A mesh of free nodes alone: `components` of each, at places that are given.
 Mesh mesh_of(const std::vector<Vector3>& places, const std::vector<std::uint8_t>& components) {
@@ -129,5 +129,5 @@ TEST(RigidBody, HasTheMotionsThatItsNodesSee) {
   EXPECT_EQ(motions({{1e6, 0, 0}, {1e6 + 1, 0, 0}, {1e6, 1, 0}}, 7), 6U);  // far from the origin
 }
 
-}  // namespace
+}  // namespace rigid_body_test
 }  // namespace pounding

@@ -10,7 +10,7 @@
 #include "unit/elements/turned_shell.h"
 
 namespace pounding {
-namespace {
+namespace rotary_scaling_test {
 
 using testing_support::dense_shell;
 using testing_support::DenseElement;
@@ -130,5 +130,5 @@ TEST(RotaryScaling, SeesThatNoInertiaHelps) {
   EXPECT_FALSE(radii_for(shape, element, 1e-5, {3e5, 0}));  // alpha alone
 }
 
-}  // namespace
+}  // namespace rotary_scaling_test
 }  // namespace pounding

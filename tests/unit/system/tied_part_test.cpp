@@ -12,7 +12,7 @@
 #include "system/coupled_mass.h"
 
 namespace pounding {
-namespace {
+namespace tied_part_test {
 
 constexpr std::uint8_t solid = 0x07;
 constexpr std::uint8_t shell = 0x3f;
@@ -187,5 +187,5 @@ TEST(TiedPart, NodesOnCornersAreThoseOfAMeshThatMatches) {
   EXPECT_DOUBLE_EQ(found[6], found[24]);
 }
 
-}  // namespace
+}  // namespace tied_part_test
 }  // namespace pounding

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace {
+namespace yielding_beams_test {
 
 TEST(YieldingBeams, PutALawInSeriesWithTheBendingThatStaysElastic) {
   Hysteresis law;
@@ -20,5 +20,5 @@ TEST(YieldingBeams, PutALawInSeriesWithTheBendingThatStaysElastic) {
   EXPECT_THROW(in_series(law, 0.3), std::domain_error);  // falls by .5, unbends by .3
 }
 
-}  // namespace
+}  // namespace yielding_beams_test
 }  // namespace pounding

@@ -7,7 +7,7 @@
 #include "elements/gauss_rule.h"
 
 namespace pounding::stiffness {
-namespace {
+namespace brick_class_test {
 
 ElementProperties concrete() {
   return {.young = 30e9, .poisson = 0.2, .density = 2400};
@@ -28,5 +28,5 @@ TEST(BrickSplit, ConstantStrainsHaveTheModuliOfElasticity) {
   EXPECT_NEAR(split->shear[0][1] * 16 * 0.125 / (shear_modulus * volume), 1, 1e-12);
 }
 
-}  // namespace
+}  // namespace brick_class_test
 }  // namespace pounding::stiffness

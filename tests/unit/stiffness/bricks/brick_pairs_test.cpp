@@ -8,9 +8,9 @@
 #include "unit/stiffness/brick_grid.h"
 
 namespace pounding::stiffness {
-namespace {
+namespace brick_pairs_test {
 
-using testing::grid;
+using testing_support::grid;
 
 int count_sides(const BrickPairs& pairs, Sides sides) {
   return static_cast<int>(std::count_if(pairs.steps.begin(), pairs.steps.end(),
@@ -121,5 +121,5 @@ TEST(BrickPairs, EachBrickActsOnceOnEachSide) {
   expect_each_brick_once(holes, 14 * 8 * 4);
 }
 
-}  // namespace
+}  // namespace brick_pairs_test
 }  // namespace pounding::stiffness

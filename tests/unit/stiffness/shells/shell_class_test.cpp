@@ -9,7 +9,7 @@
 #include "stiffness/shells/shell_kernel.h"
 
 namespace pounding::stiffness {
-namespace {
+namespace shell_class_test {
 
 ElementProperties concrete(double thickness) {
   return {.young = 30e9, .poisson = 0.2, .density = 2400, .thickness = thickness};
@@ -98,5 +98,5 @@ TEST(ShellSplit, IsTheElementMatrix) {
   }
 }
 
-}  // namespace
+}  // namespace shell_class_test
 }  // namespace pounding::stiffness
