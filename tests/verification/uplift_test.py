@@ -66,7 +66,7 @@ class Thrown(unittest.TestCase):
 
     def test_what_cannot_be_meant_is_refused(self):
         for more, why in ((["-body_support_stiffness", "1e4,1e4,0"], "its stiffness along z is 0"),
-                          (["-body_support_element", "point_mass"], "compression_only"),
+                          (["-body_support_element", "point_mass"], "not for the element point_mass of this group"),
                           ([*in_modes("body", 3), "-body_damping_uniform", 0.02],
                            "leave one of the three out"),
                           (["-body_support_damping_beta", 1e-4], "take the damping of their structure"),
