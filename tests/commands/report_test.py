@@ -181,6 +181,7 @@ class Report(unittest.TestCase):
         change = answer.largest_change(self.hit, found)
         self.assertAlmostEqual(change.ratio, answer.largest_change(self.hit, self.alone).ratio, delta=1e-6 * change.ratio)
 
+    @program.long
     def test_the_command_of_the_report_makes_the_run_that_is_then_found(self):
         place = self.place / "found"
         shutil.copytree(self.place / "hit", place / "hit")

@@ -19,7 +19,7 @@ import program
 
 sys.path[:0] = [os.path.join(program.SOURCE, "run"), os.path.join(program.SOURCE, "python")]
 sys.dont_write_bytecode = True
-from parts.plot import scene_mesh, view  # noqa: E402
+from parts.plot import report, scene_mesh, view  # noqa: E402
 from pounding.results import Missing, load  # noqa: E402
 
 CASE = [*program.COARSE_PAIR, "-modes", 3, "-write_modes", "-write_model", "-s1_initial_velocity", "1.5,0,0",
@@ -168,12 +168,14 @@ class View(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             for name in ("summary.json", "history.h5", "impacts.csv", "energy.csv", "spectra.csv"):
                 shutil.copy(os.path.join(self.folder, name), folder)
-            drawn = program.must_do(self, "plot", folder)
-            self.assertIn("view skipped: no fields.h5", drawn.stdout)
-            self.assertNotIn('id="view"', Path(folder, "report.html").read_text(encoding="utf-8"))
+            with unittest.mock.patch.object(report._Drawn, "html", return_value=""):  # figures take seconds
+                _, skipped, page = report.write(load(Path(folder)))
+            self.assertEqual(len(skipped), 1)
+            self.assertIn("view skipped: no fields.h5", skipped[0])
+            self.assertNotIn('id="view"', Path(page).read_text(encoding="utf-8"))
             Path(folder, "fields.h5").write_bytes(b"no HDF5 at all")
-            drawn = program.must_do(self, "plot", folder)
-            self.assertIn("cannot be read", drawn.stdout)
+            with self.assertRaisesRegex(Missing, "cannot be read"):
+                view.html(load(Path(folder)))
 
     def test_a_browser_draws_it(self):
         used = browser.needed(self)
