@@ -20,6 +20,47 @@ def counts(seed, trials):
     return np.random.default_rng(seed).binomial(trials, chance)
 
 
+class PartsOfAScatter(unittest.TestCase):
+    @staticmethod
+    def drawn(seed, count, together=0.0):
+        """y = m + 2 j + together m j of independent standard normals, with the own and with the next joint."""
+        generator = np.random.default_rng(seed)
+        motion, joint = generator.standard_normal((2, count, 1))
+        both = [motion + 2 * one + together * motion * one for one in (joint, np.roll(joint, -1, 0))]
+        return np.array(both)
+
+    def test_parts_of_a_sum_are_those_of_theory(self):
+        own, exchanged = self.drawn(1, 20000)
+        found = fragility.scatter(own, exchanged)
+        for value, expected in ((found.all, 5**0.5), (found.joint, 2), (found.motion, 1)):
+            self.assertLess(abs(value[0] / expected - 1), 0.02)
+
+    def test_what_they_do_together_counts_in_both(self):
+        own, exchanged = self.drawn(2, 20000, together=1.5)
+        found = fragility.scatter(own, exchanged)
+        for value, expected in ((found.all, 7.25**0.5), (found.joint, 6.25**0.5), (found.motion, 3.25**0.5)):
+            self.assertLess(abs(value[0] / expected - 1), 0.03)
+
+    def test_small_samples_are_not_biased(self):
+        squares = np.mean([[getattr(fragility.scatter(*self.drawn(seed, 6)), name)[0] ** 2
+                            for name in ("all", "joint", "motion")] for seed in range(4000)], 0)
+        for value, expected in zip(squares, (5, 4, 1)):
+            self.assertLess(abs(value / expected - 1), 0.05)
+
+    def test_the_interval_holds_the_share(self):
+        held = 0
+        for seed in range(200):
+            share, low, high = fragility.joint_share(*self.drawn(seed, 35), repeats=200)
+            self.assertLessEqual(low, high)
+            held += low <= 0.8 <= high
+        print(f"intervals of 95 % held the joint's share in {held} of 200 seeds")
+        self.assertGreater(held, 176)  # a bootstrap of 35 holds a little less often than it says
+
+    def test_nothing_that_varies_has_no_share(self):
+        found = fragility.joint_share(np.ones((5, 2)), np.ones((5, 2)))
+        self.assertTrue(all(np.isnan(one) for one in found))
+
+
 class Curves(unittest.TestCase):
     def held(self, seeds, trials):
         """How often the intervals of theta and of beta hold the truth."""

@@ -192,28 +192,44 @@ class Study(unittest.TestCase):
                 "relay_capacity": str(self.place / "relay.csv"), "relay_dip": 0.05}
         field = {"deviation": 0.002, "length": 1.5}
         study = {"options": {**STUDY["options"], **item}, "full_order": {"share": 0}, "capacities": [], "levels": [5.0],
-                 "joints": {"floor1": {"field": field}, "floor2": {"field": field}}}
+                 "joints": {"floor1": {"field": field}, "floor2": {"field": field}}, "exchange": True}
         said = self.fragility("--runner", "ensemble", "--ranks", "2", **study).stdout
         rows = [row for row in rows_of(self.place / "out" / "probability.csv") if row["event"].startswith("relay fails")]
         found = {row["gap [m]"]: int(row["hits"]) for row in rows}
-        failed, gaps = 0, set()
+        failed, gaps, spectra = 0, set(), {}
         for sample, row in enumerate(rows_of(self.place / "out" / "design.csv")):
-            options = {**study["options"], "motion_x_seed": row["motion x"], "motion_x_duration": 6, "motion_x_pga": 5,
+            motion = {**study["options"], "motion_x_seed": row["motion x"], "motion_x_duration": 6, "motion_x_pga": 5,
                        "motion_x_envelope": "0.3,4", "spectra_frequencies": STUDY["frequencies"],
                        "spectra_damping": STUDY["dampings"],
                        **{f"{name}_{key}": value for name, one in STUDY["reduction"].items()
                           for key, value in one.items()}}
-            for floor in ("floor1", "floor2"):
-                options |= {f"{floor}_gap": 0.01, f"{floor}_gap_deviation": 0.002, f"{floor}_gap_length": 1.5,
-                            f"{floor}_gap_seed": 100000 + sample}
-            run = pounding.run(two_buildings.SCENE, self.place / f"own-{sample}", 1, **options)
-            failed += not run.summary["equipment"]["relay"]["passes"]
-            gaps.add(tuple(run.summary["contacts"]["floor1"]["initial_gap"]))
+            for owner in (sample, (sample + 1) % 3):  # of the joint
+                joint = {f"{floor}_{key}": value for floor in ("floor1", "floor2") for key, value in (
+                    ("gap", 0.01), ("gap_deviation", 0.002), ("gap_length", 1.5), ("gap_seed", 100000 + owner))}
+                run = pounding.run(two_buildings.SCENE, self.place / f"{sample}-{owner}", 1, **motion, **joint)
+                spectra[sample, owner] = np.log(run.spectrum("left_roof", "x", 0.05)[1])
+                if owner != sample:
+                    continue
+                failed += not run.summary["equipment"]["relay"]["passes"]
+                gaps.add(tuple(run.summary["contacts"]["floor1"]["initial_gap"]))
         self.assertRegex(said, f"relay fails at 5 m/s2 in {100 * failed / 3:.3g} % in a joint of 10 mm .*, "
                          f"{100 * found['apart'] / 3:.3g} % apart")
         self.assertEqual(found["0.01"], failed)
         self.assertGreater(failed, found["apart"])
         self.assertEqual(len(gaps), 3)
+        # The scatter that joints and motions make alone is that of the single runs.
+        rows = [row for row in rows_of(self.place / "out" / "scatter.csv")
+                if row["channel"] == "left_roof x" and row["damping"] == "0.05"]
+        ring = [(sample, (sample + 1) % 3) for sample in range(3)]
+        joint = sum((spectra[a, a] - spectra[a, b]) ** 2 for a, b in ring) / 6
+        motion = sum((spectra[b, b] - spectra[a, b]) ** 2 for a, b in ring) / 6
+        for name, expected in (("joint", joint), ("motion", motion)):
+            np.testing.assert_allclose([float(row[name]) for row in rows], expected**0.5, rtol=2e-3, atol=1e-6, err_msg=name)
+        self.assertGreater(max(joint), 1e-4)
+        self.assertIn("the joint's own width makes", said)
+        members = rows_of(self.place / "out" / "members.csv")
+        self.assertEqual([row["exchanged"] for row in members], 3 * ["0", "0", "1"])
+        self.assertTrue((self.place / "out" / "scatter.png").is_file())
         self.refuse("joints: floor1: field: length", joints={"floor1": {"field": {"deviation": 0.002}}})
         self.refuse("relay.csv", options={**study["options"], "relay_capacity": "other/relay.csv"})
 
@@ -233,6 +249,8 @@ class Study(unittest.TestCase):
         self.refuse("band: '1000,2000' is not two frequencies",
                     capacities=[{**STUDY["capacities"][0], "band": "1000,2000"}])
         self.refuse("joints is missing", joints={})
+        self.refuse("exchange: 1 is neither true nor false", exchange=1)
+        self.refuse("makes no difference: no joint has a deviation", exchange=True, joints={"floor1": {}})
         self.refuse("output is the study's own", options={"output": "x"})
         self.refuse("needs either records or a target", motions={"x": {}})
         self.refuse("goes with another distribution", joints={"floor1": {"deviation": {"cov": 0.1}}})

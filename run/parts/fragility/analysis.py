@@ -5,7 +5,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy import stats
 
-from pounding.fragility import (Fragility, FitRefused, binomial_interval, fit_paired, members_needed, moments, widened)
+from pounding.fragility import (Fragility, FitRefused, binomial_interval, fit_paired, joint_share, members_needed,
+                                moments, scatter, widened)
 
 from .design import Design
 from .equipment import Item
@@ -16,6 +17,7 @@ CONTACT = "contact"
 ROUND_OFF = 1e-6  # of the largest spectrum: below it a channel stands still
 MAIN = 0.05  # of the largest spectrum of its probe: what a channel needs to count in errors and numbers of motions
 EXCEEDED = (0.5, 0.16, 0.05)
+BANDS = ((0.1, 10), (10, 50), (50, 400))  # of the parts of a scatter [Hz]
 TOLERANCE = 0.1  # of the mean that is to be known
 
 
@@ -30,7 +32,9 @@ class Analysis:
 
     def __post_init__(self):
         self.index = {(one.gap, one.level, one.sample): number for number, one in enumerate(self.design.members)
-                      if not one.disturbed}
+                      if not one.disturbed and not one.exchanged}
+        self.exchanged = {(one.gap, one.level, one.sample): number for number, one in enumerate(self.design.members)
+                          if one.exchanged}
         largest = self.outcomes.spectra.max((0, 2, 3))
         if not self.main(self.outcomes.spectra):
             raise StudyError(f"{self.study.path}: no probe moves; has {self.study.scene.name} probes, and no record of "
@@ -196,6 +200,54 @@ class Analysis:
                     rows.append(row)
         return rows
 
+    # How much of the scatter is the joint's.
+
+    @property
+    def exchanged_cells(self) -> list:
+        return [cell for cell in self.cells if cell[0] is not None] if self.exchanged else []
+
+    def logarithms(self, gap: float, level: float) -> tuple:
+        """Channels of a cell that move, and ln of their spectra with each sample's own joint and with the next one's."""
+        spectra = self.outcomes.spectra
+        other = np.array([self.exchanged[gap, level, sample] for sample in range(self.study.samples)])
+        main = self.main(spectra[self.of(gap, level)])
+        return main, *(np.log(np.maximum(spectra[members][:, main], 1e-300)) for members in (self.of(gap, level), other))
+
+    def scatter_rows(self) -> list:
+        """Per cell, main channel, damping ratio and frequency the deviation of ln S, and what of it the joint and the
+        motion make alone, the other one held."""
+        rows, found = [], self.outcomes
+        for gap, level in self.exchanged_cells:
+            main, own, exchanged = self.logarithms(gap, level)
+            one = scatter(own, exchanged)
+            rows += [{"gap [m]": gap_text(gap), "pga [m/s2]": level, "channel": found.channels[channel],
+                      "damping": f"{ratio:g}", "frequency": f"{frequency:.9g}", "all": f"{one.all[c, d, f]:.4g}",
+                      "joint": f"{one.joint[c, d, f]:.4g}", "motion": f"{one.motion[c, d, f]:.4g}"}
+                     for c, channel in enumerate(main) for d, ratio in enumerate(found.damping)
+                     for f, frequency in enumerate(found.frequency)]
+        return rows
+
+    def joint_share_rows(self) -> list:
+        """Per cell, main channel and band the deviations of ln S at 5 % damping, rms over the band's frequencies, and
+        the part of the variance that would go if the joint were known, with its interval."""
+        rows, found = [], self.outcomes
+        damping = int(abs(found.damping - 0.05).argmin())
+        for gap, level in self.exchanged_cells:
+            main, own, exchanged = self.logarithms(gap, level)
+            own, exchanged = own[:, :, damping], exchanged[:, :, damping]
+            for low, high in BANDS:
+                inside = (found.frequency >= low) & (found.frequency <= high)
+                if not inside.any():
+                    continue
+                one = scatter(own[..., inside], exchanged[..., inside])
+                part = joint_share(own[..., inside], exchanged[..., inside], self.study.confidence)
+                rows += [{"gap [m]": gap_text(gap), "pga [m/s2]": level, "channel": found.channels[channel],
+                          "band [Hz]": f"{low:g}-{high:g}",
+                          **{name: rms(getattr(one, name)[c]) for name in ("all", "joint", "motion")},
+                          "share of the joint": float(part[0][c]), "low": float(part[1][c]), "high": float(part[2][c])}
+                         for c, channel in enumerate(main)]
+        return rows
+
     # Repeats at full order.
 
     def repeat_rows(self, full: Outcomes) -> list:
@@ -224,7 +276,7 @@ class Analysis:
         for number, one in enumerate(self.design.members):
             touched = found.episodes[number].sum() > 0
             rows.append({"sample": one.sample, "gap [m]": gap_text(one.gap), "pga [m/s2]": one.level,
-                         "disturbed": int(one.disturbed), "impacts": int(found.episodes[number].sum()),
+                         "disturbed": int(one.disturbed), "exchanged": int(one.exchanged), "impacts": int(found.episodes[number].sum()),
                          "first [s]": float(np.nanmin(found.first_time[number])) if touched else "",
                          "impulses [N s]": float(found.impulse_sum[number].sum()),
                          "largest impulse [N s]": float(found.impulse_largest[number].max(initial=0.0)),

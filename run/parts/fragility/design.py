@@ -15,13 +15,15 @@ APART = "apart"  # the runs without pounding, whose gap is the study's `apart`
 @dataclass(frozen=True)
 class Member:
     """`gap`: nominal [m], None of a run apart; `level`: peak ground acceleration [m/s2]; `values`: texts of the options
-    of the table's columns. `disturbed`: by the study's noise, beside a member that is repeated at full order."""
+    of the table's columns. `disturbed`: by the study's noise, beside a member that is repeated at full order.
+    `exchanged`: in the joint of the next sample, that of the first one for the last."""
 
     sample: int
     gap: float | None
     level: float
     values: tuple
     disturbed: bool = False
+    exchanged: bool = False
 
 
 @dataclass
@@ -64,19 +66,21 @@ def build(study: Study) -> Design:
                              "take a lognormal one")
     motions = [sample % count for sample in range(study.samples)]
 
-    def member(sample: int, gap: float | None, level: float, disturbed: bool = False) -> Member:
+    def member(sample: int, gap: float | None, level: float, disturbed: bool = False, exchanged: bool = False) -> Member:
         shaken = level * (1 + study.noise) if disturbed else level
+        owner = (sample + exchanged) % study.samples  # of the joint
         values = motion_values(study, motions[sample], shaken)
         for contact, joint in study.joints.items():
-            off = drawn[sample, names.index(f"{contact}_gap")] if joint.deviation else 0.0
+            off = drawn[owner, names.index(f"{contact}_gap")] if joint.deviation else 0.0
             nominal = study.apart if gap is None else gap
             values += (",".join(text_of(max(0.0, nominal + one + off)) for one in joint.shape),)
-            values += (str((study.seed * MOST_SAMPLES + sample) % 2**31),) if joint.field else ()
+            values += (str((study.seed * MOST_SAMPLES + owner) % 2**31),) if joint.field else ()
         values += tuple(text_of(drawn[sample, names.index(one.name)]) for one in study.factors)
-        return Member(sample, gap, level, values, disturbed)
+        return Member(sample, gap, level, values, disturbed, exchanged)
 
-    members = [member(sample, gap, level) for sample in range(study.samples) for gap in [None, *study.gaps]
-               for level in study.levels]
+    ways = [(None, False)] + [(gap, exchanged) for gap in study.gaps for exchanged in (False, True)[:1 + study.exchange]]
+    members = [member(sample, gap, level, exchanged=exchanged) for sample in range(study.samples)
+               for gap, exchanged in ways for level in study.levels]
     repeated = choose(study, members)
     members += [member(one.sample, one.gap, one.level, True) for one in (members[index] for index in repeated)]
     joints = [column for name, joint in study.joints.items()
@@ -86,8 +90,9 @@ def build(study: Study) -> Design:
 
 
 def choose(study: Study, members: list) -> list:
-    """Indices of members to be repeated at full order, spread over all cells by the seed; those apart are left out."""
-    cells = [index for index, one in enumerate(members) if one.gap is not None]
+    """Indices of members to be repeated at full order, spread over all cells by the seed; those apart, and in the joints of
+    others, are left out."""
+    cells = [index for index, one in enumerate(members) if one.gap is not None and not one.exchanged]
     wanted = int(np.ceil(study.share * len(cells) - 1e-9))
     generator = np.random.default_rng([study.seed, 1])
     strata = np.array_split(np.array(cells), wanted) if wanted else []

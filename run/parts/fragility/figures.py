@@ -6,7 +6,7 @@ import numpy as np
 from scipy import stats
 
 from parts.plot.style import WIDTH, WITH, WITHOUT, g_axis, log_scale, plt, save
-from pounding.fragility import Fragility, binomial_interval, moments
+from pounding.fragility import Fragility, binomial_interval, moments, scatter
 
 from .analysis import CONTACT, EXCEEDED, Analysis, gap_text, name_of
 
@@ -92,6 +92,30 @@ def summary(analysis: Analysis, folder: Path) -> list:
     figure, panels = plt.subplots(1, 2, figsize=(1.35 * WIDTH, 4.6))
     captions = draw_floor(panels[0], analysis), draw_map(panels[1], analysis)
     return save(figure, folder, "fragility.png", "Floor spectrum and probability of contact", " ".join(captions))
+
+
+def scatter_parts(analysis: Analysis, folder: Path) -> list:
+    """Deviations of ln S over the frequency in the cell and of the channel that other figures show: of all, of the
+    joint with the motion held, of the motion with the joint held."""
+    gap, level, channel, damping = shown(analysis)
+    found, (main, own, exchanged) = analysis.outcomes, analysis.logarithms(gap, level)
+    place = main.index(channel) if channel in main else 0
+    one = scatter(own[:, place, damping], exchanged[:, place, damping])
+    figure, axes = plt.subplots(figsize=(WIDTH, 3.6))
+    for values, colour, label in ((one.all, "black", "motion, building and joint"), (one.motion, WITHOUT, "motion and building alone"),
+                                  (one.joint, WITH, "joint alone")):
+        axes.plot(found.frequency, values, color=colour, lw=1.5, label=label)
+    log_scale(axes, "x", found.frequency)
+    axes.set_xlim(found.frequency[0], found.frequency[-1])
+    axes.set_ylim(bottom=0)
+    axes.set_xlabel("frequency [Hz]")
+    axes.set_ylabel("deviation of ln S")
+    axes.set_title(f"{found.channels[main[place]]}, joint {1e3 * gap:g} mm, {level / 9.81:.2g} g")
+    axes.legend(loc="upper left")
+    return save(figure, folder, "scatter.png", "How much of the scatter is the joint's",
+                f"Standard deviation of the logarithm of the spectrum over {analysis.study.samples} samples, "
+                f"{100 * found.damping[damping]:g} % damping: {found.channels[main[place]]}, nominal joint of {1e3 * gap:g} mm, "
+                f"{level:g} m/s²; and of what varies alone while the rest is held.")
 
 
 def curves(analysis: Analysis, fits: dict, folder: Path) -> list:

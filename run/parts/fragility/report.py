@@ -83,19 +83,21 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
     pages = figures.summary(analysis, folder) + figures.curves(analysis, fits, folder)
     pages += figures.joints(analysis, rules, folder)
     more, widths = figures.enough(analysis, folder)
-    pages += more
+    pages += more + (figures.scatter_parts(analysis, folder) if study.exchange else [])
     first_rows = [{"sample": sample, "motion": analysis.design.motions[sample],
                    **{f"joint {gap:g} m: first contact at [m/s2]": float(first[sample, place])
                       for place, gap in enumerate(study.gaps)}} for sample in range(study.samples)]
     tables = {"members": analysis.member_rows(), "probability": analysis.probability_rows(), "curves": fit_rows,
               "joint": analysis.joint_rows(rules), "first_contact": first_rows, "enough": enough_rows,
-              "confidence": widths, "full_order": analysis.repeat_rows(full) if full else []}
+              "confidence": widths, "scatter": analysis.scatter_rows(), "joint_share": analysis.joint_share_rows(),
+              "full_order": analysis.repeat_rows(full) if full else []}
     for name, rows in tables.items():
         if rows:
             write_csv(folder / f"{name}.csv", rows)
         else:
             (folder / f"{name}.csv").unlink(missing_ok=True)
     parts = [("Probability", tables["probability"]), ("Lognormal curves", fit_rows),
+             ("Deviation of the logarithm of spectra, 5 % damping", of_shown(analysis, tables["joint_share"])),
              ("Joint that would be needed [m]", tables["joint"]),
              (f"Members that the mean of any spectrum needs, within {100 * TOLERANCE:g} %",
               enough_summary(enough_rows)), ("Repeats at full order: ln-ratio of the spectra", repeats_summary(tables["full_order"]))]
@@ -112,6 +114,12 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
     text = "\n".join(f"{line}" for line in lines) + "\n\n" + "\n".join(
         markdown(caption, *_cells(rows)) for caption, rows in parts if rows)
     return write_page(folder / "fragility.html", study.title, content, f"study {study.path.name}"), text
+
+
+def of_shown(analysis: Analysis, rows: list) -> list:
+    """Rows of the cell that the figures show."""
+    gap, level = figures.shown(analysis)[:2] if rows else (None, None)
+    return [row for row in rows if (row["gap [m]"], row["pga [m/s2]"]) == (gap_text(gap), level)]
 
 
 def floor_table(analysis: Analysis) -> str:
@@ -170,15 +178,29 @@ def failing(analysis: Analysis) -> list:
     return lines
 
 
+def scattered(analysis: Analysis, rows: list) -> list:
+    """How much of the scatter of spectra the joint makes, in the cell that the figures show."""
+    mine, lines = of_shown(analysis, rows), []
+    for band in dict.fromkeys(row["band [Hz]"] for row in mine):
+        some = [row for row in mine if row["band [Hz]"] == band]
+        worst = max(some, key=lambda row: row["share of the joint"])
+        low, high = (f"{100 * min(worst[end], 1):.0f}" for end in ("low", "high"))
+        lines.append(f"{100 * float(np.median([row['share of the joint'] for row in some])):.2g} % at {band} Hz, at most "
+                     f"{100 * worst['share of the joint']:.2g} % ({low} to {high}; {worst['channel']})")
+    return [f"Of the variance of ln-spectra in a joint of {1e3 * float(mine[0]['gap [m]']):g} mm at {mine[0]['pga [m/s2]']:g} m/s2 "
+            f"the joint's own width makes, in the median of the channels, {'; '.join(lines)}."] if lines else []
+
+
 def told(analysis: Analysis, fits: dict, full: Outcomes | None, tables: dict) -> list:
     """The answer in sentences: joint, contact, equipment, and how they were found."""
     study = analysis.study
     lines = [needed_joint(tables["joint"], study)]
     cells = len(study.gaps) * len(study.levels) * study.samples
     disturbed = f", and {len(analysis.design.repeated)} disturbed" if analysis.design.repeated else ""
-    lines += touching(fits) + failing(analysis)
+    lines += touching(fits) + failing(analysis) + scattered(analysis, tables["joint_share"])
+    exchanged = ", as many in the joint of the next sample" if study.exchange else ""
     lines += [f"{len(analysis.design.members)} runs: {study.samples} samples of motion and building at "
-             f"{len(study.levels)} levels, in {len(study.gaps)} joints ({cells}), apart "
+             f"{len(study.levels)} levels, in {len(study.gaps)} joints ({cells}){exchanged}, apart "
              f"({len(study.levels) * study.samples}){disturbed}."]
     wrong = analysis.contradictions()
     lines.append(f"The runs apart say of {cells - wrong} of {cells} runs with a joint whether they touch as these do.")

@@ -11,7 +11,7 @@ from pounding.results import DIRECTIONS
 from pounding.scenes import SceneError, flatten
 
 KEYS = ("title", "scene", "output", "options", "reduction", "seed", "samples", "confidence", "motions", "levels",
-        "gaps", "apart", "joints", "factors", "capacities", "full_order", "frequencies", "dampings", "show")
+        "gaps", "apart", "joints", "exchange", "factors", "capacities", "full_order", "frequencies", "dampings", "show")
 DAMPINGS = (0.02, 0.03, 0.04, 0.05, 0.07)
 SYNTHETIC = {"duration": "25", "envelope": "2,15"}
 RECORDED = {"unit": "auto", "time_step": "0", "column": "0"}
@@ -88,6 +88,7 @@ class Study:
     gaps: list  # nominal [m]
     apart: float  # of the runs without pounding [m]
     joints: dict  # contact -> Joint
+    exchange: bool  # each member with a joint is run once more in the joint of the next sample
     factors: list  # Variables, whose names are options
     capacities: list
     share: float  # of the members that are repeated at full order
@@ -141,6 +142,12 @@ class _Reader:
         value = self.values.get(key, default)
         if isinstance(value, bool) or not isinstance(value, int) or value < least:
             self.fail(key, f"is not a whole number from {least} on")
+        return value
+
+    def flag(self, key: str) -> bool:
+        value = self.values.get(key, False)
+        if not isinstance(value, bool):
+            self.fail(key, "is neither true nor false")
         return value
 
     def numbers(self, key: str, default=None, least: float | None = None) -> list:
@@ -383,14 +390,18 @@ def read(path: Path) -> Study:
     if gaps[-1] > WIDEST:
         reader.fail("gaps", f"has a joint of {gaps[-1]:g} m, above {WIDEST:g} m: gaps are in m, 40 mm are 0.04")
     samples = reader.whole("samples", motions, 2)
-    if samples * len(levels) * (len(gaps) + 1) > MOST_MEMBERS:
-        reader.fail("samples", f"makes {samples * len(levels) * (len(gaps) + 1)} members, more than {MOST_MEMBERS}")
+    joints, exchange = _joints(reader), reader.flag("exchange")
+    if exchange and not any(joint.deviation or joint.field for joint in joints.values()):
+        reader.fail("exchange", "makes no difference: no joint has a deviation or a field")
+    members = samples * len(levels) * (1 + len(gaps) * (1 + exchange))
+    if members > MOST_MEMBERS:
+        reader.fail("samples", f"makes {members} members, more than {MOST_MEMBERS}")
     return Study(
         path, scene.resolve(), str(reader.values.get("title", f"Study {path.stem}")),
         Path(str(reader.values.get("output", Path("results") / f"fragility-{path.stem}"))), reader.options("options"),
         reader.options("reduction"), reader.whole("seed", 1, 0), samples,
         reader.number("confidence", 0.95, 0.0, 1.0), axes, limit, wanted, levels, gaps,
-        reader.number("apart", max(1.0, 20 * gaps[-1]), gaps[-1]), _joints(reader), _factors(reader),
+        reader.number("apart", max(1.0, 20 * gaps[-1]), gaps[-1]), joints, exchange, _factors(reader),
         _capacities(reader, frequencies, dampings), full.number("share", 0.0, -1e-12, 1.0 + 1e-12),
         full.options("options"), full.number("noise", 1e-3, 0.0), frequencies, dampings,
         _show(reader, gaps, levels))
