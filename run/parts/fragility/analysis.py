@@ -31,10 +31,8 @@ class Analysis:
     equipment: list = field(default_factory=list)
 
     def __post_init__(self):
-        self.index = {(one.gap, one.level, one.sample): number for number, one in enumerate(self.design.members)
-                      if not one.disturbed and not one.exchanged}
-        self.exchanged = {(one.gap, one.level, one.sample): number for number, one in enumerate(self.design.members)
-                          if one.exchanged}
+        self.index = {(one.gap, one.level, one.sample, one.exchanged): number
+                      for number, one in enumerate(self.design.members) if not one.disturbed}
         largest = self.outcomes.spectra.max((0, 2, 3))
         if not self.main(self.outcomes.spectra):
             raise StudyError(f"{self.study.path}: no probe moves; has {self.study.scene.name} probes, and no record of "
@@ -52,9 +50,13 @@ class Analysis:
         return [number for number, name in enumerate(self.outcomes.channels)
                 if largest[number] > MAIN * of_probe[name.split()[0]] > 0]
 
-    def of(self, gap: float | None, level: float) -> np.ndarray:
-        """Members of a cell, by sample."""
-        return np.array([self.index[gap, level, sample] for sample in range(self.study.samples)])
+    def of(self, gap: float | None, level: float, exchanged: bool = False) -> np.ndarray:
+        """Members of a cell, by sample; `exchanged`: those in the joints of the next samples."""
+        return np.array([self.index[gap, level, sample, exchanged] for sample in range(self.study.samples)])
+
+    def damping(self, ratio: float) -> int:
+        """Number of the study's damping ratio that is nearest."""
+        return int(abs(self.outcomes.damping - ratio).argmin())
 
     # Spectra.
 
@@ -86,12 +88,12 @@ class Analysis:
         if event == CONTACT:
             return found.episodes[members].sum(-1) > 0
         if isinstance(event, Item):
-            damping = int(abs(found.damping - event.damping).argmin())
+            damping = self.damping(event.damping)
             return np.any([event.fails(found.frequency, found.spectra[members][:, :, channel, damping])
                            for channel in (found.channels.index(f"{event.probe} {way}") for way in event.ways)], axis=0)
         inside = (found.frequency >= event.band[0]) & (found.frequency <= event.band[1])
         channel = found.channels.index(f"{event.probe} {event.direction}")
-        damping = int(abs(found.damping - event.damping).argmin())
+        damping = self.damping(event.damping)
         return found.spectra[members][:, :, channel, damping, inside].max(-1) > event.acceleration
 
     @property
@@ -204,21 +206,20 @@ class Analysis:
 
     @property
     def exchanged_cells(self) -> list:
-        return [cell for cell in self.cells if cell[0] is not None] if self.exchanged else []
+        return [cell for cell in self.cells if cell[0] is not None] if self.study.exchange else []
 
-    def logarithms(self, gap: float, level: float) -> tuple:
-        """Channels of a cell that move, and ln of their spectra with each sample's own joint and with the next one's."""
-        spectra = self.outcomes.spectra
-        other = np.array([self.exchanged[gap, level, sample] for sample in range(self.study.samples)])
-        main = self.main(spectra[self.of(gap, level)])
-        return main, *(np.log(np.maximum(spectra[members][:, main], 1e-300)) for members in (self.of(gap, level), other))
+    def logarithms(self, gap: float, level: float, channels: list) -> list:
+        """ln of the spectra of a cell, with each sample's own joint and with the next one's."""
+        return [np.log(np.maximum(self.outcomes.spectra[self.of(gap, level, exchanged)][:, channels], 1e-300))
+                for exchanged in (False, True)]
 
     def scatter_rows(self) -> list:
         """Per cell, main channel, damping ratio and frequency the deviation of ln S, and what of it the joint and the
         motion make alone, the other one held."""
         rows, found = [], self.outcomes
         for gap, level in self.exchanged_cells:
-            main, own, exchanged = self.logarithms(gap, level)
+            main = self.main(found.spectra[self.of(gap, level)])
+            own, exchanged = self.logarithms(gap, level, main)
             one = scatter(own, exchanged)
             rows += [{"gap [m]": gap_text(gap), "pga [m/s2]": level, "channel": found.channels[channel],
                       "damping": f"{ratio:g}", "frequency": f"{frequency:.9g}", "all": f"{one.all[c, d, f]:.4g}",
@@ -231,10 +232,10 @@ class Analysis:
         """Per cell, main channel and band the deviations of ln S at 5 % damping, rms over the band's frequencies, and
         the part of the variance that would go if the joint were known, with its interval."""
         rows, found = [], self.outcomes
-        damping = int(abs(found.damping - 0.05).argmin())
+        damping = self.damping(0.05)
         for gap, level in self.exchanged_cells:
-            main, own, exchanged = self.logarithms(gap, level)
-            own, exchanged = own[:, :, damping], exchanged[:, :, damping]
+            main = self.main(found.spectra[self.of(gap, level)])
+            own, exchanged = (values[:, :, damping] for values in self.logarithms(gap, level, main))
             for low, high in BANDS:
                 inside = (found.frequency >= low) & (found.frequency <= high)
                 if not inside.any():

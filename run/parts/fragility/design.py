@@ -78,7 +78,8 @@ def build(study: Study) -> Design:
         values += tuple(text_of(drawn[sample, names.index(one.name)]) for one in study.factors)
         return Member(sample, gap, level, values, disturbed, exchanged)
 
-    ways = [(None, False)] + [(gap, exchanged) for gap in study.gaps for exchanged in (False, True)[:1 + study.exchange]]
+    own_or_next = (False, True) if study.exchange else (False,)
+    ways = [(None, False), *((gap, exchanged) for gap in study.gaps for exchanged in own_or_next)]
     members = [member(sample, gap, level, exchanged=exchanged) for sample in range(study.samples)
                for gap, exchanged in ways for level in study.levels]
     repeated = choose(study, members)

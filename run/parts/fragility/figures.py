@@ -22,7 +22,7 @@ def shown(analysis: Analysis) -> tuple:
              for k, level in enumerate(study.levels)}
     best = max(share, key=lambda cell: (-abs(share[cell] - 0.5), cell[1]))
     gap, level = (float(study.show.get(key, default)) for key, default in zip(("gap", "level"), best))
-    damping = int(abs(found.damping - 0.05).argmin())
+    damping = analysis.damping(0.05)
     raised = (found.spectra[analysis.of(gap, level)].mean(0)[:, damping].max(-1)
               - found.spectra[analysis.of(None, level)].mean(0)[:, damping].max(-1))
     channel = max(analysis.main(found.spectra[analysis.of(None, level)]), key=lambda number: raised[number])
@@ -98,9 +98,8 @@ def scatter_parts(analysis: Analysis, folder: Path) -> list:
     """Deviations of ln S over the frequency in the cell and of the channel that other figures show: of all, of the
     joint with the motion held, of the motion with the joint held."""
     gap, level, channel, damping = shown(analysis)
-    found, (main, own, exchanged) = analysis.outcomes, analysis.logarithms(gap, level)
-    place = main.index(channel) if channel in main else 0
-    one = scatter(own[:, place, damping], exchanged[:, place, damping])
+    found = analysis.outcomes
+    one = scatter(*(values[:, 0, damping] for values in analysis.logarithms(gap, level, [channel])))
     figure, axes = plt.subplots(figsize=(WIDTH, 3.6))
     for values, colour, label in ((one.all, "black", "motion, building and joint"), (one.motion, WITHOUT, "motion and building alone"),
                                   (one.joint, WITH, "joint alone")):
@@ -110,11 +109,11 @@ def scatter_parts(analysis: Analysis, folder: Path) -> list:
     axes.set_ylim(bottom=0)
     axes.set_xlabel("frequency [Hz]")
     axes.set_ylabel("deviation of ln S")
-    axes.set_title(f"{found.channels[main[place]]}, joint {1e3 * gap:g} mm, {level / 9.81:.2g} g")
+    axes.set_title(f"{found.channels[channel]}, joint {1e3 * gap:g} mm, {level / 9.81:.2g} g")
     axes.legend(loc="upper left")
     return save(figure, folder, "scatter.png", "How much of the scatter is the joint's",
                 f"Standard deviation of the logarithm of the spectrum over {analysis.study.samples} samples, "
-                f"{100 * found.damping[damping]:g} % damping: {found.channels[main[place]]}, nominal joint of {1e3 * gap:g} mm, "
+                f"{100 * found.damping[damping]:g} % damping: {found.channels[channel]}, nominal joint of {1e3 * gap:g} mm, "
                 f"{level:g} m/s²; and of what varies alone while the rest is held.")
 
 

@@ -23,9 +23,8 @@ Vector3 rigid_motion(std::size_t motion, const Vector3& r) {
 }
 
 TEST(RigidMotions, AreThoseOfABrickAboutItsCentre) {
-  const testing_support::ReducedBox box(
-      false);  // 2 m x 1 m x 0.5 m of concrete, cells of 0.5 m x 1/3 m x
-               // 0.25 m
+  // 2 m x 1 m x 0.5 m of concrete, cells of 0.5 m x 1/3 m x 0.25 m.
+  const testing_support::ReducedBox box(false);
   const RigidMotions motions(box.system, box.mesh);
   const double mass = 2400 * 2 * 1 * 0.5;
   EXPECT_NEAR(motions.mass(), mass, 1e-9 * mass);
