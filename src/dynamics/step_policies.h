@@ -186,6 +186,10 @@ class LoadedGround {
 struct Unfiltered {
   static constexpr bool acts = false;
   template <typename Count>
+  Lanes resisting(std::size_t, Count, const Lanes& q) const {
+    return q;
+  }
+  template <typename Count>
   Lanes force(std::size_t, Count, const Lanes& q) const {
     return q;
   }
@@ -201,6 +205,10 @@ class Filtered {
   }
 
   template <typename Count>
+  Lanes resisting(std::size_t, Count, const Lanes& q) const {
+    return q;
+  }
+  template <typename Count>
   Lanes force(std::size_t i, Count count, const Lanes& q) const {
     Lanes force = filters_.passing * q;
     for (std::size_t k = 0; k < filters_.count; ++k) {
@@ -215,6 +223,24 @@ class Filtered {
  private:
   Filters<Lanes> filters_;
   std::array<double*, max_filters> memory_{};
+};
+
+/// One of the above, with the forces g of inelastic elements beside q = K u, of all dofs.
+template <typename Damping>
+class WithInelastic : public Damping {
+ public:
+  WithInelastic(const Damping& damping, const double* inelastic_force)
+      : Damping(damping), inelastic_force_(inelastic_force) {}
+
+  template <typename Count>
+  Lanes resisting(std::size_t i, Count count, const Lanes& q) const {
+    Lanes force;
+    load_first(inelastic_force_ + i, count, force);
+    return q + force;
+  }
+
+ private:
+  const double* inelastic_force_;
 };
 
 }  // namespace pounding

@@ -66,7 +66,7 @@ StructureStep::StructureStep(const LinearSystem& system, StructureState& state, 
       forces_(system.lumped_mass.size()) {
   terms_.time_step = time_step;
   if (system.supports || system.loads) known_step_.assign(system.lumped_mass.size(), 0.0);
-  find_segments(dofs_of_extra_forces(system));
+  find_segments(dofs_of_extra_damping(system));
   if (system.coupled_mass) coupled_ = std::make_unique<CoupledStep>(system, state, filters_);
 }
 
@@ -113,6 +113,13 @@ void StructureStep::add_momentum(std::size_t dof, double momentum) {
   }
 }
 
+bool StructureStep::is_inelastic(std::size_t dof, std::size_t count) const {
+  if (system_.inelastic.empty()) return false;
+  const auto first = system_.inelastic.begin() + static_cast<std::ptrdiff_t>(dof);
+  return std::any_of(first, first + static_cast<std::ptrdiff_t>(count),
+                     [](char any) { return any != 0; });
+}
+
 StructureStep::Order StructureStep::order_at(std::size_t dof,
                                              const std::vector<char>& acted_on) const {
   const auto acts = [&](std::size_t from, std::size_t count) {
@@ -154,15 +161,16 @@ void StructureStep::find_segments(const std::vector<char>& acted_on) {
   std::size_t coupled = 0;
   for (std::size_t dof = 0; dof < dofs;) {
     const Order order = order_at(dof, acted_on);
-    if (segments_.empty() || segments_.back().order != order) {
+    const std::size_t length = length_at(dof, order);
+    const bool yields = is_inelastic(dof, length);
+    if (segments_.empty() || segments_.back().order != order || segments_.back().yields != yields) {
       const auto begin = static_cast<LocalIndex>(dof);
-      segments_.push_back({begin, begin, order, node_mass_.size(), coupled});
+      segments_.push_back({begin, begin, order, yields, node_mass_.size(), coupled});
     }
     if (order == Order::translations) {
       node_mass_.push_back(system_.lumped_mass[dof]);
       node_inverse_mass_.push_back(system_.inverse_mass[dof]);
     }
-    const std::size_t length = length_at(dof, order);
     coupled += order == Order::coupled ? length : 0;
     dof += length;
     segments_.back().end = static_cast<LocalIndex>(dof);
@@ -230,10 +238,14 @@ void StructureStep::receive(LocalIndex begin, LocalIndex end, const double* forc
       stiffness_velocity_ != nullptr ? advance<true>(*segment, dof, stop, from, damping)
                                      : advance<false>(*segment, dof, stop, from, damping);
     };
+    const auto advance_yielding = [&](const auto& damping) {
+      segment->yields ? advance_with(WithInelastic(damping, state_.inelastic_force.data()))
+                      : advance_with(damping);
+    };
     if (system_.uniform_damping) {
-      advance_with(Filtered(filters_, state_.filtered));
+      advance_yielding(Filtered(filters_, state_.filtered));
     } else {
-      advance_with(Unfiltered());
+      advance_yielding(Unfiltered());
     }
     dof = stop;
   }
@@ -260,10 +272,11 @@ void StructureStep::advance_vectors(std::size_t first, std::size_t end, const do
       add_energies(terms, mass, q, rate, dof, vector_energies_);
     }
     const Lanes before = dof.velocity;
-    const Lanes f = damping.force(i, count, q);
+    const Lanes resisting = damping.resisting(i, count, q);
+    const Lanes f = damping.force(i, count, resisting);
     const Lanes free =
         free_velocity(terms, before, f, inverse_mass, ground.template step<k>(i, count));
-    if constexpr (Damping::acts) sums.filtered += (f - q) * (free + before);
+    if constexpr (Damping::acts) sums.filtered += (f - resisting) * (free + before);
     ground.template add<k>(i, count, settle(terms, q, free, mass, dof, sums));
     store_first(dof.velocity, count, velocity + i);
     store_first(dof.displacement, count, displacement + i);

@@ -72,17 +72,20 @@ class alignas(lane_alignment) StructureStep final : public stiffness::ForceRecei
   static constexpr std::size_t pattern_vectors = 3;  // in which directions repeat: 12 dofs
 
   /// Dofs whose directions repeat: x y z of one mass, or x y z and three rotations; generalised
-  /// coordinates; dofs of coupled mass; or in no order, as where extra forces act.
+  /// coordinates; dofs of coupled mass; or in no order, as where extra damping acts.
   enum class Order { translations, nodes_of_six, generalised, coupled, none };
   struct Segment {
     LocalIndex begin = 0;
     LocalIndex end = 0;
     Order order = Order::none;
+    bool yields = false;            ///< forces of inelastic elements act there
     std::size_t first_node = 0;     ///< of translations, into node_mass_
     std::size_t first_coupled = 0;  ///< of coupled dofs, their number among all of them
   };
 
   void find_segments(const std::vector<char>& acted_on);
+  /// Whether a law of inelastic elements may act on one of these dofs.
+  bool is_inelastic(std::size_t dof, std::size_t count) const;
   Order order_at(std::size_t dof, const std::vector<char>& acted_on) const;
   std::size_t length_at(std::size_t dof, Order order) const;
   template <bool with_energies, typename Damping>

@@ -44,9 +44,8 @@ void finish_system(const Mesh& mesh, LinearSystem& system) {
   }
 }
 
-std::vector<char> dofs_of_extra_forces(const LinearSystem& system) {
-  std::vector<char> acted_on = system.inelastic;
-  acted_on.resize(system.lumped_mass.size(), 0);
+std::vector<char> dofs_of_extra_damping(const LinearSystem& system) {
+  std::vector<char> acted_on(system.lumped_mass.size(), 0);
   if (!system.has_extra_damping()) return acted_on;
   const Mat matrix = system.extra_damping->matrix();
   if (matrix == nullptr) return std::vector<char>(acted_on.size(), 1);

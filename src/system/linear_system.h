@@ -135,8 +135,8 @@ LinearSystem describe_system(const Structure& structure, const Mesh& mesh);
 /// Once the lumped mass is complete: its inverse, and the directions of the dofs.
 void finish_system(const Mesh& mesh, LinearSystem& system);
 
-/// Per owned dof, whether the extra damping or an element law may act on it.
-std::vector<char> dofs_of_extra_forces(const LinearSystem& system);
+/// Per owned dof, whether the extra damping acts on it.
+std::vector<char> dofs_of_extra_damping(const LinearSystem& system);
 
 /// Distributed vector over the owned dofs that uses `storage` as its memory (size: owned_dofs).
 VecHandle wrap_vector(const LinearSystem& system, std::vector<double>& storage);

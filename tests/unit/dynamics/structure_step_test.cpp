@@ -96,7 +96,11 @@ struct Case {
     stiffness_velocity = random_values(n, 3, 1e6);
     if (system.extra_damping) state.extra_force = random_values(n, 4, 30);
     for (std::size_t i = 0; i < state.extra_force.size(); ++i) {
-      if (dofs_of_extra_forces(system)[i] == 0) state.extra_force[i] = 0;
+      if (dofs_of_extra_damping(system)[i] == 0) state.extra_force[i] = 0;
+    }
+    if (!system.inelastic.empty()) state.inelastic_force = random_values(n, 20, 1e4);
+    for (std::size_t i = 0; i < system.inelastic.size(); ++i) {
+      if (system.inelastic[i] == 0) state.inelastic_force[i] = 0;
     }
     if (system.uniform_damping) {
       for (unsigned k = 0; k < system.uniform_damping->filters.size(); ++k) {
@@ -108,10 +112,16 @@ struct Case {
   double duration() const { return first ? time_step / 2 : time_step; }
 };
 
+/// Of K u and of inelastic elements.
+double resisting_force(const Case& given, std::size_t i) {
+  return given.force[i] +
+         (given.state.inelastic_force.empty() ? 0 : given.state.inelastic_force[i]);
+}
+
 /// f of uniform damping at a dof, the memories of its filters brought one step on: the trapezoidal
 /// rule for dW/dt = omega (Q - W), of which a memory holds all but the last Q.
 double reference_force(const Case& given, std::size_t i, StructureState& state) {
-  const double q = given.force[i];
+  const double q = resisting_force(given, i);
   if (!given.system.uniform_damping) return q;
   const UniformDamping& damping = *given.system.uniform_damping;
   double f = q;
@@ -150,7 +160,7 @@ StepSums take_reference_step(const Case& given, StructureState& state) {
     sums.stiffness_work += given.force[i] * (after + v);
     sums.mass_sum += m * (after + v) * (after + v);
     sums.device += x * (after + v);
-    sums.filtered += (f - given.force[i]) * (after + v);
+    sums.filtered += (f - resisting_force(given, i)) * (after + v);
     for (std::size_t d = 0; d < 3; ++d) {
       sums.momentum[d] += system.influence(static_cast<int>(d))[i] * m * (after + v);
     }
@@ -226,6 +236,37 @@ TEST(StructureStep, MovesAMixtureOfNodesAsTheSchemeDoes) {
                                 Kind::damped,       Kind::six,          Kind::translations};
   expect_reference_step(nodes_in_a_row(kinds), false);
   expect_reference_step(nodes_in_a_row(kinds), true);
+}
+
+/// Elements with a law of their own hold some dofs of two thirds of the nodes.
+LinearSystem yielding(LinearSystem system) {
+  for (std::size_t i = 0; i < system.lumped_mass.size(); ++i) {
+    system.inelastic.push_back(i % 9 < 4 ? 1 : 0);
+  }
+  return system;
+}
+
+TEST(StructureStep, AddsTheForcesOfInelasticElements) {
+  const std::vector<Kind> mixture{Kind::translations, Kind::translations, Kind::damped,
+                                  Kind::six,          Kind::lone,         Kind::translations,
+                                  Kind::translations, Kind::six,          Kind::six};
+  for (const bool first : {false, true}) {
+    for (const std::size_t pieces : {0, 3}) {
+      for (int count = 1; count <= 13; ++count) {
+        for (const Kind kind : {Kind::translations, Kind::lone, Kind::damped}) {
+          expect_reference_step(yielding(nodes_in_a_row(std::vector<Kind>(count, kind))), first,
+                                pieces);
+          expect_reference_step(filtered(yielding(nodes_in_a_row(std::vector<Kind>(count, kind)))),
+                                first, pieces);
+        }
+      }
+    }
+    expect_reference_step(yielding(nodes_in_a_row(mixture)), first);
+    expect_reference_step(filtered(yielding(nodes_in_a_row(mixture))), first);
+    for (int count = 1; count <= 13; ++count) {
+      expect_reference_step(yielding(nodes_in_a_row(std::vector<Kind>(count, Kind::six))), first);
+    }
+  }
 }
 
 TEST(StructureStep, FiltersTheForceOfDofsOfEveryKind) {
@@ -406,9 +447,9 @@ TEST(StructureStep, CorrectsSumsAndStateForAnotherVelocity) {
 
 TEST(DampedDofs, AreThoseWithARowOfTheExtraDamping) {
   const LinearSystem system = nodes_in_a_row({Kind::translations, Kind::damped, Kind::six});
-  const std::vector<char> damped = dofs_of_extra_forces(system);
+  const std::vector<char> damped = dofs_of_extra_damping(system);
   EXPECT_EQ(damped, (std::vector<char>{0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0}));
-  EXPECT_EQ(dofs_of_extra_forces(nodes_in_a_row({Kind::lone})), std::vector<char>{0});
+  EXPECT_EQ(dofs_of_extra_damping(nodes_in_a_row({Kind::lone})), std::vector<char>{0});
 }
 
 }  // namespace structure_step_test
