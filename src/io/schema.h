@@ -10,14 +10,14 @@
 /// the versions before these numbers have none, or a `version` in its place.
 namespace pounding::schema {
 
-inline constexpr int summary = 1;     ///< summary.json
-inline constexpr int history = 1;     ///< history.h5
-inline constexpr int fields = 1;      ///< fields.h5
-inline constexpr int modes = 1;       ///< modes.h5
-inline constexpr int model = 1;       ///< model.h5
-inline constexpr int ensemble = 1;    ///< ensemble.h5
-inline constexpr int basis = 3;       ///< of a reduced structure
-inline constexpr int checkpoint = 9;  ///< checkpoint.h5
+inline constexpr int summary = 1;      ///< summary.json
+inline constexpr int history = 1;      ///< history.h5
+inline constexpr int fields = 1;       ///< fields.h5
+inline constexpr int modes = 1;        ///< modes.h5
+inline constexpr int model = 1;        ///< model.h5
+inline constexpr int ensemble = 1;     ///< ensemble.h5
+inline constexpr int basis = 3;        ///< of a reduced structure
+inline constexpr int checkpoint = 10;  ///< checkpoint.h5
 
 /// Attributes of the file: `schema` and the `program` that wrote it.
 void write(Hdf5File& file, int number);

@@ -1,6 +1,7 @@
 #include "system/motion_laws.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -9,10 +10,15 @@ namespace {
 
 constexpr double least_strength = 1e-3;
 
+/// In four sums, which do not wait for each other.
 double dot(std::span<const double> a, std::span<const double> b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
+  std::array<double, 4> sums{};
+  std::size_t i = 0;
+  for (; i + 4 <= a.size(); i += 4) {
+    for (std::size_t k = 0; k < 4; ++k) sums[k] += a[i + k] * b[i + k];
+  }
+  for (; i < a.size(); ++i) sums[0] += a[i] * b[i];
+  return (sums[0] + sums[2]) + (sums[1] + sums[3]);
 }
 
 }  // namespace
@@ -30,13 +36,17 @@ MotionLaws::MotionLaws(std::vector<std::string> names, std::span<const Hysteresi
 }
 
 void MotionLaws::add(std::vector<LawMotion> own, std::optional<AxialWeakening> axial) {
-  for (LawMotion& motion : own) motions_.push_back(std::move(motion));
+  for (LawMotion& motion : own) {
+    motions_.push_back({motion.law.get(), shapes_.size(), motion.measure, motion.weakened});
+    shapes_.insert(shapes_.end(), motion.shape.begin(), motion.shape.end());
+    if (laws_.empty() || laws_.back() != motion.law) laws_.push_back(std::move(motion.law));
+  }
   if (axial) axial_.push_back(std::move(*axial));
 }
 
 bool MotionLaws::acts_on(std::size_t element, std::size_t dof) const {
   for (std::size_t m = 0; m < names_.size(); ++m) {
-    if (motions_[element * names_.size() + m].shape[dof] != 0) return true;
+    if (shapes_[motions_[element * names_.size() + m].shape + dof] != 0) return true;
   }
   return !axial_.empty() && axial_[element].shape[dof] != 0;
 }
@@ -48,14 +58,16 @@ interactions::ElementLaw::Response MotionLaws::respond(std::size_t element,
   Response response;
   const double left = axial_.empty() ? 1 : axial_[element].left(displacement);
   for (std::size_t m = 0; m < names_.size(); ++m) {
-    const LawMotion& motion = motions_[element * names_.size() + m];
+    const Motion& motion = motions_[element * names_.size() + m];
+    const interactions::HystereticLaw& law = *motion.law;
+    const std::span<const double> along(&shapes_[motion.shape], displacement.size());
     const std::span<double> own = memory.subspan(begin_[m], begin_[m + 1] - begin_[m]);
-    const double elongation = dot(motion.shape, displacement);
-    motion.law.advance(elongation, own, motion.weakened ? left : 1);
-    if (motion.law.is_elastic(own)) continue;
-    const double less = motion.law.force(own) - motion.law.tangent() * elongation;
-    for (std::size_t i = 0; i < force.size(); ++i) force[i] += less * motion.shape[i];
-    response.offset += motion.law.force(own) * elongation / 2 - motion.law.stored(own);
+    const double elongation = dot(along, displacement);
+    law.advance(elongation, own, motion.weakened ? left : 1);
+    if (law.is_elastic(own)) continue;
+    const double less = motion.measure * (law.force(own) - law.tangent() * elongation);
+    for (std::size_t i = 0; i < force.size(); ++i) force[i] += less * along[i];
+    response.offset += motion.measure * (law.force(own) * elongation / 2 - law.stored(own));
     response.acts = true;
   }
   return response;
@@ -63,11 +75,11 @@ interactions::ElementLaw::Response MotionLaws::respond(std::size_t element,
 
 interactions::PartState MotionLaws::part(std::size_t element, std::size_t number,
                                          std::span<const double> memory) const {
-  const LawMotion& motion = motions_[element * names_.size() + number];
-  const interactions::HystereticLaw& law = motion.law;
+  const Motion& motion = motions_[element * names_.size() + number];
+  const interactions::HystereticLaw& law = *motion.law;
   const auto own = memory.subspan(begin_[number], begin_[number + 1] - begin_[number]);
-  return {law.elongation(own), law.force(own) / motion.measure, law.ductility(own), law.lost(own),
-          law.lost(own) + law.stored(own)};
+  return {law.elongation(own), law.force(own), law.ductility(own), motion.measure * law.lost(own),
+          motion.measure * (law.lost(own) + law.stored(own))};
 }
 
 }  // namespace pounding

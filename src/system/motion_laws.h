@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,10 +13,12 @@ namespace pounding {
 
 /// A motion of the nodes of an element, and the law in one dimension that it follows.
 struct LawMotion {
-  std::vector<double> shape;        ///< its elongation is shape . u, in the units of `law`
-  interactions::HystereticLaw law;  ///< its first slope is the stiffness that K has for the motion
-  double measure = 1;               ///< force of the law over that of PartState
-  bool weakened = false;            ///< by the axial force
+  std::vector<double> shape;  ///< its elongation is shape . u, in the units of `law`
+  /// That of many elements may be one. Its first slope times `measure` is the stiffness that K has
+  /// for the motion.
+  std::shared_ptr<const interactions::HystereticLaw> law;
+  double measure = 1;     ///< force and energy of the element over those of the law: a volume, say
+  bool weakened = false;  ///< by the axial force
 };
 
 /// Axial force that takes from the strength of other motions of an element.
@@ -32,9 +35,10 @@ struct AxialWeakening {
 ///
 ///     g = sum b_m (N_m(b_m . u) - k_m b_m . u),        W_n = sum (1/2 N_m e_m - S_m)
 ///
-/// S_m the energy that the law holds. Where elements have an axial force N, some of the laws follow
-/// their strength by 1 - (|N| / N_y)^a, a thousandth at least. K less all of the k_m b_m b_m^T must
-/// be positive semidefinite for the stable step to be that of K.
+/// S_m the energy that the law holds; of a law by volume, N_m, k_m and S_m are those of all of it.
+/// Where elements have an axial force N, some of the laws follow their strength by
+/// 1 - (|N| / N_y)^a, a thousandth at least. K less all of the k_m b_m b_m^T must be positive
+/// semidefinite for the stable step to be that of K.
 class MotionLaws final : public interactions::ElementLaw {
  public:
   /// Laws by name, the same ones of each element to come; only the rules of `laws` count.
@@ -52,8 +56,19 @@ class MotionLaws final : public interactions::ElementLaw {
                                std::span<const double> memory) const override;
 
  private:
+  /// A LawMotion whose shape is in `shapes_` from `shape` on, as the step reads them.
+  struct Motion {
+    const interactions::HystereticLaw* law = nullptr;
+    std::size_t shape = 0;
+    double measure = 1;
+    bool weakened = false;
+  };
+
   std::vector<std::string> names_;
-  std::vector<LawMotion> motions_;     ///< shape (elements, parts)
+  std::vector<Motion> motions_;  ///< shape (elements, parts)
+  std::vector<double> shapes_;   ///< one after another, as long as their elements have dofs
+  /// Of `motions_`, each once.
+  std::vector<std::shared_ptr<const interactions::HystereticLaw>> laws_;
   std::vector<AxialWeakening> axial_;  ///< per element, or empty
   std::vector<std::size_t> begin_;     ///< of each part in a memory, and the end
 };

@@ -66,8 +66,8 @@ std::vector<LawMotion> with_memories(std::vector<SectionMotion> sections,
                                      std::span<const Part> parts) {
   std::vector<LawMotion> found;
   for (std::size_t m = 0; m < sections.size(); ++m) {
-    found.push_back(
-        {std::move(sections[m].shape), HystereticLaw(sections[m].law), 1, !parts[m].shear});
+    found.push_back({std::move(sections[m].shape),
+                     std::make_shared<const HystereticLaw>(sections[m].law), 1, !parts[m].shear});
   }
   return found;
 }

@@ -12,14 +12,14 @@ namespace {
 
 /// The mean shear strain of a shell, under a law of stress over strain.
 LawMotion shear_motion(ElementType type, std::span<const double> coordinates,
-                       const ElementProperties& properties, const Hysteresis& law) {
+                       const ElementProperties& properties,
+                       std::shared_ptr<const interactions::HystereticLaw> law) {
   constexpr std::size_t g12 = 2;
   const double volume = shell_area(type, coordinates) * properties.thickness;
   const std::vector<double> strains = shell_strain_rows(type, coordinates, properties);
   const auto size = static_cast<std::ptrdiff_t>(element_layout(type).size());
   const auto begin = strains.begin() + g12 * size;
-  return {std::vector<double>(begin, begin + size),
-          interactions::HystereticLaw(scaled(law, 1, volume)), volume};
+  return {std::vector<double>(begin, begin + size), std::move(law), volume};
 }
 
 }  // namespace
@@ -30,6 +30,7 @@ std::shared_ptr<interactions::ElementLaw> yielding_shells(const Structure& struc
   const Hysteresis* const law = &*own.yielding_shell.shear;
   auto shells = std::make_shared<MotionLaws>(std::vector<std::string>{"shear"},
                                              std::span<const Hysteresis* const>(&law, 1));
+  const auto shear = std::make_shared<const interactions::HystereticLaw>(*law);
   const ElementProperties properties = element_properties(own);
   stiffness::ElementWork coordinates;
   for_each_element_of(
@@ -38,7 +39,7 @@ std::shared_ptr<interactions::ElementLaw> yielding_shells(const Structure& struc
           const stiffness::ElementWork&) {
         std::vector<LawMotion> motion;
         motion.push_back(shear_motion(block.type, gather_coordinates(mesh, block, e, coordinates),
-                                      properties, *law));
+                                      properties, shear));
         shells->add(std::move(motion));
       });
   return shells;
