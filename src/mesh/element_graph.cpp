@@ -28,7 +28,7 @@ ElementList list_elements(std::span<const GlobalMesh> meshes, std::span<const in
         }
         list.first.push_back(static_cast<idx_t>(list.nodes.size()));
         list.entry.push_back(list.count());
-        list.cost.push_back(traits_of(set.type).cost);
+        list.cost.push_back(set.cost());
         list.structure.push_back(static_cast<int>(s));
         list.needed.push_back(shared_by_neighbours(set.type));
       }

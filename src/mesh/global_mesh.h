@@ -7,6 +7,7 @@
 
 #include "common/types.h"
 #include "elements/element_traits.h"
+#include "elements/measured_costs.h"
 #include "mesh/absorbing_node.h"
 #include "mesh/supported_node.h"
 #include "mesh/tied_node.h"
@@ -41,7 +42,10 @@ struct ElementSet {
   /// Share of each element in the length [m] or area [m2] over which its region is spread; empty
   /// where it is not. Then elements are nodes, and have their tags.
   std::vector<double> share;
+  bool inelastic = false;  ///< an element law adds to their forces
   double share_of(std::size_t element) const { return share.empty() ? 1 : share[element]; }
+  /// Of a step of one of them, see measured_costs.h.
+  int cost() const { return traits_of(type).cost + (inelastic ? measured_costs::inelastic : 0); }
 };
 
 /// Elements of a physical group, or of none (""), that are in no region of the scene.

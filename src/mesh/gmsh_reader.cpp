@@ -303,6 +303,7 @@ class MeshBuilder {
     set.group = region.group;
     set.region = number;
     set.type = kind;
+    set.inelastic = region.inelastic;
     mesh_.regions.push_back(std::move(set));
     return mesh_.regions.back();
   }

@@ -19,7 +19,7 @@ struct Partition {
 };
 
 /// Partitions the elements of all structures with METIS on their dual graph (edges: shared nodes
-/// beyond a corner; vertex weight: cost of the element's product; heavy edges for linked nodes)
+/// beyond a corner; vertex weight: cost of the element; heavy edges for linked nodes)
 /// with a fixed seed; or gives every structure to one part, where that is asked for or, with
 /// `automatic`, costs a step less than the waiting of ranks that share a structure. A node belongs
 /// to the part of most of its elements (node_owners.h); the nodes of a cluster, which shares

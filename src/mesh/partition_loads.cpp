@@ -32,7 +32,7 @@ std::vector<NeededNode> count_held(const GlobalMesh& mesh, const std::vector<int
       holders.erase(std::unique(holders.begin(), holders.end()), holders.end());
       for (const int part : holders) {
         ++loads[part].elements;
-        loads[part].cost += traits.cost;
+        loads[part].cost += set.cost();
         if (holders.size() == 1) continue;
         for (const GlobalIndex node : nodes) {
           const bool is_ghost = owner[node] != part && mesh.free_components[node] != 0;

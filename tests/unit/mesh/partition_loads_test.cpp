@@ -20,7 +20,10 @@ GlobalMesh bars(int count) {
   mesh.regions.push_back(set);
   mesh.free_components.assign(static_cast<std::size_t>(count) + 1, translations);
   mesh.free_components[0] = 0;
-  for (int n = 0; n <= count; ++n) mesh.node_tags.push_back(n + 1);
+  for (int n = 0; n <= count; ++n) {
+    mesh.node_tags.push_back(n + 1);
+    mesh.coordinates.insert(mesh.coordinates.end(), {static_cast<double>(n), 0, 0});
+  }
   return mesh;
 }
 
@@ -41,6 +44,25 @@ TEST(PartitionLoads, CountElementsAtTheCutOnBothSides) {
     EXPECT_EQ(load.messages, 1);
     EXPECT_EQ(load.neighbours, 1);
   }
+}
+
+TEST(PartitionLoads, ElementsThatYieldCostMore) {
+  constexpr int yielding = 10;
+  GlobalMesh mesh = bars(80);
+  ElementSet& elastic = mesh.regions.front();
+  ElementSet inelastic{"bars", 1, ElementType::bar, {}, {}, {}, true};
+  inelastic.tags.assign(elastic.tags.begin(), elastic.tags.begin() + yielding);
+  inelastic.connectivity.assign(elastic.connectivity.begin(),
+                                elastic.connectivity.begin() + 2 * yielding);
+  elastic.tags.erase(elastic.tags.begin(), elastic.tags.begin() + yielding);
+  elastic.connectivity.erase(elastic.connectivity.begin(),
+                             elastic.connectivity.begin() + 2 * yielding);
+  mesh.regions.push_back(inelastic);
+  const std::vector meshes{mesh};
+  const std::vector<PartLoad> loads = part_loads(meshes, partition_meshes(meshes, {}, 2));
+  const double all = static_cast<double>(loads[0].cost + loads[1].cost);
+  EXPECT_GT(inelastic.cost(), 10 * mesh.regions.front().cost());
+  for (const PartLoad& load : loads) EXPECT_LT(load.cost, 0.62 * all);
 }
 
 TEST(PartitionLoads, HeldNodesAreNotSent) {
