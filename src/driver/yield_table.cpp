@@ -40,6 +40,13 @@ interactions::PartState law_state(const ObservedRun& run, std::size_t structure,
   return elements.state_of(elements.parts()[number]);
 }
 
+double law_ductility(const ObservedRun& run, std::size_t structure, bool is_link,
+                     std::size_t number) {
+  if (is_link) return run.solver.links(structure)->ductility(number);
+  const auto& elements = *run.solver.inelastic(structure);
+  return elements.ductility(elements.parts()[number]);
+}
+
 /// State of one law of one element at the end of a run.
 struct YieldRow {
   std::string name;  ///< structure, group, part
@@ -180,7 +187,10 @@ YieldTable::YieldTable(const ObservedRun& run)
 
 void YieldTable::observe(const CdLagrange& stepper) {
   for (Own& law : own_) {
-    if (law.since == never_yielded && state_of(law).ductility > 1) law.since = stepper.time();
+    if (law.since != never_yielded) continue;
+    if (law_ductility(run_, law.structure(), law.is_link, law.number) > 1) {
+      law.since = stepper.time();
+    }
   }
 }
 

@@ -18,8 +18,6 @@ InelasticElements::InelasticElements(std::size_t structure, const Mesh& mesh,
       system_(system),
       time_step_(time_step),
       laws_(std::move(laws)),
-      halo_(std::make_unique<Halo>(mesh.comm, mesh.first_owned_dof, mesh.owned_dofs,
-                                   ghost_dofs(mesh))),
       state_(0) {
   for (LocalIndex dof = 0; dof < mesh.owned_dofs; ++dof) {
     if (system.inelastic[dof] != 0) dofs_.push_back(dof);
@@ -41,15 +39,10 @@ InelasticElements::InelasticElements(std::size_t structure, const Mesh& mesh,
           parts_.push_back({groups_.size() - 1, e, p});
         }
       }
-      const auto components = static_cast<std::size_t>(group.layout.components);
-      for (std::size_t k = 0; k < block.connectivity.size() * components; ++k) {
-        const std::size_t size = group.layout.size();
-        const bool acts = group.law->acts_on(group.first + k / size, k % size);
-        const LocalIndex node = block.connectivity[k / components];
-        group.places.push_back(acts ? place_of(node, static_cast<int>(k % components)) : -1);
-      }
+      find_places(group);
     }
   }
+  find_ghosts();
   displacement_.assign(mesh.dof_count + held_.size(), 0.0);
   force_ = displacement_;
   find_carried();
@@ -59,6 +52,26 @@ InelasticElements::InelasticElements(std::size_t structure, const Mesh& mesh,
 }
 
 InelasticElements::~InelasticElements() = default;
+
+void InelasticElements::find_places(Group& group) {
+  const ElementBlock& block = mesh_.blocks[group.block];
+  const auto acts = [&](std::size_t e, std::size_t i) {
+    return group.law->acts_on(group.first + e, i);
+  };
+  for (std::size_t i = 0; i < static_cast<std::size_t>(group.layout.size()); ++i) {
+    bool any = false;
+    for (std::size_t e = 0; e < block.count(); ++e) any = any || acts(e, i);
+    if (any) group.acting.push_back(i);
+  }
+  const auto components = static_cast<std::size_t>(group.layout.components);
+  const auto nodes = static_cast<std::size_t>(group.layout.nodes);
+  for (std::size_t e = 0; e < block.count(); ++e) {
+    for (const std::size_t i : group.acting) {
+      const LocalIndex node = block.connectivity[e * nodes + i / components];
+      group.places.push_back(acts(e, i) ? place_of(node, static_cast<int>(i % components)) : -1);
+    }
+  }
+}
 
 LocalIndex InelasticElements::place_of(LocalIndex node, int component) {
   const LocalIndex dof = mesh_.dof(node, component);
@@ -73,6 +86,28 @@ LocalIndex InelasticElements::place_of(LocalIndex node, int component) {
   return static_cast<LocalIndex>(mesh_.dof_count) + place;
 }
 
+void InelasticElements::find_ghosts() {
+  for (const Group& group : groups_) {
+    for (const LocalIndex place : group.places) {
+      const bool is_ghost =
+          place >= mesh_.owned_dofs && place < static_cast<LocalIndex>(mesh_.dof_count);
+      if (is_ghost) ghosts_.push_back(place);
+    }
+  }
+  std::ranges::sort(ghosts_);
+  ghosts_.erase(std::unique(ghosts_.begin(), ghosts_.end()), ghosts_.end());
+  const std::vector<GlobalIndex> all = ghost_dofs(mesh_);
+  std::vector<GlobalIndex> needed;
+  for (const LocalIndex ghost : ghosts_) needed.push_back(all[ghost - mesh_.owned_dofs]);
+  halo_ = std::make_unique<Halo>(mesh_.comm, mesh_.first_owned_dof, mesh_.owned_dofs, needed);
+}
+
+void InelasticElements::take_ghosts(std::vector<double>& values) const {
+  for (std::size_t g = 0; g < ghosts_.size(); ++g) {
+    values[ghosts_[g]] = halo_->ghosts()[halo_->place(g)];
+  }
+}
+
 void InelasticElements::find_carried() {
   if (!system_.supports) return;
   const SupportShapes& supports = *system_.supports;
@@ -83,9 +118,7 @@ void InelasticElements::find_carried() {
     halo_->begin(owned);
     std::ranges::copy(owned, carried.begin());
     halo_->end();
-    for (std::size_t g = 0; g < halo_->ghost_count(); ++g) {
-      carried[mesh_.owned_dofs + g] = halo_->ghosts()[halo_->place(g)];
-    }
+    take_ghosts(carried);
     for (std::size_t k = 0; k < held_.size(); ++k) {
       const auto& [node, component] = held_[k];
       carried[mesh_.dof_count + k] =
@@ -101,9 +134,7 @@ void InelasticElements::exchange(const Step& step, double back) {
   halo_->begin(moved);
   for (const LocalIndex dof : dofs_) displacement_[dof] = moved[dof];
   halo_->end();
-  for (std::size_t g = 0; g < halo_->ghost_count(); ++g) {
-    displacement_[mesh_.owned_dofs + g] = halo_->ghosts()[halo_->place(g)];
-  }
+  take_ghosts(displacement_);
   if (carried_.empty()) return;
   std::fill_n(displacement_.begin() + static_cast<std::ptrdiff_t>(mesh_.dof_count), held_.size(),
               0.0);
@@ -120,27 +151,30 @@ double InelasticElements::respond() {
   double offset = 0;
   for (const LocalIndex dof : dofs_) force_[dof] = 0;
   std::fill(force_.begin() + static_cast<std::ptrdiff_t>(mesh_.dof_count), force_.end(), 0.0);
-  std::array<double, max_element_size> u{};
   std::array<double, max_element_size> g{};
   for (Group& group : groups_) {
+    std::array<double, max_element_size> u{};
     const std::size_t size = group.layout.size();
+    const std::size_t acting = group.acting.size();
     const std::size_t numbers = group.law->memory_size();
     const ElementBlock& block = mesh_.blocks[group.block];
     for (std::size_t e = 0; e < block.count(); ++e) {
-      const LocalIndex* const place = &group.places[e * size];
-      for (std::size_t i = 0; i < size; ++i) u[i] = place[i] < 0 ? 0 : displacement_[place[i]];
+      const LocalIndex* const place = group.places.data() + e * acting;
+      for (std::size_t k = 0; k < acting; ++k) {
+        u[group.acting[k]] = place[k] < 0 ? 0 : displacement_[place[k]];
+      }
       const ElementLaw::Response response =
           group.law->respond(group.first + e, {u.data(), size},
                              {group.memory.data() + e * numbers, numbers}, {g.data(), size});
       if (!response.acts) continue;
       if (block.counted[e] != 0) offset += response.offset;
-      for (std::size_t i = 0; i < size; ++i) {
-        const bool held = place[i] >= static_cast<LocalIndex>(mesh_.dof_count);
+      for (std::size_t k = 0; k < acting; ++k) {
+        const bool held = place[k] >= static_cast<LocalIndex>(mesh_.dof_count);
         const bool own =
-            held ? block.counted[e] != 0 : place[i] >= 0 && place[i] < mesh_.owned_dofs;
-        if (own) force_[place[i]] += g[i];
-        g[i] = 0;
+            held ? block.counted[e] != 0 : place[k] >= 0 && place[k] < mesh_.owned_dofs;
+        if (own) force_[place[k]] += g[group.acting[k]];
       }
+      std::fill_n(g.begin(), size, 0.0);
     }
   }
   return offset;
@@ -222,6 +256,13 @@ void InelasticElements::finish(const Step& step) {
   ledger.plastic_loss += work + input - (held - held_before);
   ledger.damping_loss += damped;
   ledger.support_input += input;
+}
+
+double InelasticElements::ductility(const Part& part) const {
+  const Group& group = groups_[part.group];
+  const std::size_t numbers = group.law->memory_size();
+  return group.law->ductility(group.first + part.element, part.number,
+                              {group.memory.data() + part.element * numbers, numbers});
 }
 
 PartState InelasticElements::state_of(const Part& part) const {

@@ -59,6 +59,7 @@ class InelasticElements final : public Interaction {
     return groups_[part.group].law->parts()[part.number];
   }
   PartState state_of(const Part& part) const;
+  double ductility(const Part& part) const;
   /// Records some of these parts from now on, numbers into `parts()`.
   void record(std::vector<std::size_t> parts);
   const LinkRecords& records() const { return records_; }
@@ -70,17 +71,25 @@ class InelasticElements final : public Interaction {
     std::size_t first = 0;  ///< of its elements, among those of the law
     ElementLayout layout;
     const ElementLaw* law = nullptr;
-    std::vector<LocalIndex> places;  ///< of their dofs in displacement_, -1 where none counts
-    std::vector<double> memory;      ///< shape (elements, numbers of the law)
+    std::vector<std::size_t> acting;  ///< dofs of an element on which the law may act
+    /// Places of these in displacement_, -1 where none counts; shape (elements, acting).
+    std::vector<LocalIndex> places;
+    std::vector<double> memory;  ///< shape (elements, numbers of the law)
   };
 
   /// g over the places out of `displacement_`, histories brought there; returns W of the elements
   /// that this rank counts.
   double respond();
+  /// Prepares `halo_` once the places are known. Collective.
+  void find_ghosts();
+  /// Sets the ghosts among the places to values that `halo_` brought.
+  void take_ghosts(std::vector<double>& values) const;
   /// Brings `displacement_` to u_n less so much time times its rate.
   void exchange(const Step& step, double back);
   /// Finds how far a unit of each column of the supports' motion carries every place.
   void find_carried();
+  /// Finds `acting` and `places` of a group.
+  void find_places(Group& group);
   /// Place of a component: its local dof, one beyond these where supports move it, -1 if held.
   LocalIndex place_of(LocalIndex node, int component);
   /// How far the supports carry a place: at t_n and t_{n+1}, and in the mean of the ways to both.
@@ -99,8 +108,9 @@ class InelasticElements final : public Interaction {
   double time_step_;
   std::vector<RegionLaw> laws_;
   std::vector<Group> groups_;
-  std::unique_ptr<Halo> halo_;
-  std::vector<LocalIndex> dofs_;  ///< owned dofs that these elements act on, increasing
+  std::unique_ptr<Halo> halo_;      ///< of the ghosts among the places
+  std::vector<LocalIndex> ghosts_;  ///< their local dofs, in the order that halo_ was given
+  std::vector<LocalIndex> dofs_;    ///< owned dofs that these elements act on, increasing
   /// Held components that supports move: node, component. Their places are behind the local dofs.
   std::vector<std::pair<LocalIndex, int>> held_;
   std::vector<std::vector<double>> carried_;  ///< per column of the supports, over the places

@@ -44,7 +44,7 @@ struct ElementSet {
   std::vector<double> share;
   bool inelastic = false;  ///< an element law adds to their forces
   double share_of(std::size_t element) const { return share.empty() ? 1 : share[element]; }
-  /// Of a step of one of them, see measured_costs.h.
+  /// Cost of a step of one of these elements, see measured_costs.h.
   int cost() const { return traits_of(type).cost + (inelastic ? measured_costs::inelastic : 0); }
 };
 

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double least_strength = 1e-3;
 
-/// In four sums, which do not wait for each other.
-double dot(std::span<const double> a, std::span<const double> b) {
+/// Product a . b in four sums, which do not wait for each other.
+inline double dot(std::span<const double> a, std::span<const double> b) {
   std::array<double, 4> sums{};
   std::size_t i = 0;
   for (; i + 4 <= a.size(); i += 4) {
@@ -71,6 +71,12 @@ interactions::ElementLaw::Response MotionLaws::respond(std::size_t element,
     response.acts = true;
   }
   return response;
+}
+
+double MotionLaws::ductility(std::size_t element, std::size_t number,
+                             std::span<const double> memory) const {
+  return motions_[element * names_.size() + number].law->ductility(
+      memory.subspan(begin_[number], begin_[number + 1] - begin_[number]));
 }
 
 interactions::PartState MotionLaws::part(std::size_t element, std::size_t number,

@@ -52,6 +52,8 @@ class MotionLaws final : public interactions::ElementLaw {
   Response respond(std::size_t element, std::span<const double> displacement,
                    std::span<double> memory, std::span<double> force) const override;
   std::vector<std::string> parts() const override { return names_; }
+  double ductility(std::size_t element, std::size_t number,
+                   std::span<const double> memory) const override;
   interactions::PartState part(std::size_t element, std::size_t number,
                                std::span<const double> memory) const override;
 
@@ -67,7 +69,7 @@ class MotionLaws final : public interactions::ElementLaw {
   std::vector<std::string> names_;
   std::vector<Motion> motions_;  ///< shape (elements, parts)
   std::vector<double> shapes_;   ///< one after another, as long as their elements have dofs
-  /// Of `motions_`, each once.
+  /// Laws of `motions_`, each once.
   std::vector<std::shared_ptr<const interactions::HystereticLaw>> laws_;
   std::vector<AxialWeakening> axial_;  ///< per element, or empty
   std::vector<std::size_t> begin_;     ///< of each part in a memory, and the end

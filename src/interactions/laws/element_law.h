@@ -50,6 +50,11 @@ class ElementLaw {
   /// Names of its laws in one dimension, "shear_y" say, the same of every element; none where it
   /// has no such parts.
   virtual std::vector<std::string> parts() const { return {}; }
+  /// Ductility of one of them, that of its PartState.
+  virtual double ductility(std::size_t element, std::size_t number,
+                           std::span<const double> memory) const {
+    return part(element, number, memory).ductility;
+  }
   /// One of them in the memory of an element.
   virtual PartState part(std::size_t /*element*/, std::size_t /*number*/,
                          std::span<const double> /*memory*/) const {
