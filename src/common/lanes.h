@@ -18,9 +18,9 @@ namespace pounding {
 /// Doubles that one vector instruction takes at once.
 inline constexpr int lane_count = 4;
 
-/// Alignment of a class with members of type Lanes [B]: that of the type is the unit's, and code of
-/// several units reads the same objects.
-inline constexpr std::size_t lane_alignment = 32;
+/// Doubles that the widest vector of any unit takes at once (wide_lanes.h): arrays that vectors
+/// write have room for so many beyond their end, less one.
+inline constexpr int most_lanes = 8;
 
 using Lanes = double __attribute__((vector_size(32)));
 using LaneMask = std::int64_t __attribute__((vector_size(32)));
@@ -90,5 +90,33 @@ static POUNDING_INLINE void subtract_product(const Lanes& a, const Lanes& b, Lan
   c -= a * b;
 #endif
 }
+
+#ifdef __AVX512F__
+
+/// Eight doubles at once.
+using EightLanes = double __attribute__((vector_size(64)));
+
+static POUNDING_INLINE void load(const double* from, EightLanes& to) {
+  std::memcpy(&to, from, sizeof to);
+}
+static POUNDING_INLINE void store(double* to, const EightLanes& from) {
+  std::memcpy(to, &from, sizeof from);
+}
+
+static POUNDING_INLINE double add_up(const EightLanes& values) {
+  return add_up(Lanes(__builtin_shufflevector(values, values, 0, 1, 2, 3)) +
+                Lanes(__builtin_shufflevector(values, values, 4, 5, 6, 7)));
+}
+
+/// c += a b and c -= a b, rounded once.
+static POUNDING_INLINE void add_product(const EightLanes& a, const EightLanes& b, EightLanes& c) {
+  c = _mm512_fmadd_pd(a, b, c);
+}
+static POUNDING_INLINE void subtract_product(const EightLanes& a, const EightLanes& b,
+                                             EightLanes& c) {
+  c = _mm512_fnmadd_pd(a, b, c);
+}
+
+#endif
 
 }  // namespace pounding

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "common/lanes.h"
+#include "common/wide_lanes.h"
 #include "dynamics/update.h"
 #include "system/linear_system.h"
 
@@ -14,62 +14,97 @@
 namespace pounding {
 
 /// Dofs in which directions repeat, three vectors of them.
-inline constexpr std::size_t step_pattern = 3 * lane_count;
+inline constexpr std::size_t step_pattern = 3 * wide_lane_count;
 
 /// The number of values that fill a vector; others are given as a number below.
 struct AllLanes {};
 
-inline void load_first(const double* from, AllLanes, Lanes& to) {
+inline void load_first(const double* from, AllLanes, WideLanes& to) {
   load(from, to);
 }
-inline void store_first(const Lanes& from, AllLanes, double* to) {
+inline void store_first(const WideLanes& from, AllLanes, double* to) {
   store(to, from);
 }
-inline void keep_first(AllLanes, Lanes&) {}
+inline void keep_first(AllLanes, WideLanes&) {}
 
-/// The others become zero.
-inline void load_first(const double* from, std::size_t count, Lanes& to) {
-  to = Lanes{from[0], count > 1 ? from[1] : 0, count > 2 ? from[2] : 0, 0};
+// The others become zero.
+#ifdef __AVX512F__
+
+inline __mmask8 first_lanes(std::size_t count) {
+  return static_cast<__mmask8>((1U << count) - 1);
 }
-inline void store_first(const Lanes& from, std::size_t count, double* to) {
+inline void load_first(const double* from, std::size_t count, WideLanes& to) {
+  to = _mm512_maskz_loadu_pd(first_lanes(count), from);
+}
+inline void store_first(const WideLanes& from, std::size_t count, double* to) {
+  _mm512_mask_storeu_pd(to, first_lanes(count), from);
+}
+inline void keep_first(std::size_t count, WideLanes& values) {
+  values = _mm512_maskz_mov_pd(first_lanes(count), values);
+}
+
+/// The values of nodes at three vectors of their dofs.
+template <int vector>
+inline WideLanes spread(const WideLanes& of) {
+  if constexpr (vector == 0) {
+    return __builtin_shufflevector(of, of, 0, 0, 0, 1, 1, 1, 2, 2);
+  } else if constexpr (vector == 1) {
+    return __builtin_shufflevector(of, of, 2, 3, 3, 3, 4, 4, 4, 5);
+  } else {
+    return __builtin_shufflevector(of, of, 5, 5, 6, 6, 6, 7, 7, 7);
+  }
+}
+
+#else
+
+inline void load_first(const double* from, std::size_t count, WideLanes& to) {
+  to = WideLanes{from[0], count > 1 ? from[1] : 0, count > 2 ? from[2] : 0, 0};
+}
+inline void store_first(const WideLanes& from, std::size_t count, double* to) {
   to[0] = from[0];
   if (count > 1) to[1] = from[1];
   if (count > 2) to[2] = from[2];
 }
-inline void keep_first(std::size_t count, Lanes& values) {
-  values = Lanes{values[0], count > 1 ? values[1] : 0, count > 2 ? values[2] : 0, 0};
+inline void keep_first(std::size_t count, WideLanes& values) {
+  values = WideLanes{values[0], count > 1 ? values[1] : 0, count > 2 ? values[2] : 0, 0};
 }
 
-/// Masses of the three vectors of a pattern, from one value per node of four nodes.
+/// The values of nodes at three vectors of their dofs.
+template <int vector>
+inline WideLanes spread(const WideLanes& of) {
+  if constexpr (vector == 0) {
+    return __builtin_shufflevector(of, of, 0, 0, 0, 1);
+  } else if constexpr (vector == 1) {
+    return __builtin_shufflevector(of, of, 1, 1, 2, 2);
+  } else {
+    return __builtin_shufflevector(of, of, 2, 3, 3, 3);
+  }
+}
+
+#endif
+
+/// Masses of the three vectors of a pattern, from one value per node of as many nodes as a vector
+/// has lanes.
 class NodeMasses {
  public:
   NodeMasses(const double* mass, const double* inverse_mass)
       : mass_(mass), inverse_mass_(inverse_mass) {}
 
   void begin_pattern(std::size_t number) {
-    load(mass_ + number * lane_count, values_);
-    load(inverse_mass_ + number * lane_count, inverses_);
+    load(mass_ + number * wide_lane_count, values_);
+    load(inverse_mass_ + number * wide_lane_count, inverses_);
   }
   template <int vector, typename Count>
-  void at(Count, Lanes& mass, Lanes& inverse) const {
-    const auto spread = [](const Lanes& of) -> Lanes {
-      if constexpr (vector == 0) {
-        return __builtin_shufflevector(of, of, 0, 0, 0, 1);
-      } else if constexpr (vector == 1) {
-        return __builtin_shufflevector(of, of, 1, 1, 2, 2);
-      } else {
-        return __builtin_shufflevector(of, of, 2, 3, 3, 3);
-      }
-    };
-    mass = spread(values_);
-    inverse = spread(inverses_);
+  void at(Count, WideLanes& mass, WideLanes& inverse) const {
+    mass = spread<vector>(values_);
+    inverse = spread<vector>(inverses_);
   }
 
  private:
   const double* mass_;
   const double* inverse_mass_;
-  Lanes values_{};
-  Lanes inverses_{};
+  WideLanes values_{};
+  WideLanes inverses_{};
 };
 
 /// Masses of the three vectors of a pattern, from one value per dof.
@@ -80,9 +115,9 @@ class DofMasses {
 
   void begin_pattern(std::size_t number) { offset_ = number * step_pattern; }
   template <int vector, typename Count>
-  void at(Count count, Lanes& mass, Lanes& inverse) const {
-    load_first(mass_ + offset_ + vector * lane_count, count, mass);
-    load_first(inverse_mass_ + offset_ + vector * lane_count, count, inverse);
+  void at(Count count, WideLanes& mass, WideLanes& inverse) const {
+    load_first(mass_ + offset_ + vector * wide_lane_count, count, mass);
+    load_first(inverse_mass_ + offset_ + vector * wide_lane_count, count, inverse);
   }
 
  private:
@@ -94,7 +129,7 @@ class DofMasses {
 /// The ground's part of the three vectors of a pattern whose directions repeat.
 class PatternGround {
  public:
-  PatternGround(const Lanes* ground_step, Lanes* momentum)
+  PatternGround(const WideLanes* ground_step, WideLanes* momentum)
       : step_{ground_step[0], ground_step[1], ground_step[2]},
         sum_{momentum[0], momentum[1], momentum[2]},
         momentum_(momentum) {}
@@ -103,45 +138,45 @@ class PatternGround {
   PatternGround& operator=(const PatternGround&) = delete;
 
   template <int vector, typename Count>
-  Lanes step(std::size_t, Count count) const {
-    Lanes step = step_[vector];
+  WideLanes step(std::size_t, Count count) const {
+    WideLanes step = step_[vector];
     keep_first(count, step);
     return step;
   }
   template <int vector, typename Count>
-  void add(std::size_t, Count, const Lanes& momentum) {
+  void add(std::size_t, Count, const WideLanes& momentum) {
     sum_[vector] += momentum;
   }
 
  private:
-  Lanes step_[3];
-  Lanes sum_[3];
-  Lanes* momentum_;
+  WideLanes step_[3];
+  WideLanes sum_[3];
+  WideLanes* momentum_;
 };
 
 /// The ground's part of generalised coordinates, each with an influence of its own.
 class InfluenceGround {
  public:
   InfluenceGround(const GeneralisedCoordinates& coordinates,
-                  const std::array<double, 3>& ground_step, Lanes* momentum)
+                  const std::array<double, 3>& ground_step, WideLanes* momentum)
       : coordinates_(coordinates),
-        step_{all_lanes(ground_step[0]), all_lanes(ground_step[1]), all_lanes(ground_step[2])},
+        step_{all_wide(ground_step[0]), all_wide(ground_step[1]), all_wide(ground_step[2])},
         momentum_(momentum) {}
 
   template <int, typename Count>
-  Lanes step(std::size_t i, Count count) const {
-    Lanes step{};
+  WideLanes step(std::size_t i, Count count) const {
+    WideLanes step{};
     for (std::size_t d = 0; d < 3; ++d) {
-      Lanes influence;
+      WideLanes influence;
       load_first(&coordinates_.influence[d][i], count, influence);
       add_product(step_[d], influence, step);
     }
     return step;
   }
   template <int, typename Count>
-  void add(std::size_t i, Count count, const Lanes& momentum) {
+  void add(std::size_t i, Count count, const WideLanes& momentum) {
     for (std::size_t d = 0; d < 3; ++d) {
-      Lanes influence;
+      WideLanes influence;
       load_first(&coordinates_.influence[d][i], count, influence);
       add_product(influence, momentum, momentum_[d]);
     }
@@ -149,8 +184,8 @@ class InfluenceGround {
 
  private:
   const GeneralisedCoordinates& coordinates_;
-  Lanes step_[3];
-  Lanes* momentum_;
+  WideLanes step_[3];
+  WideLanes* momentum_;
 };
 
 /// The ground's part as `Ground` gives it, and that of supports which move on their own and of
@@ -159,18 +194,18 @@ template <typename Ground>
 class LoadedGround {
  public:
   /// `work` gains the sum of these times M s.
-  LoadedGround(Ground& ground, const double* known_step, Lanes& work)
+  LoadedGround(Ground& ground, const double* known_step, WideLanes& work)
       : ground_(ground), known_step_(known_step), work_(work) {}
 
   template <int vector, typename Count>
-  Lanes step(std::size_t i, Count count) const {
-    Lanes known;
+  WideLanes step(std::size_t i, Count count) const {
+    WideLanes known;
     load_first(known_step_ + i, count, known);
     return ground_.template step<vector>(i, count) + known;
   }
   template <int vector, typename Count>
-  void add(std::size_t i, Count count, const Lanes& momentum) {
-    Lanes known;
+  void add(std::size_t i, Count count, const WideLanes& momentum) {
+    WideLanes known;
     load_first(known_step_ + i, count, known);
     add_product(known, momentum, work_);
     ground_.template add<vector>(i, count, momentum);
@@ -179,18 +214,18 @@ class LoadedGround {
  private:
   Ground& ground_;
   const double* known_step_;
-  Lanes& work_;
+  WideLanes& work_;
 };
 
 /// Where nothing filters the force.
 struct Unfiltered {
   static constexpr bool acts = false;
   template <typename Count>
-  Lanes resisting(std::size_t, Count, const Lanes& q) const {
+  WideLanes resisting(std::size_t, Count, const WideLanes& q) const {
     return q;
   }
   template <typename Count>
-  Lanes force(std::size_t, Count, const Lanes& q) const {
+  WideLanes force(std::size_t, Count, const WideLanes& q) const {
     return q;
   }
 };
@@ -200,19 +235,19 @@ class Filtered {
  public:
   static constexpr bool acts = true;
   Filtered(const Filters<double>& filters, std::vector<std::vector<double>>& memories)
-      : filters_(in_lanes<Lanes>(filters)) {
+      : filters_(in_lanes<WideLanes>(filters)) {
     for (std::size_t k = 0; k < filters.count; ++k) memory_[k] = memories[k].data();
   }
 
   template <typename Count>
-  Lanes resisting(std::size_t, Count, const Lanes& q) const {
+  WideLanes resisting(std::size_t, Count, const WideLanes& q) const {
     return q;
   }
   template <typename Count>
-  Lanes force(std::size_t i, Count count, const Lanes& q) const {
-    Lanes force = filters_.passing * q;
+  WideLanes force(std::size_t i, Count count, const WideLanes& q) const {
+    WideLanes force = filters_.passing * q;
     for (std::size_t k = 0; k < filters_.count; ++k) {
-      Lanes memory;
+      WideLanes memory;
       load_first(memory_[k] + i, count, memory);
       pass_filter(filters_.filters[k], q, memory, force);
       store_first(memory, count, memory_[k] + i);
@@ -221,7 +256,7 @@ class Filtered {
   }
 
  private:
-  Filters<Lanes> filters_;
+  Filters<WideLanes> filters_;
   std::array<double*, max_filters> memory_{};
 };
 
@@ -233,8 +268,8 @@ class WithInelastic : public Damping {
       : Damping(damping), inelastic_force_(inelastic_force) {}
 
   template <typename Count>
-  Lanes resisting(std::size_t i, Count count, const Lanes& q) const {
-    Lanes force;
+  WideLanes resisting(std::size_t i, Count count, const WideLanes& q) const {
+    WideLanes force;
     load_first(inelastic_force_ + i, count, force);
     return q + force;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "common/wide_lanes.h"
 #include "dynamics/contact_correction.h"
 #include "dynamics/rest_forces.h"
 #include "dynamics/step_policies.h"
@@ -12,7 +13,7 @@
 namespace pounding {
 namespace {
 
-constexpr std::size_t lanes = lane_count;
+constexpr std::size_t lanes = wide_lane_count;
 constexpr std::size_t pattern = step_pattern;
 
 bool directions_are(const LinearSystem& system, std::size_t dof, std::array<int, 3> expected) {
@@ -24,6 +25,18 @@ bool directions_are(const LinearSystem& system, std::size_t dof, std::array<int,
 }
 
 }  // namespace
+
+struct StructureStep::VectorParts {
+  static constexpr std::size_t count = 3;  ///< vectors of a pattern
+
+  WideLanes known_work{};  ///< sum of known_step_ times M s
+  /// Patterns of nodes without and with rotations: h (a_g - g) iota, and the sums of M s.
+  WideLanes ground[2][count]{};
+  WideLanes momentum[2][count]{};
+  WideLanes influenced_momentum[3]{};  ///< iota_d^T M s of generalised coordinates
+  DofSums<WideLanes> sums;
+  DofEnergies<WideLanes> energies;
+};
 
 Filters<double> filters_of(const LinearSystem& system, double time_step) {
   Filters<double> result{0, 1, {}};
@@ -63,7 +76,8 @@ StructureStep::StructureStep(const LinearSystem& system, StructureState& state, 
     : system_(system),
       state_(state),
       filters_(filters_of(system, time_step)),
-      forces_(system.lumped_mass.size()) {
+      forces_(system.lumped_mass.size()),
+      vectors_(std::make_unique<VectorParts>()) {
   terms_.time_step = time_step;
   if (system.supports || system.loads) known_step_.assign(system.lumped_mass.size(), 0.0);
   find_segments(dofs_of_extra_damping(system));
@@ -175,7 +189,7 @@ void StructureStep::find_segments(const std::vector<char>& acted_on) {
     dof += length;
     segments_.back().end = static_cast<LocalIndex>(dof);
   }
-  node_mass_.resize(node_mass_.size() + lanes, 0.0);  // whole vectors are read
+  node_mass_.resize(node_mass_.size() + most_lanes, 0.0);  // whole vectors are read
   node_inverse_mass_.resize(node_mass_.size(), 0.0);
 }
 
@@ -195,11 +209,12 @@ void StructureStep::begin(double duration, const std::array<double, 3>& ground_a
     ground_step_[d] = duration * (ground_acceleration[d] - system_.gravity[d]);
   }
   for (std::size_t l = 0; l < pattern; ++l) {
-    ground_[0][l / lanes][l % lanes] = ground_step_[l % 3];
-    ground_[1][l / lanes][l % lanes] = l % 6 < 3 ? ground_step_[l % 3] : 0;
+    vectors_->ground[0][l / lanes][l % lanes] = ground_step_[l % 3];
+    vectors_->ground[1][l / lanes][l % lanes] = l % 6 < 3 ? ground_step_[l % 3] : 0;
   }
-  for (std::size_t v = 0; v < pattern_vectors; ++v) {
-    momentum_[0][v] = momentum_[1][v] = influenced_momentum_[v] = Lanes{};
+  for (std::size_t v = 0; v < VectorParts::count; ++v) {
+    vectors_->momentum[0][v] = vectors_->momentum[1][v] = vectors_->influenced_momentum[v] =
+        WideLanes{};
   }
   std::fill(known_step_.begin(), known_step_.end(), 0.0);
   for (std::size_t c = 0; system_.supports && c < supports.size(); ++c) {
@@ -216,10 +231,10 @@ void StructureStep::begin(double duration, const std::array<double, 3>& ground_a
       known_step_[i] -= step * shape.force[k] * system_.inverse_mass[i];
     }
   }
-  known_work_ = Lanes{};
-  vector_sums_ = {};
+  vectors_->known_work = WideLanes{};
+  vectors_->sums = {};
   dof_sums_ = {};
-  vector_energies_ = {};
+  vectors_->energies = {};
   dof_energies_ = {};
   sums_ = {};
   sums_.load = load_power();
@@ -256,25 +271,25 @@ void StructureStep::advance_vectors(std::size_t first, std::size_t end, const do
                                     const Damping& damping, Masses masses, Ground& ground) {
   double* const displacement = state_.displacement.data();
   double* const velocity = state_.velocity.data();
-  const StepTerms<Lanes> terms = in_lanes<Lanes>(terms_);
-  DofSums<Lanes> sums = vector_sums_;
+  const StepTerms<WideLanes> terms = in_lanes<WideLanes>(terms_);
+  DofSums<WideLanes> sums = vectors_->sums;
   const auto advance_vector = [&]<int k>(std::size_t i, const double* from, auto count)
       __attribute__((always_inline)) {
-    Lanes q, mass, inverse_mass;
-    DofState<Lanes> dof;
+    WideLanes q, mass, inverse_mass;
+    DofState<WideLanes> dof;
     load_first(from, count, q);
     load_first(displacement + i, count, dof.displacement);
     load_first(velocity + i, count, dof.velocity);
     masses.template at<k>(count, mass, inverse_mass);
     if constexpr (with_energies) {
-      Lanes rate;
+      WideLanes rate;
       load_first(stiffness_velocity_ + i, count, rate);
-      add_energies(terms, mass, q, rate, dof, vector_energies_);
+      add_energies(terms, mass, q, rate, dof, vectors_->energies);
     }
-    const Lanes before = dof.velocity;
-    const Lanes resisting = damping.resisting(i, count, q);
-    const Lanes f = damping.force(i, count, resisting);
-    const Lanes free =
+    const WideLanes before = dof.velocity;
+    const WideLanes resisting = damping.resisting(i, count, q);
+    const WideLanes f = damping.force(i, count, resisting);
+    const WideLanes free =
         free_velocity(terms, before, f, inverse_mass, ground.template step<k>(i, count));
     if constexpr (Damping::acts) sums.filtered += (f - resisting) * (free + before);
     ground.template add<k>(i, count, settle(terms, q, free, mass, dof, sums));
@@ -301,7 +316,7 @@ void StructureStep::advance_vectors(std::size_t first, std::size_t end, const do
   advance_last.template operator()<0>();
   advance_last.template operator()<1>();
   advance_last.template operator()<2>();
-  vector_sums_ = sums;
+  vectors_->sums = sums;
 }
 
 template <bool with_energies, typename Damping, typename Masses, typename Ground>
@@ -311,7 +326,7 @@ void StructureStep::advance_with_known(std::size_t first, std::size_t end, const
     advance_vectors<with_energies>(first, end, force, damping, masses, ground);
     return;
   }
-  LoadedGround<Ground> supported(ground, known_step_.data(), known_work_);
+  LoadedGround<Ground> supported(ground, known_step_.data(), vectors_->known_work);
   advance_vectors<with_energies>(first, end, force, damping, masses, supported);
 }
 
@@ -357,19 +372,19 @@ void StructureStep::advance(const Segment& segment, LocalIndex begin, LocalIndex
       break;
     case Order::translations: {
       const std::size_t node = segment.first_node + offset / 3;
-      PatternGround ground(ground_[0], momentum_[0]);
+      PatternGround ground(vectors_->ground[0], vectors_->momentum[0]);
       advance_with_known<with_energies>(first, stop, force, damping,
                                         NodeMasses(&node_mass_[node], &node_inverse_mass_[node]),
                                         ground);
       break;
     }
     case Order::nodes_of_six: {
-      PatternGround ground(ground_[1], momentum_[1]);
+      PatternGround ground(vectors_->ground[1], vectors_->momentum[1]);
       advance_with_known<with_energies>(first, stop, force, damping, dof_masses, ground);
       break;
     }
     case Order::generalised: {
-      InfluenceGround ground(*system_.generalised, ground_step_, influenced_momentum_);
+      InfluenceGround ground(*system_.generalised, ground_step_, vectors_->influenced_momentum);
       advance_with_known<with_energies>(first, stop, force, damping, dof_masses, ground);
       break;
     }
@@ -427,15 +442,15 @@ void StructureStep::correct(std::span<const LocalIndex> dofs, const interactions
 StepSums StructureStep::sums() const {
   StepSums total = sums_;
   add_to(dof_sums_, total);
-  add_to(vector_sums_, total);
+  add_to(vectors_->sums, total);
   add_to(dof_energies_, total);
-  add_to(vector_energies_, total);
+  add_to(vectors_->energies, total);
   for (std::size_t l = 0; l < pattern; ++l) {
-    total.momentum[l % 3] += momentum_[0][l / lanes][l % lanes];
-    if (l % 6 < 3) total.momentum[l % 3] += momentum_[1][l / lanes][l % lanes];
+    total.momentum[l % 3] += vectors_->momentum[0][l / lanes][l % lanes];
+    if (l % 6 < 3) total.momentum[l % 3] += vectors_->momentum[1][l / lanes][l % lanes];
   }
-  for (std::size_t d = 0; d < 3; ++d) total.momentum[d] += add_up(influenced_momentum_[d]);
-  total.support_input -= add_up(known_work_) / 2;
+  for (std::size_t d = 0; d < 3; ++d) total.momentum[d] += add_up(vectors_->influenced_momentum[d]);
+  total.support_input -= add_up(vectors_->known_work) / 2;
   total.load += load_power();
   return total;
 }

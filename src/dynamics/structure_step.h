@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "common/lanes.h"
 #include "dynamics/coupled_step.h"
 #include "dynamics/kept_forces.h"
 #include "dynamics/state.h"
@@ -35,8 +34,7 @@ struct StepRequest {
 /// one step on (update.h) while the range is in the nearest cache; the sums for the energy balance
 /// are taken on the way. Dofs whose mass is coupled wait for `complete`. v+ is free of contact
 /// until `correct` is called.
-class alignas(lane_alignment) StructureStep final : public stiffness::ForceReceiver,
-                                                    public interactions::SteppedStructure {
+class StructureStep final : public stiffness::ForceReceiver, public interactions::SteppedStructure {
  public:
   /// References must outlive this object.
   StructureStep(const LinearSystem& system, StructureState& state, double time_step);
@@ -69,7 +67,8 @@ class alignas(lane_alignment) StructureStep final : public stiffness::ForceRecei
   StepSums sums() const;
 
  private:
-  static constexpr std::size_t pattern_vectors = 3;  // in which directions repeat: 12 dofs
+  /// Terms and sums of whole vectors of dofs, as wide as those of the unit.
+  struct VectorParts;
 
   /// Dofs whose directions repeat: x y z of one mass, or x y z and three rotations; generalised
   /// coordinates; dofs of coupled mass; or in no order, as where extra damping acts.
@@ -126,14 +125,8 @@ class alignas(lane_alignment) StructureStep final : public stiffness::ForceRecei
   /// h ( sum_c iota_c r_c'' - M^-1 sum_l f_l p_l ) per owned dof; empty without supports and loads.
   std::vector<double> known_step_;
   std::span<const double> load_values_;  ///< f of all loads of the scene in this step
-  Lanes known_work_{};                   ///< sum of known_step_ times M s
-  /// Patterns of nodes without and with rotations: h (a_g - g) iota, and the sums of M s.
-  Lanes ground_[2][pattern_vectors]{};
-  Lanes momentum_[2][pattern_vectors]{};
-  Lanes influenced_momentum_[3]{};  ///< iota_d^T M s of generalised coordinates
-  DofSums<Lanes> vector_sums_;
+  std::unique_ptr<VectorParts> vectors_;
   DofSums<double> dof_sums_;
-  DofEnergies<Lanes> vector_energies_;
   DofEnergies<double> dof_energies_;
   StepSums sums_;  ///< parts of single dofs beside dof_sums_
 };

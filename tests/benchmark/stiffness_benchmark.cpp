@@ -81,7 +81,7 @@ void assembled_product(benchmark::State& state) {
 /// The middle one of three lines of pairs, with bricks on both sides.
 void brick_kernel(benchmark::State& state) {
   const auto count = static_cast<int>(state.range(0));
-  const std::ptrdiff_t stride = (count + 2 * lane_count) / lane_count * lane_count;
+  const std::ptrdiff_t stride = (count + 2 * most_lanes) / most_lanes * most_lanes;
   ElementProperties concrete{.young = 30e9, .poisson = 0.2, .density = 2400};
   const auto split = stiffness::split_brick(ElementType::hex8, concrete, {0.25, 0.3, 0.22});
   const stiffness::BrickStencil stencil = stiffness::brick_stencil(split.value());

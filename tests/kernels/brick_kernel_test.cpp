@@ -35,7 +35,7 @@ class Layer {
       : axes_(axes),
         count_(count),
         rows_(rows),
-        stride_((count + 2 * lane_count) / lane_count * lane_count),
+        stride_((count + 2 * most_lanes) / most_lanes * most_lanes),
         stiffness_(dense_stiffness(type, lengths)) {
     const auto split =
         split_brick(type, concrete(), {lengths[axes[0]], lengths[axes[1]], lengths[axes[2]]});

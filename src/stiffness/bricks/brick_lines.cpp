@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <stdexcept>
 
+#include "common/wide_lanes.h"
+
 namespace pounding::stiffness {
 namespace {
 
@@ -12,7 +14,7 @@ ComponentArrays shifted(const ComponentArrays& arrays, int nodes) {
 }
 
 int round_up(int count) {
-  return (count + lane_count - 1) / lane_count * lane_count;
+  return (count + most_lanes - 1) / most_lanes * most_lanes;
 }
 
 }  // namespace
@@ -39,7 +41,7 @@ BrickLines::BrickLines(const DofPlaces& places, const Matrix3& axes,
   for (const auto& nodes : rows.chains) {
     const BrickChain& chain = chains_.add(places, nodes, forms);
     chain_forms.push_back({chain.length, chain.row});
-    line_stride_ = std::max(line_stride_, round_up(chain.length + lane_count));
+    line_stride_ = std::max(line_stride_, round_up(chain.length + most_lanes));
   }
   schedule_ = schedule_lines(pairs, chain_forms, line_stride_, forms);
   for (const ChainStore& store : schedule_.stores) {
@@ -64,7 +66,7 @@ ComponentArrays BrickLines::forces(int start) const {
 void BrickLines::clear_forces(int start, int length) const {
   for (int c = 3; c < 6; ++c) {
     double* const force = buffer_.data() + start + c * line_stride_;
-    for (int p = 0; p < length; p += lane_count) store(force + p, Lanes{});
+    for (int p = 0; p < length; p += wide_lane_count) store(force + p, WideLanes{});
   }
 }
 
@@ -295,7 +297,7 @@ void BrickLines::make_room() {
     longest = std::max(longest, range.end - range.begin);
   }
   if (added_.size() < static_cast<std::size_t>(added)) added_.resize(added, 0.0);
-  range_.assign(static_cast<std::size_t>(round_up(handed_over + lane_count)), 0.0);
+  range_.assign(static_cast<std::size_t>(round_up(handed_over + most_lanes)), 0.0);
 }
 
 }  // namespace pounding::stiffness

@@ -1,20 +1,35 @@
 #include "stiffness/rows/chain_line.h"
 
-#include "common/lanes.h"
+#include "common/wide_lanes.h"
 
 namespace pounding::stiffness {
 namespace {
 
-/// The argument at four dofs in a row, of which `first` is a direction.
+/// The argument at dofs in a row, of which `first` is a direction.
 template <std::size_t first>
 inline void load_argument(const StiffnessArgument& w, LocalIndex dof, Lanes& values) {
   Lanes velocity;
   load(w.displacement + dof, values);
   load(w.velocity + dof, velocity);
   values += w.beta * velocity;
-  values -= Lanes{w.origin[first % 3], w.origin[(first + 1) % 3], w.origin[(first + 2) % 3],
-                  w.origin[first % 3]};
+  const auto origin = [&](std::size_t lane) { return w.origin[(first + lane) % 3]; };
+  values -= Lanes{origin(0), origin(1), origin(2), origin(0)};
 }
+
+#ifdef __AVX512F__
+
+template <std::size_t first>
+inline void load_argument(const StiffnessArgument& w, LocalIndex dof, WideLanes& values) {
+  WideLanes velocity;
+  load(w.displacement + dof, values);
+  load(w.velocity + dof, velocity);
+  values += w.beta * velocity;
+  const auto origin = [&](std::size_t lane) { return w.origin[(first + lane) % 3]; };
+  values -= WideLanes{origin(0), origin(1), origin(2), origin(0),
+                      origin(1), origin(2), origin(0), origin(1)};
+}
+
+#endif
 
 inline double load_component(const StiffnessArgument& w, LocalIndex node, std::size_t component) {
   return w[node + static_cast<LocalIndex>(component)] - w.origin[component];
@@ -33,18 +48,23 @@ inline void store_node(const ComponentArrays& from, int p, double* q) {
   q[2] = from.z[p];
 }
 
-/// Four nodes in a row in memory, x0 y0 z0 x1, y1 z1 x2 y2, z2 x3 y3 z3.
-struct FourNodes {
-  Lanes a, b, c;
+/// Nodes in a row in memory, of four x0 y0 z0 x1, y1 z1 x2 y2, z2 x3 y3 z3.
+template <typename Vector>
+struct RowNodes {
+  Vector a, b, c;
 };
 
-inline void load_row_of_four(const StiffnessArgument& w, LocalIndex first, FourNodes& nodes) {
+template <typename Vector>
+inline RowNodes<Vector> load_row_of_nodes(const StiffnessArgument& w, LocalIndex first) {
+  constexpr LocalIndex width = sizeof(Vector) / sizeof(double);
+  RowNodes<Vector> nodes;
   load_argument<0>(w, first, nodes.a);
-  load_argument<1>(w, first + 4, nodes.b);
-  load_argument<2>(w, first + 8, nodes.c);
+  load_argument<width>(w, first + width, nodes.b);
+  load_argument<2 * width>(w, first + 2 * width, nodes.c);
+  return nodes;
 }
 
-inline void to_components(const FourNodes& nodes, int p, const ComponentArrays& to) {
+inline void to_components(const RowNodes<Lanes>& nodes, int p, const ComponentArrays& to) {
   const Lanes xy_02 = __builtin_shufflevector(nodes.a, nodes.b, 0, 1, 6, 7);
   const Lanes zx_02 = __builtin_shufflevector(nodes.a, nodes.c, 2, 3, 4, 5);
   const Lanes yz_13 = __builtin_shufflevector(nodes.b, nodes.c, 0, 1, 6, 7);
@@ -62,17 +82,28 @@ inline void from_components(const Lanes& x, const Lanes& y, const Lanes& z, doub
   store(q + 8, __builtin_shufflevector(zx_02, yz_13, 2, 3, 6, 7));
 }
 
-/// Calls four(p) for groups of four of `count` nodes; the last group may overlap the one before it.
-/// Calls one(p) for each of fewer nodes.
-template <typename Four, typename One>
-inline void by_fours(int count, Four four, One one) {
-  if (count < 4) {
-    for (int p = 0; p < count; ++p) one(p);
-    return;
-  }
-  for (int p = 0; p + 4 <= count; p += 4) four(p);
-  if (count % 4 != 0) four(count - 4);
+#ifdef __AVX512F__
+
+/// Nodes in a row of eight: x0 y0 z0 x1 y1 z1 x2 y2, z2 x3 y3 z3 x4 y4 z4 x5, y5 z5 x6 y6 ... z7.
+inline void to_components(const RowNodes<WideLanes>& nodes, int p, const ComponentArrays& to) {
+  const WideLanes x = __builtin_shufflevector(nodes.a, nodes.b, 0, 3, 6, 9, 12, 15, -1, -1);
+  const WideLanes y = __builtin_shufflevector(nodes.a, nodes.b, 1, 4, 7, 10, 13, -1, -1, -1);
+  const WideLanes z = __builtin_shufflevector(nodes.a, nodes.b, 2, 5, 8, 11, 14, -1, -1, -1);
+  store(to.x + p, __builtin_shufflevector(x, nodes.c, 0, 1, 2, 3, 4, 5, 10, 13));
+  store(to.y + p, __builtin_shufflevector(y, nodes.c, 0, 1, 2, 3, 4, 8, 11, 14));
+  store(to.z + p, __builtin_shufflevector(z, nodes.c, 0, 1, 2, 3, 4, 9, 12, 15));
 }
+
+inline void from_components(const WideLanes& x, const WideLanes& y, const WideLanes& z, double* q) {
+  const WideLanes a = __builtin_shufflevector(x, y, 0, 8, -1, 1, 9, -1, 2, 10);
+  const WideLanes b = __builtin_shufflevector(x, y, -1, 3, 11, -1, 4, 12, -1, 5);
+  const WideLanes c = __builtin_shufflevector(x, y, 13, -1, 6, 14, -1, 7, 15, -1);
+  store(q, __builtin_shufflevector(a, z, 0, 1, 8, 3, 4, 9, 6, 7));
+  store(q + 8, __builtin_shufflevector(b, z, 10, 1, 2, 11, 4, 5, 12, 7));
+  store(q + 16, __builtin_shufflevector(c, z, 0, 13, 2, 3, 14, 5, 6, 15));
+}
+
+#endif
 
 }  // namespace
 
@@ -82,26 +113,24 @@ void load_nodes(const StiffnessArgument& w, const LocalIndex* places, int count,
 }
 
 void load_row(const StiffnessArgument& w, LocalIndex first, int count, const ComponentArrays& to) {
-  by_fours(
+  in_groups(
       count,
-      [&](int p) {
-        FourNodes nodes;
-        load_row_of_four(w, first + 3 * p, nodes);
-        to_components(nodes, p, to);
+      [&]<typename Vector>(Vector, int p) {
+        to_components(load_row_of_nodes<Vector>(w, first + 3 * p), p, to);
       },
       [&](int p) { load_node(w, first + 3 * p, p, to); });
 }
 
 void load_row_pair(const StiffnessArgument& w, std::array<LocalIndex, 2> first, int count,
                    const ComponentArrays& sum, const ComponentArrays& difference) {
-  by_fours(
+  in_groups(
       count,
-      [&](int p) {
-        FourNodes near, far;
-        load_row_of_four(w, first[0] + 3 * p, near);
-        load_row_of_four(w, first[1] + 3 * p, far);
-        to_components({far.a + near.a, far.b + near.b, far.c + near.c}, p, sum);
-        to_components({far.a - near.a, far.b - near.b, far.c - near.c}, p, difference);
+      [&]<typename Vector>(Vector, int p) {
+        using Nodes = RowNodes<Vector>;
+        const Nodes near = load_row_of_nodes<Vector>(w, first[0] + 3 * p);
+        const Nodes far = load_row_of_nodes<Vector>(w, first[1] + 3 * p);
+        to_components(Nodes{far.a + near.a, far.b + near.b, far.c + near.c}, p, sum);
+        to_components(Nodes{far.a - near.a, far.b - near.b, far.c - near.c}, p, difference);
       },
       [&](int p) {
         const LocalIndex near = first[0] + 3 * p;
@@ -122,10 +151,10 @@ void store_nodes(const ComponentArrays& from, const LocalIndex* places, int coun
 }
 
 void store_row(const ComponentArrays& from, int count, double* q) {
-  by_fours(
+  in_groups(
       count,
-      [&](int p) {
-        Lanes x, y, z;
+      [&]<typename Vector>(Vector, int p) {
+        Vector x, y, z;
         load(from.x + p, x);
         load(from.y + p, y);
         load(from.z + p, z);

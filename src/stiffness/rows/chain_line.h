@@ -7,7 +7,7 @@
 #include "stiffness/rows/product.h"
 
 /// Moves values between the dofs of nodes and the arrays that the bricks work on. Arrays are
-/// written up to lane_count - 1 values beyond their length.
+/// written up to most_lanes - 1 values beyond their length.
 namespace pounding::stiffness {
 
 /// Three arrays, one per component.

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "common/lanes.h"
+#include "common/wide_lanes.h"
 
 namespace pounding::stiffness {
 namespace {
@@ -16,21 +16,11 @@ inline void load_argument(const StiffnessArgument& w, LocalIndex dof, Lanes& val
 }
 
 /// Four vectors; variables of their own, which stay in registers.
-struct FourLanes {
-  Lanes a, b, c, d;
+template <typename Vector>
+struct FourVectors {
+  Vector a, b, c, d;
 };
-
-/// Four values of four nodes, node by node, to value by value; its own inverse.
-inline void transpose(FourLanes& v) {
-  const Lanes even_ab = __builtin_shufflevector(v.a, v.b, 0, 4, 2, 6);
-  const Lanes even_cd = __builtin_shufflevector(v.c, v.d, 0, 4, 2, 6);
-  const Lanes odd_ab = __builtin_shufflevector(v.a, v.b, 1, 5, 3, 7);
-  const Lanes odd_cd = __builtin_shufflevector(v.c, v.d, 1, 5, 3, 7);
-  v.a = __builtin_shufflevector(even_ab, even_cd, 0, 1, 4, 5);
-  v.b = __builtin_shufflevector(odd_ab, odd_cd, 0, 1, 4, 5);
-  v.c = __builtin_shufflevector(even_ab, even_cd, 2, 3, 6, 7);
-  v.d = __builtin_shufflevector(odd_ab, odd_cd, 2, 3, 6, 7);
-}
+using FourLanes = FourVectors<Lanes>;
 
 /// The components from `begin` on of four nodes.
 inline void load_components(const StiffnessArgument& w, const LocalIndex* places, int begin,
@@ -39,12 +29,61 @@ inline void load_components(const StiffnessArgument& w, const LocalIndex* places
   load_argument(w, places[1] + begin, v.b);
   load_argument(w, places[2] + begin, v.c);
   load_argument(w, places[3] + begin, v.d);
-  transpose(v);
+  transpose(v.a, v.b, v.c, v.d);
 }
 
-inline void load_four(const StiffnessArgument& w, const LocalIndex* places, int p,
-                      const SixArrays& to) {
-  FourLanes v;
+#ifdef __AVX512F__
+
+inline void load_halves(const double* low, const double* high, WideLanes& values) {
+  Lanes first, second;
+  load(low, first);
+  load(high, second);
+  values = __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+inline void load_argument(const StiffnessArgument& w, LocalIndex low, LocalIndex high,
+                          WideLanes& values) {
+  WideLanes velocity;
+  load_halves(w.displacement + low, w.displacement + high, values);
+  load_halves(w.velocity + low, w.velocity + high, velocity);
+  values += w.beta * velocity;
+}
+
+inline void load_components(const StiffnessArgument& w, const LocalIndex* places, int begin,
+                            FourVectors<WideLanes>& v) {
+  load_argument(w, places[0] + begin, places[4] + begin, v.a);
+  load_argument(w, places[1] + begin, places[5] + begin, v.b);
+  load_argument(w, places[2] + begin, places[6] + begin, v.c);
+  load_argument(w, places[3] + begin, places[7] + begin, v.d);
+  transpose(v.a, v.b, v.c, v.d);
+}
+
+inline void store_halves(const WideLanes& values, double* low, double* high) {
+  store(low, __builtin_shufflevector(values, values, 0, 1, 2, 3));
+  store(high, __builtin_shufflevector(values, values, 4, 5, 6, 7));
+}
+
+inline void store_rows(const FourVectors<WideLanes>& v, const LocalIndex* places, double* q) {
+  store_halves(v.a, q + places[0], q + places[4]);
+  store_halves(v.b, q + places[1], q + places[5]);
+  store_halves(v.c, q + places[2], q + places[6]);
+  store_halves(v.d, q + places[3], q + places[7]);
+}
+
+#endif
+
+inline void store_rows(const FourLanes& v, const LocalIndex* places, double* q) {
+  store(q + places[0], v.a);
+  store(q + places[1], v.b);
+  store(q + places[2], v.c);
+  store(q + places[3], v.d);
+}
+
+/// Loads as many nodes as a vector has lanes.
+template <typename Vector>
+inline void load_vector(const StiffnessArgument& w, const LocalIndex* places, int p,
+                        const SixArrays& to) {
+  FourVectors<Vector> v;
   load_components(w, places, 0, v);
   store(to[0] + p, v.a);
   store(to[1] + p, v.b);
@@ -56,52 +95,47 @@ inline void load_four(const StiffnessArgument& w, const LocalIndex* places, int 
 }
 
 /// Stores the forces of nodes; `q`: where dof 0 would stand.
+template <typename Vector>
 inline void store_components(const double* x, const double* y, const double* z, const double* t,
                              const LocalIndex* places, double* q) {
-  FourLanes v;
+  FourVectors<Vector> v;
   load(x, v.a);
   load(y, v.b);
   load(z, v.c);
   load(t, v.d);
-  transpose(v);
-  store(q + places[0], v.a);
-  store(q + places[1], v.b);
-  store(q + places[2], v.c);
-  store(q + places[3], v.d);
+  transpose(v.a, v.b, v.c, v.d);
+  store_rows(v, places, q);
 }
 
-inline void store_four(const SixArrays& from, int p, const LocalIndex* places, LocalIndex first,
-                       double* q) {
-  store_components(from[0] + p, from[1] + p, from[2] + p, from[3] + p, places, q - first);
-  store_components(from[2] + p, from[3] + p, from[4] + p, from[5] + p, places, q - first + 2);
+template <typename Vector>
+inline void store_vector(const SixArrays& from, int p, const LocalIndex* places, LocalIndex first,
+                         double* q) {
+  store_components<Vector>(from[0] + p, from[1] + p, from[2] + p, from[3] + p, places, q - first);
+  store_components<Vector>(from[2] + p, from[3] + p, from[4] + p, from[5] + p, places,
+                           q - first + 2);
 }
 
 }  // namespace
 
 void load_shell_nodes(const StiffnessArgument& w, const LocalIndex* places, int count,
                       const SixArrays& to) {
-  if (count < 4) {
-    for (int p = 0; p < count; ++p) {
-      for (std::size_t c = 0; c < 6; ++c) to[c][p] = w[places[p] + static_cast<LocalIndex>(c)];
-    }
-    return;
-  }
-  for (int p = 0; p + 4 <= count; p += 4) load_four(w, places + p, p, to);
-  if (count % 4 != 0) load_four(w, places + count - 4, count - 4, to);
+  in_groups(
+      count, [&]<typename Vector>(Vector, int p) { load_vector<Vector>(w, places + p, p, to); },
+      [&](int p) {
+        for (std::size_t c = 0; c < 6; ++c) to[c][p] = w[places[p] + static_cast<LocalIndex>(c)];
+      });
 }
 
 void store_shell_nodes(const SixArrays& from, const LocalIndex* places, int count, LocalIndex first,
                        double* q) {
-  if (count < 4) {
-    for (int p = 0; p < count; ++p) {
-      for (std::size_t c = 0; c < 6; ++c) {
-        q[places[p] - first + static_cast<LocalIndex>(c)] = from[c][p];
-      }
-    }
-    return;
-  }
-  for (int p = 0; p + 4 <= count; p += 4) store_four(from, p, places + p, first, q);
-  if (count % 4 != 0) store_four(from, count - 4, places + count - 4, first, q);
+  in_groups(
+      count,
+      [&]<typename Vector>(Vector, int p) { store_vector<Vector>(from, p, places + p, first, q); },
+      [&](int p) {
+        for (std::size_t c = 0; c < 6; ++c) {
+          q[places[p] - first + static_cast<LocalIndex>(c)] = from[c][p];
+        }
+      });
 }
 
 }  // namespace pounding::stiffness

@@ -5,24 +5,34 @@
 namespace pounding::stiffness {
 namespace {
 
-/// One component of the four nodes of each rectangle: rows of H with axis 1 as 0: no, 1: yes;
-/// `even` along the run without, `odd` with axis 0.
+/// One component of the four nodes of each rectangle of a vector: rows of H with axis 1 as 0: no,
+/// 1: yes; `even` along the run without, `odd` with axis 0.
 struct Transformed {
-  Lanes even[2];
-  Lanes odd[2];
+  WideLanes even[2];
+  WideLanes odd[2];
 };
 
-/// Walsh-Hadamard transform of rectangles i .. i + 3 between the nodes of two lines.
+/// Values at the near and at the far ends of the rectangles from one on, of their nodes in a line.
+POUNDING_INLINE void load_ends(const double* line, WideLanes& near, WideLanes& far) {
+  load(line, near);
+#ifdef __AVX512F__  // a vector that begins between two cache lines is loaded twice
+  WideLanes next;
+  load(line + wide_lane_count, next);
+  far = shifted_on(near, next);
+#else
+  load(line + 1, far);
+#endif
+}
+
+/// Walsh-Hadamard transform of the rectangles of a vector between the nodes of two lines.
 POUNDING_INLINE void transform(const double* line0, const double* line1, Transformed& out) {
-  Lanes near0, far0, near1, far1;
-  load(line0, near0);
-  load(line0 + 1, far0);
-  load(line1, near1);
-  load(line1 + 1, far1);
-  const Lanes sum0 = near0 + far0;
-  const Lanes sum1 = near1 + far1;
-  const Lanes difference0 = far0 - near0;
-  const Lanes difference1 = far1 - near1;
+  WideLanes near0, far0, near1, far1;
+  load_ends(line0, near0, far0);
+  load_ends(line1, near1, far1);
+  const WideLanes sum0 = near0 + far0;
+  const WideLanes sum1 = near1 + far1;
+  const WideLanes difference0 = far0 - near0;
+  const WideLanes difference1 = far1 - near1;
   out.even[0] = sum0 + sum1;
   out.even[1] = sum1 - sum0;
   out.odd[0] = difference0 + difference1;
@@ -56,18 +66,18 @@ struct Plate {
   }
 };
 
-/// Forces of one component at nodes i .. i + 3: of the rectangles i .. i + 3 behind them, and of
-/// those before, whose last one comes from the previous call through `carry`.
-POUNDING_INLINE void transform_back(bool is_translation, const Transformed& v, Lanes (&carry)[2],
-                                    double* line0, double* line1) {
-  Lanes node[2];
+/// Forces of one component at the nodes of a vector: of the rectangles behind them, and of those
+/// before, whose last one comes from the previous call through `carry`.
+POUNDING_INLINE void transform_back(bool is_translation, const Transformed& v,
+                                    WideLanes (&carry)[2], double* line0, double* line1) {
+  WideLanes node[2];
   for (int t = 0; t < 2; ++t) {
     const bool vanishes = is_translation && t == 0;
-    const Lanes far = vanishes ? v.odd[t] : v.even[t] + v.odd[t];
-    const Lanes near = vanishes ? -v.odd[t] : v.even[t] - v.odd[t];
+    const WideLanes far = vanishes ? v.odd[t] : v.even[t] + v.odd[t];
+    const WideLanes near = vanishes ? -v.odd[t] : v.even[t] - v.odd[t];
     node[t] = near + carry_over(far, carry[t]);
   }
-  Lanes total0, total1;
+  WideLanes total0, total1;
   load(line0, total0);
   load(line1, total1);
   total0 += node[0] - node[1];
@@ -86,7 +96,7 @@ POUNDING_INLINE void gather(const std::array<ShellLine, 2>& lines, int line_stri
 }
 
 template <typename Half>
-POUNDING_INLINE void scatter(const Transformed (&v)[3], Lanes (&carry)[3][2],
+POUNDING_INLINE void scatter(const Transformed (&v)[3], WideLanes (&carry)[3][2],
                              const std::array<ShellLine, 2>& lines, int line_stride, int first) {
   for (int c = 0; c < 3; ++c) {
     const int shift = Half::component[c] * line_stride + first;
@@ -96,7 +106,7 @@ POUNDING_INLINE void scatter(const Transformed (&v)[3], Lanes (&carry)[3][2],
 }
 
 /// Sets what rectangles beyond the end of the run would add to zero.
-POUNDING_INLINE void mask(const LaneMask& keep, Transformed (&v)[3]) {
+POUNDING_INLINE void mask(const WideMask& keep, Transformed (&v)[3]) {
   for (int c = 0; c < 3; ++c) {
     for (int t = 0; t < 2; ++t) {
       mask_lanes(keep, v[c].even[t]);
@@ -108,9 +118,9 @@ POUNDING_INLINE void mask(const LaneMask& keep, Transformed (&v)[3]) {
 template <typename Half>
 void add_half(const ShellSplit& split, const std::array<ShellLine, 2>& lines, int line_stride,
               int count) {
-  Lanes carry[3][2] = {};
+  WideLanes carry[3][2] = {};
   int first = 0;
-  for (; first + lane_count <= count; first += lane_count) {
+  for (; first + wide_lane_count <= count; first += wide_lane_count) {
     Transformed v[3];
     gather<Half>(lines, line_stride, first, v);
     Half::multiply(split, v);

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <stdexcept>
 
-#include "common/lanes.h"
+#include "common/wide_lanes.h"
 #include "stiffness/rows/chain_line.h"
 #include "stiffness/shells/shell_kernel.h"
 
@@ -14,9 +14,9 @@ namespace {
 constexpr int components = 6;
 constexpr int arrays_per_line = 2 * components;
 
-/// Room for `length` values and as many as the kernel reads beyond them.
+/// Room for `length` values and those that the kernel writes beyond them.
 int padded(int length) {
-  return (length + 2 * lane_count) / lane_count * lane_count;
+  return (length + 2 * most_lanes) / most_lanes * most_lanes;
 }
 
 }  // namespace
@@ -97,7 +97,7 @@ void ShellLines::schedule(const RectangleRows& rows) {
     run.stores_end = stores_.size();
     runs_.push_back(run);
   }
-  buffer_.assign(line_count * line_size, 0.0);
+  buffer_.assign(line_count * line_size + most_lanes, 0.0);
 }
 
 LocalIndex ShellLines::place(const Chain& chain, int node, int component) const {
@@ -138,7 +138,7 @@ void ShellLines::load_chain(const Transfer& transfer, const StiffnessArgument& w
   rotate(false, chain.length, line);
   for (int c = components; c < arrays_per_line; ++c) {
     double* const force = line + c * line_stride_;
-    for (int p = 0; p < chain.length; p += lane_count) store(force + p, Lanes{});
+    for (int p = 0; p < chain.length; p += wide_lane_count) store(force + p, WideLanes{});
   }
 }
 

@@ -5,52 +5,18 @@
 #include <cstdint>
 #include <cstring>
 
-#include "common/lanes.h"
+#include "common/wide_lanes.h"
 
-#ifndef POUNDING_KERNELS
-#error "Batches are as wide as the vector unit: for kernels alone (cmake/vector_units.cmake)"
-#endif
-
-/// One number of each element of a batch: of eight where the unit has AVX-512, else of four.
-/// Nodes of elements stand in rows, component by component, which become columns and rows again.
+/// One number of each element of a batch, as many as a vector of the unit holds. Nodes of elements
+/// stand in rows, component by component, which become columns and rows again.
 namespace pounding::stiffness {
 
-#ifdef __AVX512F__
-
 /// Elements of a batch.
-inline constexpr std::size_t element_lane_count = 8;
+inline constexpr std::size_t element_lane_count = wide_lane_count;
 
-using ElementLanes = double __attribute__((vector_size(64)));
+using ElementLanes = WideLanes;
 
-/// c += a b and c -= a b, rounded once.
-static inline __attribute__((always_inline)) void add_product(const ElementLanes& a,
-                                                              const ElementLanes& b,
-                                                              ElementLanes& c) {
-  c = _mm512_fmadd_pd(a, b, c);
-}
-static inline __attribute__((always_inline)) void subtract_product(const ElementLanes& a,
-                                                                   const ElementLanes& b,
-                                                                   ElementLanes& c) {
-  c = _mm512_fnmadd_pd(a, b, c);
-}
-
-// Lanes a0 a1 a2 a3 and b0 b1 b2 b3 become those named behind, and so every next four:
-static inline __attribute__((always_inline)) ElementLanes even_pairs(const ElementLanes& a,
-                                                                     const ElementLanes& b) {
-  return __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);  // a0 b0 a2 b2
-}
-static inline __attribute__((always_inline)) ElementLanes odd_pairs(const ElementLanes& a,
-                                                                    const ElementLanes& b) {
-  return __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);  // a1 b1 a3 b3
-}
-static inline __attribute__((always_inline)) ElementLanes first_halves(const ElementLanes& a,
-                                                                       const ElementLanes& b) {
-  return __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);  // a0 a1 b0 b1
-}
-static inline __attribute__((always_inline)) ElementLanes second_halves(const ElementLanes& a,
-                                                                        const ElementLanes& b) {
-  return __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);  // a2 a3 b2 b3
-}
+#ifdef __AVX512F__
 
 /// Four values of element `first`, then of the one four further.
 static inline __attribute__((always_inline)) ElementLanes load_rows(
@@ -75,27 +41,6 @@ static inline __attribute__((always_inline)) ElementLanes load_half_rows(
 
 #else
 
-inline constexpr std::size_t element_lane_count = 4;
-
-using ElementLanes = Lanes;
-
-static inline __attribute__((always_inline)) ElementLanes even_pairs(const ElementLanes& a,
-                                                                     const ElementLanes& b) {
-  return __builtin_shufflevector(a, b, 0, 4, 2, 6);
-}
-static inline __attribute__((always_inline)) ElementLanes odd_pairs(const ElementLanes& a,
-                                                                    const ElementLanes& b) {
-  return __builtin_shufflevector(a, b, 1, 5, 3, 7);
-}
-static inline __attribute__((always_inline)) ElementLanes first_halves(const ElementLanes& a,
-                                                                       const ElementLanes& b) {
-  return __builtin_shufflevector(a, b, 0, 1, 4, 5);
-}
-static inline __attribute__((always_inline)) ElementLanes second_halves(const ElementLanes& a,
-                                                                        const ElementLanes& b) {
-  return __builtin_shufflevector(a, b, 2, 3, 6, 7);
-}
-
 static inline __attribute__((always_inline)) ElementLanes load_rows(
     const double* from, const std::array<std::uint32_t, element_lane_count>& start,
     std::size_t first) {
@@ -114,17 +59,6 @@ static inline __attribute__((always_inline)) ElementLanes load_half_rows(
 }
 
 #endif
-
-/// Every four rows become four columns.
-static inline __attribute__((always_inline)) void transpose(ElementLanes& a, ElementLanes& b,
-                                                            ElementLanes& c, ElementLanes& d) {
-  const ElementLanes ab_even = even_pairs(a, b), ab_odd = odd_pairs(a, b);
-  const ElementLanes cd_even = even_pairs(c, d), cd_odd = odd_pairs(c, d);
-  a = first_halves(ab_even, cd_even);
-  b = first_halves(ab_odd, cd_odd);
-  c = second_halves(ab_even, cd_even);
-  d = second_halves(ab_odd, cd_odd);
-}
 
 /// Adds the lanes from `first` on, as many as a `Part` has, to the values at a place.
 template <std::size_t first, typename Part>
