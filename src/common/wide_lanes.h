@@ -47,12 +47,9 @@ static POUNDING_INLINE const WideLanes& widened(const Lanes& coefficient) {
   return coefficient;
 }
 
-/// Values i - 1 .. i + 2 and i + 1 .. i + 4 of those before, at and after i .. i + 3.
+/// Values i - 1 .. i + 2 of those before and at i .. i + 3.
 static POUNDING_INLINE WideLanes shifted_back(const WideLanes& before, const WideLanes& at) {
   return __builtin_shufflevector(before, at, 3, 4, 5, 6);
-}
-static POUNDING_INLINE WideLanes shifted_on(const WideLanes& at, const WideLanes& after) {
-  return __builtin_shufflevector(at, after, 1, 2, 3, 4);
 }
 
 #endif

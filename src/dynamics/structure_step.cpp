@@ -208,13 +208,10 @@ void StructureStep::begin(double duration, const std::array<double, 3>& ground_a
   for (std::size_t d = 0; d < 3; ++d) {
     ground_step_[d] = duration * (ground_acceleration[d] - system_.gravity[d]);
   }
+  *vectors_ = {};
   for (std::size_t l = 0; l < pattern; ++l) {
     vectors_->ground[0][l / lanes][l % lanes] = ground_step_[l % 3];
     vectors_->ground[1][l / lanes][l % lanes] = l % 6 < 3 ? ground_step_[l % 3] : 0;
-  }
-  for (std::size_t v = 0; v < VectorParts::count; ++v) {
-    vectors_->momentum[0][v] = vectors_->momentum[1][v] = vectors_->influenced_momentum[v] =
-        WideLanes{};
   }
   std::fill(known_step_.begin(), known_step_.end(), 0.0);
   for (std::size_t c = 0; system_.supports && c < supports.size(); ++c) {
@@ -231,10 +228,7 @@ void StructureStep::begin(double duration, const std::array<double, 3>& ground_a
       known_step_[i] -= step * shape.force[k] * system_.inverse_mass[i];
     }
   }
-  vectors_->known_work = WideLanes{};
-  vectors_->sums = {};
   dof_sums_ = {};
-  vectors_->energies = {};
   dof_energies_ = {};
   sums_ = {};
   sums_.load = load_power();

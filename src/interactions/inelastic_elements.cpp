@@ -258,18 +258,20 @@ void InelasticElements::finish(const Step& step) {
   ledger.support_input += input;
 }
 
-double InelasticElements::ductility(const Part& part) const {
+std::span<const double> InelasticElements::memory_of(const Part& part) const {
   const Group& group = groups_[part.group];
   const std::size_t numbers = group.law->memory_size();
-  return group.law->ductility(group.first + part.element, part.number,
-                              {group.memory.data() + part.element * numbers, numbers});
+  return {group.memory.data() + part.element * numbers, numbers};
+}
+
+double InelasticElements::ductility(const Part& part) const {
+  const Group& group = groups_[part.group];
+  return group.law->ductility(group.first + part.element, part.number, memory_of(part));
 }
 
 PartState InelasticElements::state_of(const Part& part) const {
   const Group& group = groups_[part.group];
-  const std::size_t numbers = group.law->memory_size();
-  return group.law->part(group.first + part.element, part.number,
-                         {group.memory.data() + part.element * numbers, numbers});
+  return group.law->part(group.first + part.element, part.number, memory_of(part));
 }
 
 void InelasticElements::record(std::vector<std::size_t> parts) {

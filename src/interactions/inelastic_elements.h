@@ -80,6 +80,8 @@ class InelasticElements final : public Interaction {
   /// g over the places out of `displacement_`, histories brought there; returns W of the elements
   /// that this rank counts.
   double respond();
+  /// History of the element of a part.
+  std::span<const double> memory_of(const Part& part) const;
   /// Prepares `halo_` once the places are known. Collective.
   void find_ghosts();
   /// Sets the ghosts among the places to values that `halo_` brought.

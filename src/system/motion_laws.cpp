@@ -37,9 +37,8 @@ MotionLaws::MotionLaws(std::vector<std::string> names, std::span<const Hysteresi
 
 void MotionLaws::add(std::vector<LawMotion> own, std::optional<AxialWeakening> axial) {
   for (LawMotion& motion : own) {
-    motions_.push_back({motion.law.get(), shapes_.size(), motion.measure, motion.weakened});
+    motions_.push_back({std::move(motion.law), shapes_.size(), motion.measure, motion.weakened});
     shapes_.insert(shapes_.end(), motion.shape.begin(), motion.shape.end());
-    if (laws_.empty() || laws_.back() != motion.law) laws_.push_back(std::move(motion.law));
   }
   if (axial) axial_.push_back(std::move(*axial));
 }

@@ -60,17 +60,15 @@ class MotionLaws final : public interactions::ElementLaw {
  private:
   /// A LawMotion whose shape is in `shapes_` from `shape` on, as the step reads them.
   struct Motion {
-    const interactions::HystereticLaw* law = nullptr;
+    std::shared_ptr<const interactions::HystereticLaw> law;
     std::size_t shape = 0;
     double measure = 1;
     bool weakened = false;
   };
 
   std::vector<std::string> names_;
-  std::vector<Motion> motions_;  ///< shape (elements, parts)
-  std::vector<double> shapes_;   ///< one after another, as long as their elements have dofs
-  /// Laws of `motions_`, each once.
-  std::vector<std::shared_ptr<const interactions::HystereticLaw>> laws_;
+  std::vector<Motion> motions_;        ///< shape (elements, parts)
+  std::vector<double> shapes_;         ///< one after another, as long as their elements have dofs
   std::vector<AxialWeakening> axial_;  ///< per element, or empty
   std::vector<std::size_t> begin_;     ///< of each part in a memory, and the end
 };

@@ -1,35 +1,24 @@
 #include "stiffness/rows/chain_line.h"
 
+#include <utility>
+
 #include "common/wide_lanes.h"
 
 namespace pounding::stiffness {
 namespace {
 
-/// The argument at dofs in a row, of which `first` is a direction.
-template <std::size_t first>
-inline void load_argument(const StiffnessArgument& w, LocalIndex dof, Lanes& values) {
-  Lanes velocity;
+/// The argument at dofs in a row, as many as a vector has lanes, of which `first` is a direction.
+template <std::size_t first, typename Vector>
+inline void load_argument(const StiffnessArgument& w, LocalIndex dof, Vector& values) {
+  Vector velocity;
   load(w.displacement + dof, values);
   load(w.velocity + dof, velocity);
   values += w.beta * velocity;
-  const auto origin = [&](std::size_t lane) { return w.origin[(first + lane) % 3]; };
-  values -= Lanes{origin(0), origin(1), origin(2), origin(0)};
+  values -= [&]<std::size_t... lane>(std::index_sequence<lane...>) {
+    return Vector{w.origin[(first + lane) % 3]...};
+  }
+  (std::make_index_sequence<sizeof(Vector) / sizeof(double)>{});
 }
-
-#ifdef __AVX512F__
-
-template <std::size_t first>
-inline void load_argument(const StiffnessArgument& w, LocalIndex dof, WideLanes& values) {
-  WideLanes velocity;
-  load(w.displacement + dof, values);
-  load(w.velocity + dof, velocity);
-  values += w.beta * velocity;
-  const auto origin = [&](std::size_t lane) { return w.origin[(first + lane) % 3]; };
-  values -= WideLanes{origin(0), origin(1), origin(2), origin(0),
-                      origin(1), origin(2), origin(0), origin(1)};
-}
-
-#endif
 
 inline double load_component(const StiffnessArgument& w, LocalIndex node, std::size_t component) {
   return w[node + static_cast<LocalIndex>(component)] - w.origin[component];
