@@ -45,6 +45,7 @@ class Result:
     forces: dict = field(default_factory=dict)  # of forces.csv: largest values
     energy: dict = field(default_factory=dict)
     equipment: dict = field(default_factory=dict)  # of equipment.csv: required spectrum and capacity
+    yielding: dict = field(default_factory=dict)  # of yielding.csv: laws of elements and how far they went
     title: str = ""
     without: "Result | None" = None  # the run without pounding, where one is set beside it
 
@@ -268,12 +269,13 @@ def _read_table(path: Path) -> dict:
 
 
 # Columns that must be there; those of names hold text, the others numbers.
-NAMES = ("probe", "direction", "contact", "item", "component", "element")
+NAMES = ("probe", "direction", "contact", "item", "component", "element", "law")
 COLUMNS = {
     "spectra": ("probe", "direction", "damping", "frequency", "pseudo_acceleration"),
     "impacts": ("contact", "start", "end", "duration", "impulse"),
     "forces": ("item", "component", "element", "peak", "time"),
     "energy": ("time", "kinetic", "strain", "input_work", "residual"),
+    "yielding": ("law", "element", "ductility", "x", "y", "z"),
 }
 
 
@@ -306,6 +308,7 @@ def load(folder: Path | str) -> Result:
         "forces.csv": lambda path: result.forces.update(_read_table(path)),
         "energy.csv": lambda path: result.energy.update(_read_table(path)),
         "equipment.csv": lambda path: result.equipment.update(_read_table(path)),
+        "yielding.csv": lambda path: result.yielding.update(_read_table(path)),
     }
     for name, read in readers.items():
         path = folder / name

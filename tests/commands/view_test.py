@@ -75,6 +75,19 @@ class View(unittest.TestCase):
         cls.page = Path(cls.folder, "report.html").read_text(encoding="utf-8")
         cls.data = json.loads(re.search(r'id="view-data">(.*?)</script>', cls.page, re.DOTALL)[1])
 
+    def test_yielding_is_marked_by_demand_over_the_first_corner(self):
+        result = load(Path(self.folder))
+        points = unpacked(self.data["points"], "<f4").reshape(-1, 3)
+        places, demands = points[[0, 3, 3, 9, 17]] + 1e-3, [0.4, 3.0, 1.5, 1.0, 12.0]  # two laws of one element
+        result.yielding = {"law": np.array(["s1:wall:shear"] * 5), "ductility": np.array(demands),
+                           **{axis: places[:, d] for d, axis in enumerate("xyz")}}
+        marks = [(mark["name"], mark["colour"], unpacked(mark["nodes"], "<u4").tolist())
+                 for mark in view.data(result)["marks"] if mark["name"].startswith("yielding")]
+        self.assertEqual(marks, [
+            ("yielding: no farther than 1 times the first corner", view.HOLDS, [0, 9]),
+            ("yielding: 2 to 4 times the first corner", view.DEMANDS[2][1], [3]),
+            ("yielding: beyond 4 times the first corner", view.FAILS, [17])])
+
     def test_the_page_holds_the_surface_and_the_motion(self):
         self.assertNotIn("skipped: no fields", self.said)
         groups = {group["name"]: group for group in self.data["groups"]}

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+from scipy.spatial import cKDTree
 
 from pounding.results import Missing, Result
 from . import scene_mesh
@@ -14,6 +15,7 @@ from .style import contact_colour, envelope
 MOST_NODES = 60000     # shown in a page; ParaView takes any number
 GAP_BINS = 600         # of the curve of a gap
 HOLDS, FAILS = "#1b7837", "#d01c1c"  # colours of equipment
+DEMANDS = ((1, HOLDS), (2, "#e6b800"), (4, "#e07b00"), (np.inf, FAILS))  # most, over the first corner; colour
 SIDES = {"N": "z", "T": "z", "Vy": "y", "Vz": "z", "My": "z", "Mz": "y"}  # axis along which a component is drawn
 MOST_BYTES = 12000000  # of the frames in a page, before base64
 COLOURS = ("#9bb7d4", "#d9a066", "#8fbf8f", "#c99bc4", "#d98c8c", "#b8b86a", "#7fc4c4", "#a89a86", "#8c8cd9", "#c4c4c4")
@@ -118,6 +120,27 @@ class _Scene:
                               "nodes": _packed(probes[one["probe"]], "<u4")})
         return shown
 
+    def yielding(self, result: Result) -> list:
+        """Nodes in the middle of elements that may yield, by demand over capacity: the largest elongation of any of an
+        element's laws over that of the first corner. A node that several share has the farthest of them."""
+        table = result.yielding
+        if not len(table.get("law", ())):
+            return []
+        points = self.rows([part.points for part in self.parts])
+        nearest = cKDTree(points).query(np.column_stack([table[axis] for axis in "xyz"]))[1]
+        farthest = np.zeros(len(points))
+        np.maximum.at(farthest, nearest, table["ductility"])
+        own, shown, least = np.unique(nearest), [], 0.0
+        for most, colour in DEMANDS:
+            nodes = own[(farthest[own] <= most) & ((farthest[own] > least) | (least == 0))]
+            demand = (f"no farther than {most:g}" if least == 0 else f"beyond {least:g}" if most == np.inf else
+                      f"{least:g} to {most:g}")
+            if len(nodes):
+                shown.append({"name": f"yielding: {demand} times the first corner", "colour": colour,
+                              "nodes": _packed(nodes, "<u4")})
+            least = most
+        return shown
+
     def members(self, result: Result, times: list) -> list:
         """Beams whose forces were recorded: ends, axes, and for each component at both ends the largest of the samples and,
         where there is a history, its values at the times [N, N m]."""
@@ -215,8 +238,8 @@ def data(result: Result) -> dict:
     motion, rest = scene.motion(folder), scene.rest(folder)
     points = scene.rows([part.points for part in scene.parts]) + rest
     return {"points": _packed(points, "<f4"), "sag": float(np.abs(rest).max(initial=0.0)), "groups": scene.shapes(),
-            "marks": scene.marks(folder) + scene.capacities(result), "modes": scene.modes(folder), "motion": motion,
-            "gaps": _gaps(result), "members": scene.members(result, motion.get("times", []))}
+            "marks": scene.marks(folder) + scene.capacities(result) + scene.yielding(result),
+            "modes": scene.modes(folder), "motion": motion, "gaps": _gaps(result), "members": scene.members(result, motion.get("times", []))}
 
 
 def html(result: Result) -> str:
