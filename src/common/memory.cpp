@@ -10,6 +10,7 @@
 #ifdef __linux__
 #include <cstdint>
 #include <sys/mman.h>
+#include <unistd.h>
 #endif
 
 namespace pounding {
@@ -49,20 +50,39 @@ double available_memory() {
   return std::numeric_limits<double>::infinity();
 }
 
+#ifdef __linux__
+
+namespace {
+
+/// Advice on whole pages of so many bytes.
+void advise(void* bytes, std::size_t count, std::uintptr_t page, int advice) {
+  const auto begin = reinterpret_cast<std::uintptr_t>(bytes);
+  const std::uintptr_t first = (begin + page - 1) / page * page;
+  const std::uintptr_t end = (begin + count) / page * page;
+  if (end > first) madvise(static_cast<char*>(bytes) + (first - begin), end - first, advice);
+}
+
+}  // namespace
+
+void wish_large_pages(void* bytes, std::size_t count) {
+  advise(bytes, count, std::uintptr_t{1} << 21, MADV_HUGEPAGE);
+}
+
+void return_pages(void* bytes, std::size_t count) {
+  advise(bytes, count, static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE)), MADV_DONTNEED);
+}
+
+#else
+
+void wish_large_pages(void* /*bytes*/, std::size_t /*count*/) {}
+void return_pages(void* /*bytes*/, std::size_t /*count*/) {}
+
+#endif
+
 std::vector<double> zeros_on_large_pages(std::size_t size) {
   std::vector<double> zeros;
   zeros.reserve(size);
-#ifdef __linux__
-  constexpr std::uintptr_t large_page = 1 << 21;  // [B]
-  const auto begin = reinterpret_cast<std::uintptr_t>(zeros.data());
-  const std::uintptr_t first = (begin + large_page - 1) / large_page * large_page;
-  const std::uintptr_t end = (begin + size * sizeof(double)) / large_page * large_page;
-  if (end > first) {
-    // A wish: ordinary pages do as well.
-    char* const bytes = reinterpret_cast<char*>(zeros.data());
-    madvise(bytes + (first - begin), end - first, MADV_HUGEPAGE);
-  }
-#endif
+  wish_large_pages(zeros.data(), size * sizeof(double));
   zeros.resize(size, 0.0);
   return zeros;
 }

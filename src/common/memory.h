@@ -46,6 +46,46 @@ struct CacheLineAllocator {
   }
 };
 
+/// The system may give these bytes large pages, as far as they fill such. A wish: small ones do as
+/// well.
+void wish_large_pages(void* bytes, std::size_t count);
+
+/// Gives the memory of these bytes back as far as they fill pages, their addresses not: they are
+/// lost, and may be written anew.
+void return_pages(void* bytes, std::size_t count);
+
+/// Memory of large arrays on large pages, where the system has them: ordinary ones of 4 kB are
+/// asked for one by one, whenever such an array is made.
+template <typename Value>
+struct LargePageAllocator {
+  using value_type = Value;
+  static constexpr std::size_t page = std::size_t{1} << 21;  // [B]
+
+  LargePageAllocator() = default;
+  template <typename Other>
+  LargePageAllocator(const LargePageAllocator<Other>&) {}
+
+  Value* allocate(std::size_t count) {
+    const std::size_t bytes = count * sizeof(Value);
+    void* const memory = ::operator new(bytes, alignment(count));
+    if (bytes >= page) wish_large_pages(memory, bytes);
+    return static_cast<Value*>(memory);
+  }
+  void deallocate(Value* values, std::size_t count) { ::operator delete(values, alignment(count)); }
+  template <typename Other>
+  bool operator==(const LargePageAllocator<Other>&) const {
+    return true;
+  }
+
+ private:
+  static std::align_val_t alignment(std::size_t count) {
+    return std::align_val_t{count * sizeof(Value) >= page ? page : 64};
+  }
+};
+
+/// Doubles of which there may be very many.
+using LargeArray = std::vector<double, LargePageAllocator<double>>;
+
 /// Doubles for work in vectors.
 using LaneArray = std::vector<double, CacheLineAllocator<double>>;
 

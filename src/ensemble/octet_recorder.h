@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "common/memory.h"
 #include "dynamics/octet_step.h"
 #include "mesh/mesh.h"
 #include "mesh/probe_set.h"
@@ -76,8 +77,8 @@ class OctetRecorder {
   std::vector<Octet> last_velocity_;  ///< per channel
   std::vector<Octet> displacement_;   ///< per channel, largest
   std::array<Octet, 3> ground_{};
-  std::vector<Octet> block_;     ///< shape (block records, channels)
-  std::vector<double> history_;  ///< shape (channels, lanes, records)
+  std::vector<Octet> block_;  ///< shape (block records, channels)
+  LargeArray history_;        ///< shape (channels, lanes, records)
   std::size_t blocked_ = 0;
   std::size_t records_ = 0;  ///< made, those of the block included
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/memory.h"
 #include "motion/oscillator_block.h"
 #include "motion/oscillator_rest.h"
 #include "motion/record_stretch.h"
@@ -52,7 +53,9 @@ class Passages {
 
   /// The arguments must outlive this object.
   Passages(std::span<const double> acceleration, double h2, std::span<const Stretch> stretches)
-      : acceleration_(acceleration), h2_(h2), stretches_(stretches), starts_(stretches.size()) {}
+      : acceleration_(acceleration), h2_(h2), stretches_(stretches), starts_(stretches.size()) {
+    passages_.reserve(stretches.size());
+  }
 
   /// Steps a block through every stretch in which some oscillator may come further than at the
   /// starts of all others and in the stretches before.
@@ -60,7 +63,7 @@ class Passages {
   /// Steps a block through all of them.
   void go_everywhere(const OscillatorBlock& block);
 
-  const std::vector<Passage>& passages() const { return passages_; }
+  std::span<const Passage> passages() const { return passages_; }
   /// After the record.
   const BlockState& end() const { return end_; }
 
@@ -71,8 +74,8 @@ class Passages {
   std::span<const double> acceleration_;
   double h2_;
   std::span<const Stretch> stretches_;
-  std::vector<BlockState> starts_;
-  std::vector<Passage> passages_;
+  std::vector<BlockState, LargePageAllocator<BlockState>> starts_;
+  std::vector<Passage, LargePageAllocator<Passage>> passages_;
   BlockState end_{};
 };
 
@@ -119,7 +122,9 @@ BlockState Passages::pass(const OscillatorBlock& block, const Stretch& stretch,
     before = behind;
   }
   for (std::size_t b = 0; b < vectors; ++b) come_to_rest(stretch.load, at.u[b], at.v[b]);
-  Passage& passage = passages_.emplace_back(Passage{&stretch, start, {}});
+  Passage& passage = passages_.emplace_back();
+  passage.stretch = &stretch;
+  passage.start = start;
   std::copy(std::begin(largest), std::end(largest), std::begin(passage.largest));
   return at;
 }
