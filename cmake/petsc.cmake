@@ -32,3 +32,6 @@ endif()
 if(NOT choices MATCHES "PETSC_HAVE_MUMPS")
   refuse_petsc("it lacks MUMPS; configure it with --download-mumps --download-scalapack")
 endif()
+# The MUMPS that PETSc calls is called for bases directly as well.
+find_path(MUMPS_HEADERS dmumps_c.h HINTS ${PETSC_INCLUDE_DIRS} ${PETSC_STATIC_INCLUDE_DIRS} REQUIRED)
+find_library(MUMPS_LIBRARY dmumps HINTS ${PETSC_LIBRARY_DIRS} ${PETSC_STATIC_LIBRARY_DIRS} ${PETSC_LIBDIR} REQUIRED)

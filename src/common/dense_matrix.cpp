@@ -1,5 +1,6 @@
 #include "common/dense_matrix.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -33,6 +34,27 @@ void add_product(double factor, const DenseMatrix& a, const DenseMatrix& b, Dens
     BLASgemm_("N", "N", &m, &n, &k, &factor, a.column(first), &m, b.values.data(), &k, &one,
               c.values.data(), &m);
   }
+}
+
+void combine_columns(DenseMatrix& a, const DenseMatrix& s) {
+  constexpr std::size_t panel = 4096;  // rows
+  const auto n = static_cast<PetscBLASInt>(s.columns);
+  const auto k = static_cast<PetscBLASInt>(a.columns);
+  const auto stride = static_cast<PetscBLASInt>(a.rows);
+  const double one = 1;
+  const double zero = 0;
+  DenseMatrix part(std::min(panel, a.rows), s.columns);
+  for (std::size_t first = 0; n > 0 && first < a.rows; first += panel) {
+    const std::size_t count = std::min(panel, a.rows - first);
+    const auto m = static_cast<PetscBLASInt>(count);
+    BLASgemm_("N", "N", &m, &n, &k, &one, a.column(0) + first, &stride, s.values.data(), &k, &zero,
+              part.values.data(), &m);
+    for (std::size_t j = 0; j < s.columns; ++j) {
+      std::copy_n(part.values.data() + j * count, count, a.column(j) + first);
+    }
+  }
+  a.columns = s.columns;
+  a.values.resize(a.columns * a.rows);
 }
 
 std::vector<double> squared_norms(const DenseMatrix& a) {

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <vector>
+
+#include "common/memory.h"
 
 namespace pounding {
 
@@ -10,7 +13,7 @@ namespace pounding {
 struct DenseMatrix {
   std::size_t rows = 0;
   std::size_t columns = 0;
-  std::vector<double> values;  ///< shape (columns, rows)
+  LargeArray values;  ///< shape (columns, rows)
 
   DenseMatrix() = default;
   DenseMatrix(std::size_t row_count, std::size_t column_count)
@@ -18,7 +21,7 @@ struct DenseMatrix {
   double* column(std::size_t j) { return values.data() + j * rows; }
   const double* column(std::size_t j) const { return values.data() + j * rows; }
   /// One more column.
-  void append(const std::vector<double>& column) {
+  void append(std::span<const double> column) {
     values.insert(values.end(), column.begin(), column.end());
     ++columns;
   }
@@ -27,6 +30,8 @@ struct DenseMatrix {
     values.insert(values.end(), other.values.begin(), other.values.end());
     columns += other.columns;
   }
+  /// The numbers, one column behind the other.
+  std::vector<double> numbers() const { return {values.begin(), values.end()}; }
   /// Takes a column out; the last one takes its place.
   void remove(std::size_t j) {
     std::copy_n(column(columns - 1), rows, column(j));
@@ -41,6 +46,9 @@ DenseMatrix transposed_product(const DenseMatrix& a, const DenseMatrix& b, std::
 /// C += factor A B of the columns of A from `first` on.
 void add_product(double factor, const DenseMatrix& a, const DenseMatrix& b, DenseMatrix& c,
                  std::size_t first = 0);
+
+/// A := A S, in the place of A, of at most as many columns as it has.
+void combine_columns(DenseMatrix& a, const DenseMatrix& s);
 
 /// Squared length of each column.
 std::vector<double> squared_norms(const DenseMatrix& a);

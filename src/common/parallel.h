@@ -56,8 +56,8 @@ void receive_array(MPI_Comm comm, int from, std::vector<Value>& values) {
 }
 
 /// The array of rank `root` on every rank, of any length. Collective.
-template <typename Value>
-void broadcast_array(MPI_Comm comm, std::vector<Value>& values, int root = 0) {
+template <typename Value, typename Allocator>
+void broadcast_array(MPI_Comm comm, std::vector<Value, Allocator>& values, int root = 0) {
   long count = static_cast<long>(values.size());
   MPI_Bcast(&count, 1, MPI_LONG, root, comm);
   values.resize(count);

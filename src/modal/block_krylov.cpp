@@ -15,16 +15,15 @@ namespace pounding {
 namespace {
 
 constexpr double residual_tolerance = 1e-10;  // of theta
-constexpr double weak = 1e-5;                 // see strong_directions
+constexpr double weak = 1e-5;                 // see keep_strong_directions
 constexpr double rounding = 1e-14;            // part of (A - s I)^-1 V that is nothing
 constexpr double fresh_rest = 1e-8;           // part of a new column that must be new
 constexpr double equal_values = 1e-6;         // relative
 constexpr std::size_t most_blocks = 5000;
 
-/// Larger ones make more of a pass over the factor and over the space, and less of each product.
-std::size_t block_size_of(std::size_t count) {
-  return count < 64 ? 16 : 32;
-}
+/// Columns of a block. Larger ones make more of a pass over the factor and over the space, and less
+/// of each product: 32 take as long as 16 for 400 modes, and more memory.
+constexpr std::size_t block_size = 16;
 
 class BlockKrylov {
  public:
@@ -34,17 +33,16 @@ class BlockKrylov {
         mesh_(mesh),
         solver_(solver),
         wanted_(count),
-        block_size_(block_size_of(count)),
         capacity_(largest_krylov_space(count)),
         space_(system.comm, static_cast<std::size_t>(system.owned_dofs())) {
-    space_.reserve(capacity_ + block_size_);
+    space_.reserve(capacity_ + block_size);
   }
 
   Eigenpairs run() {
     DenseMatrix next(space_.columns().rows, 0);
     add_fresh_block(next);
     for (std::size_t blocks = 0; blocks < most_blocks && next.columns > 0; ++blocks) {
-      next = grow(next);
+      next = grow(std::move(next));
       if (next.columns > 0 && !is_due()) continue;
       diagonalise();
       if (lock_the_largest()) {
@@ -73,17 +71,17 @@ class BlockKrylov {
   /// Adds orthonormal columns that nothing distinguishes to the next block, at right angles to it
   /// and to the space; none where there are no others.
   void add_fresh_block(DenseMatrix& next) {
-    DenseMatrix block(space_.columns().rows, block_size_);
+    DenseMatrix block(space_.columns().rows, block_size);
     for (LocalIndex node = 0; node < mesh_.owned_nodes; ++node) {
       for (int c = 0; c < 6; ++c) {
         const LocalIndex dof = mesh_.dof(node, c);
-        for (std::size_t j = 0; dof >= 0 && j < block_size_; ++j) {
+        for (std::size_t j = 0; dof >= 0 && j < block_size; ++j) {
           const auto number = static_cast<std::uint64_t>(6 * mesh_.file_node[node] + c);
           block.column(j)[dof] = scattered_normal((number << 16U) + fresh_ + j);
         }
       }
     }
-    fresh_ += block_size_;
+    fresh_ += block_size;
     const double least = fresh_rest * std::ranges::max(space_.norms(block));
     OrthonormalSpace others(system_.comm, block.rows);
     others.append_columns(next);
@@ -108,9 +106,9 @@ class BlockKrylov {
     const auto value = [this](std::size_t i) { return solver_.shift() + 1 / theta_[i]; };
     const auto gap = [&](std::size_t i) { return value(i) - value(i - 1); };
     bool doubtful = false;
-    for (std::size_t i = block_size_; i <= wanted_; ++i) {
+    for (std::size_t i = block_size; i <= wanted_; ++i) {
       const double last = value(i - 1);
-      doubtful = doubtful || last - value(i - block_size_) <= equal_values * std::abs(last);
+      doubtful = doubtful || last - value(i - block_size) <= equal_values * std::abs(last);
     }
     if (!doubtful) return true;
     const std::size_t end = std::min(converged(), wanted_ + 1);
@@ -133,16 +131,16 @@ class BlockKrylov {
     for (int turn = 0; turn < 8 && block.size() < w.columns; ++turn) {
       DenseMatrix strong = scaled_columns(rest, least);
       if (strong.columns == 0) break;
-      strong = strong_directions(strong);
+      keep_strong_directions(strong);
       if (block.size() > 0) {
         block.project(strong);
-        strong = strong_directions(strong);
+        keep_strong_directions(strong);
       }
       block.append_columns(strong);
       if (block.size() < w.columns) block.project(rest);
     }
     DenseMatrix r = block.parts(w);
-    w = block.columns();
+    w = block.release();
     return r;
   }
 
@@ -153,17 +151,17 @@ class BlockKrylov {
     scaled.values.reserve(x.values.size());
     for (std::size_t j = 0; j < lengths.size(); ++j) {
       if (!(lengths[j] > least)) continue;
-      std::vector<double> column(x.column(j), x.column(j) + x.rows);
-      for (double& value : column) value /= lengths[j];
-      scaled.append(column);
+      scaled.append({x.column(j), x.rows});
+      double* const column = scaled.column(scaled.columns - 1);
+      for (std::size_t i = 0; i < x.rows; ++i) column[i] /= lengths[j];
     }
     return scaled;
   }
 
-  /// Orthonormal directions of the columns, X U D^-1/2 with X^T X = U D U^T, but for those that are
-  /// weak beside the strongest or not longer than `least` (Stathopoulos and Wu, SIAM J. Sci.
-  /// Comput. 23 (2002) 2165).
-  DenseMatrix strong_directions(const DenseMatrix& x, double least = 0) const {
+  /// X := orthonormal directions of its columns, X U D^-1/2 with X^T X = U D U^T, but for those
+  /// that are weak beside the strongest or not longer than `least` (Stathopoulos and Wu, SIAM J.
+  /// Sci. Comput. 23 (2002) 2165).
+  void keep_strong_directions(DenseMatrix& x, double least = 0) const {
     DenseMatrix directions = product_over_ranks(system_.comm, x, x);
     const std::vector<double> squares = symmetric_eigenvalues(directions);
     DenseMatrix shrink(x.columns, 0);
@@ -173,14 +171,15 @@ class BlockKrylov {
       for (double& value : column) value /= std::sqrt(squares[j]);
       shrink.append(column);
     }
-    return product(x, shrink);
+    combine_columns(x, shrink);
   }
 
   /// Takes a block into the space; returns the next one.
-  DenseMatrix grow(const DenseMatrix& block) {
+  DenseMatrix grow(DenseMatrix&& block) {
     const std::size_t before = space_.size();
     space_.append_columns(block);
-    DenseMatrix w = block;
+    DenseMatrix w = std::move(block);
+    last_count_ = w.columns;
     solver_.solve(w);
     const double least = rounding * std::ranges::max(space_.norms(w));
     // H is zero beyond the block before; Ritz vectors that the space began with are one block.
@@ -194,11 +193,11 @@ class BlockKrylov {
     // All of the space: the rounding left in it grew with the scale.
     add_product(1, space_.project(w), last_, part);
     before_ = before;
-    last_count_ = block.columns;
     extend(before, part);
     if (w.columns == 0) return w;
     // A column that has lost half of itself by then was nothing but rounding.
-    const DenseMatrix x = strong_directions(w, 0.5);
+    DenseMatrix x = w;
+    keep_strong_directions(x, 0.5);
     last_ = product(product_over_ranks(system_.comm, x, w), last_);
     return x;
   }
@@ -222,11 +221,11 @@ class BlockKrylov {
 
   /// Whether to look how far it has come: seldom, as the projected problem is dense.
   bool is_due() {
-    if (space_.size() + block_size_ > capacity_) return true;
-    if (space_.size() < wanted_ + wanted_ / 4 + 2 * block_size_ || space_.size() < next_look_) {
+    if (space_.size() + block_size > capacity_) return true;
+    if (space_.size() < wanted_ + wanted_ / 4 + 2 * block_size || space_.size() < next_look_) {
       return false;
     }
-    next_look_ = space_.size() + std::max(2 * block_size_, space_.size() / 10);
+    next_look_ = space_.size() + std::max(2 * block_size, space_.size() / 10);
     return true;
   }
 
@@ -264,7 +263,7 @@ class BlockKrylov {
     for (const std::size_t i : order) {
       theta.push_back(theta_[i]);
       residual.push_back(residual_[i]);
-      vectors_.append({vectors.column(i), vectors.column(i) + vectors.rows});
+      vectors_.append({vectors.column(i), vectors.rows});
     }
     theta_ = std::move(theta);
     residual_ = std::move(residual);
@@ -281,11 +280,11 @@ class BlockKrylov {
     return std::sqrt(square);
   }
 
-  /// V S of the first Ritz vectors.
-  DenseMatrix ritz_vectors(std::size_t count) const {
+  /// V := V S, the first Ritz vectors.
+  void keep_ritz_vectors(std::size_t count) {
     DenseMatrix s(vectors_.rows, count);
     std::copy_n(vectors_.values.begin(), s.values.size(), s.values.begin());
-    return product(space_.columns(), s);
+    space_.combine(s);
   }
 
   /// Begins anew beside the pairs that have converged, as rigid motions do at once, where rounding
@@ -303,22 +302,25 @@ class BlockKrylov {
   }
 
   void cut_down() {
-    cut_down_to(std::min(wanted_ + 2 * block_size_, space_.size() - block_size_));
+    cut_down_to(std::min(wanted_ + 2 * block_size, space_.size() - block_size));
     locked_ = converged();
   }
 
   /// Makes the first Ritz vectors the space.
   void cut_down_to(std::size_t kept) {
-    space_.replace(ritz_vectors(kept));
+    keep_ritz_vectors(kept);
     projected_ = DenseMatrix(kept, kept);
     for (std::size_t j = 0; j < kept; ++j) projected_.column(j)[j] = theta_[j];
     before_ = 0;
     next_look_ = 0;
   }
 
-  Eigenpairs pairs() const {
+  /// Gives the pairs that have converged away.
+  Eigenpairs pairs() {
     const std::size_t count = converged();
-    Eigenpairs found{{}, ritz_vectors(count)};
+    keep_ritz_vectors(count);
+    space_.return_unused();
+    Eigenpairs found{{}, space_.release()};
     for (std::size_t i = 0; i < count; ++i) found.values.push_back(solver_.shift() + 1 / theta_[i]);
     return found;
   }
@@ -327,7 +329,6 @@ class BlockKrylov {
   const Mesh& mesh_;
   const ShiftedSolver& solver_;
   std::size_t wanted_;
-  std::size_t block_size_;
   std::size_t capacity_;        ///< of the space
   OrthonormalSpace space_;      ///< V
   DenseMatrix projected_;       ///< H, its upper triangle
@@ -345,7 +346,7 @@ class BlockKrylov {
 }  // namespace
 
 std::size_t largest_krylov_space(std::size_t count) {
-  return count + count / 2 + 8 * block_size_of(count);
+  return count + std::max(count / 2, 12 * block_size) + 2 * block_size;
 }
 
 Eigenpairs lowest_eigenpairs(const LinearSystem& system, const Mesh& mesh,

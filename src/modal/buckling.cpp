@@ -64,8 +64,8 @@ std::vector<double> inverse_roots(const LinearSystem& system, Mat matrix) {
 /// Motion of the lowest eigenvalue, in coordinates of the matrix. Collective.
 std::vector<double> lowest_vector(const LinearSystem& system, Mat matrix) {
   double shift = -zero_eigenvalue;
-  while (ShiftedSolver(system, matrix, shift).eigenvalues_below() > 0) shift *= 10;
-  const ShiftedSolver solver(system, matrix, shift);
+  while (ShiftedSolver(matrix, shift).eigenvalues_below() > 0) shift *= 10;
+  const ShiftedSolver solver(matrix, shift);
   std::vector<double> x(system.lumped_mass.size());
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::sin(12.9898 * static_cast<double>(i) + 1);
   for (int k = 0; k < iterations; ++k) {
@@ -94,7 +94,7 @@ void require_no_buckling(const Structure& structure, const Mesh& mesh, const Lin
   const VecHandle diagonal = wrap_vector(system, scale);
   POUNDING_PETSC(MatDiagonalScale(matrix.get(), diagonal.get(), diagonal.get()));
   POUNDING_PETSC(MatSetOption(matrix.get(), MAT_SYMMETRIC, PETSC_TRUE));
-  if (ShiftedSolver(system, matrix.get(), -zero_eigenvalue).eigenvalues_below() == 0) return;
+  if (ShiftedSolver(matrix.get(), -zero_eigenvalue).eigenvalues_below() == 0) return;
   std::vector<double> motion = lowest_vector(system, matrix.get());
   for (std::size_t i = 0; i < motion.size(); ++i) motion[i] *= scale[i];
   if (admissible) admissible->to_motion(motion);

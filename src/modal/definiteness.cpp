@@ -16,8 +16,7 @@ void require_semidefinite(const LinearSystem& system, Mat matrix, const std::str
   double bound = 0;  // of the largest eigenvalue, by Gershgorin
   POUNDING_PETSC(MatNorm(scaled.get(), NORM_INFINITY, &bound));
   if (bound == 0) return;
-  const int negative =
-      ShiftedSolver(system, scaled.get(), -round_off_share * bound).eigenvalues_below();
+  const int negative = ShiftedSolver(scaled.get(), -round_off_share * bound).eigenvalues_below();
   if (negative > 0) {
     throw UserError(path + ": not positive semidefinite, " + std::to_string(negative) +
                     " of its eigenvalues lie below zero: some motion would give energy; look for "

@@ -69,12 +69,12 @@ void take_pairs(const LinearSystem& system, EPS solver, double above,
 /// Number of eigenvalues below a value, by Sylvester's law of inertia.
 int eigenvalues_below(const LowestProblem& problem, double value) {
   if (problem.mass == nullptr) {
-    return ShiftedSolver(problem.system, problem.matrix, value).eigenvalues_below();
+    return ShiftedSolver(problem.matrix, value).eigenvalues_below();
   }
   MatHandle shifted;
   POUNDING_PETSC(MatDuplicate(problem.matrix, MAT_COPY_VALUES, shifted.out()));
   POUNDING_PETSC(MatAXPY(shifted.get(), -value, problem.mass, DIFFERENT_NONZERO_PATTERN));
-  return ShiftedSolver(problem.system, shifted.get(), 0).eigenvalues_below();
+  return ShiftedSolver(shifted.get(), 0).eigenvalues_below();
 }
 
 /// Seeks the missing ones among the `wanted` lowest pairs: a Krylov space of one vector sees a copy

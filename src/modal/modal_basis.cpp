@@ -58,6 +58,7 @@ class BasisMaker {
     if (request_.candidates > request_.modes) choose_modes(wanted);
     basis.modes = static_cast<int>(space_.size());
     if (space_.size() < independent_) add_attachment_vectors();
+    solver_.reset();
     basis.attachment_vectors = static_cast<int>(space_.size()) - basis.modes;
     basis.full_dofs = system_.global_dofs;
     basis.total_mass = system_.total_mass;
@@ -69,7 +70,7 @@ class BasisMaker {
   std::size_t wanted_modes() const {
     if (request_.modes > 0) return std::min(static_cast<std::size_t>(request_.modes), independent_);
     const double omega = 2 * std::numbers::pi * request_.cutoff;
-    const int below = ShiftedSolver(system_, lowest_matrix(), omega * omega).eigenvalues_below();
+    const int below = ShiftedSolver(lowest_matrix(), omega * omega).eigenvalues_below();
     if (below == 0) {
       std::ostringstream text;
       text << "option -" << system_.name << "_modal_cutoff " << request_.cutoff
@@ -84,7 +85,7 @@ class BasisMaker {
 
   /// Factor of that matrix less a shift just below zero, made once.
   const ShiftedSolver& lowest_solver() {
-    if (!solver_) solver_.emplace(system_, lowest_matrix(), lowest_shift);
+    if (!solver_) solver_.emplace(lowest_matrix(), lowest_shift);
     return *solver_;
   }
 
@@ -135,7 +136,8 @@ class BasisMaker {
     std::copy(to.begin(), to.end(), product);
   }
 
-  /// All eigenpairs of A as a full matrix, which every rank has; of vectors the own rows.
+  /// All eigenpairs of A as a full matrix, which every rank has, by their values; of vectors the
+  /// own rows.
   void decompose(std::vector<double>& values, DenseMatrix& vectors) const {
     const auto size = static_cast<std::size_t>(system_.global_dofs);
     PetscInt first = 0;
@@ -153,8 +155,7 @@ class BasisMaker {
     broadcast_array(system_.comm, whole.values);
     broadcast_array(system_.comm, values);
     for (std::size_t j = 0; j < size; ++j) {
-      const double* y = whole.column(j) + first;
-      vectors.append({y, y + dofs_});
+      vectors.append({whole.column(j) + first, dofs_});
     }
   }
 
@@ -167,20 +168,14 @@ class BasisMaker {
     } else {
       find_modes(wanted, values, vectors);
     }
-    std::vector<std::size_t> order(values.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-    const double last = values[order[wanted - 1]];
-    space_.reserve(wanted);
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      if (i < wanted || values[order[i]] <= last + same_eigenvalue * std::abs(last)) {
-        const double* y = vectors.column(order[i]);
-        space_.append({y, y + dofs_});
-        squared_frequency_.push_back(values[order[i]]);
-        mode_numbers_.push_back(static_cast<int>(mode_numbers_.size()) + 1);
-      }
-    }
+    const double end = values[wanted - 1] + same_eigenvalue * std::abs(values[wanted - 1]);
+    while (values.size() > wanted && values.back() > end) values.pop_back();
+    squared_frequency_ = std::move(values);
+    mode_numbers_.resize(squared_frequency_.size());
+    std::iota(mode_numbers_.begin(), mode_numbers_.end(), 1);
+    space_.replace(std::move(vectors));
+    space_.keep_first(mode_numbers_.size());
+    space_.return_unused();
   }
 
   /// Keeps so many of the candidates that are the space so far.
@@ -201,6 +196,7 @@ class BasisMaker {
     std::vector<int> numbers;
     for (const std::size_t j : order) numbers.push_back(mode_numbers_[j]);
     space_.choose(order);
+    space_.return_unused();
     mode_numbers_ = std::move(numbers);
   }
 
@@ -210,13 +206,17 @@ class BasisMaker {
     return node < 0 ? -1 : mesh_.dof(node, point.component);
   }
 
-  /// Which of the points are dofs, on whatever rank.
-  std::vector<std::uint8_t> are_dofs(const std::vector<TracePoint>& points) const {
+  /// Those of the points that are dofs, on whatever rank.
+  std::vector<TracePoint> dofs_of(const std::vector<TracePoint>& points) const {
     std::vector<std::uint8_t> found;
     for (const TracePoint& point : points) found.push_back(dof_at(point) >= 0 ? 1 : 0);
     MPI_Allreduce(MPI_IN_PLACE, found.data(), static_cast<int>(found.size()), MPI_UINT8_T, MPI_MAX,
                   system_.comm);
-    return found;
+    std::vector<TracePoint> dofs;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      if (found[p] != 0) dofs.push_back(points[p]);
+    }
+    return dofs;
   }
 
   /// phi^2 / omega^2 of each mode at a point of this rank, relative to the sum of all phi^2 there.
@@ -275,11 +275,7 @@ class BasisMaker {
 
   /// M^-1/2 times forces on contact points, one alone or those of a patch alike.
   void add_contact_loads(DenseMatrix& loads) const {
-    std::vector<TracePoint> points;
-    const std::vector<std::uint8_t> exists = are_dofs(request_.contact_points);
-    for (std::size_t p = 0; p < exists.size(); ++p) {
-      if (exists[p] != 0) points.push_back(request_.contact_points[p]);
-    }
+    const std::vector<TracePoint> points = dofs_of(request_.contact_points);
     for (const std::vector<std::size_t>& patch : patches_of(points)) {
       std::vector<double> load(dofs_, 0.0);
       for (const std::size_t p : patch) {
@@ -292,11 +288,9 @@ class BasisMaker {
 
   /// M^-1/2 times a force on each point of sections that yield.
   void add_yielding_loads(DenseMatrix& loads) const {
-    const std::vector<std::uint8_t> exists = are_dofs(request_.yielding_points);
-    for (std::size_t p = 0; p < exists.size(); ++p) {
-      if (exists[p] == 0) continue;
+    for (const TracePoint& point : dofs_of(request_.yielding_points)) {
       std::vector<double> load(dofs_, 0.0);
-      if (const LocalIndex dof = dof_at(request_.yielding_points[p]); dof >= 0) load[dof] = 1;
+      if (const LocalIndex dof = dof_at(point); dof >= 0) load[dof] = 1;
       loads.append(load);
     }
   }
@@ -343,15 +337,13 @@ class BasisMaker {
     space_.project(z);
     space_.normalise(z);
     space_.project(z);
+    space_.reserve(space_.size() + z.columns);
     space_.take_in(z, inside_span);
   }
 
   /// Rayleigh-Ritz: the basis is W S with W the space and S^T (W^T A W) S diagonal.
   void rotate(ModalBasis& basis) const {
-    DenseMatrix product(dofs_, space_.size());
-    for (std::size_t j = 0; j < space_.size(); ++j) multiply(space_.column(j), product.column(j));
-    DenseMatrix rotation = space_.parts(product);
-    product = {};
+    DenseMatrix rotation = projected_matrix();
     basis.squared_frequency = symmetric_eigenvalues(rotation);
     for (double& value : basis.squared_frequency) value = std::max(value, 0.0);
     find_modes_in(rotation, basis);
@@ -360,6 +352,20 @@ class BasisMaker {
     if (system_.supports) add_supports(rotation, basis);
     if (system_.loads) add_loads(rotation, basis);
     if (system_.start) add_start(rotation, basis);
+  }
+
+  /// W^T A W.
+  DenseMatrix projected_matrix() const {
+    constexpr std::size_t portion = 32;  // columns at a time
+    DenseMatrix projected(space_.size(), 0);
+    for (std::size_t first = 0; first < space_.size(); first += portion) {
+      DenseMatrix product(dofs_, std::min(portion, space_.size() - first));
+      for (std::size_t j = 0; j < product.columns; ++j) {
+        multiply(space_.column(first + j), product.column(j));
+      }
+      projected.append_columns(space_.parts(product));
+    }
+    return projected;
   }
 
   /// Modes are vectors of A whatever the others are: they come out of the rotation as they went in,
@@ -389,7 +395,7 @@ class BasisMaker {
       const std::array<double, 6> values = motions.participation(space_.column(j));
       for (std::size_t k = 0; k < 6; ++k) of_space.column(k)[j] = values[k];
     }
-    basis.participation = transposed_product(rotation, of_space).values;
+    basis.participation = transposed_product(rotation, of_space).numbers();
   }
 
   /// After the points are known.
@@ -402,7 +408,7 @@ class BasisMaker {
         scaled.column(c)[i] = supports.shape[c][i] * std::sqrt(system_.lumped_mass[i]);
       }
     }
-    basis.support_participation = transposed_product(rotation, space_.parts(scaled)).values;
+    basis.support_participation = transposed_product(rotation, space_.parts(scaled)).numbers();
     basis.support_rows.assign(columns * basis.points.size(), 0.0);
     for (std::size_t p = 0; p < basis.points.size(); ++p) {
       const LocalIndex dof = dof_at(basis.points[p]);
@@ -417,7 +423,7 @@ class BasisMaker {
   void add_loads(const DenseMatrix& rotation, ModalBasis& basis) const {
     DenseMatrix scaled(dofs_, 0);
     for (const LoadShape& shape : system_.loads->loads) scaled.append(scaled_load(shape));
-    basis.load_parts = transposed_product(rotation, space_.parts(scaled)).values;
+    basis.load_parts = transposed_product(rotation, space_.parts(scaled)).numbers();
   }
 
   void add_start(const DenseMatrix& rotation, ModalBasis& basis) const {
@@ -428,17 +434,15 @@ class BasisMaker {
       for (std::size_t i = 0; i < dofs_; ++i) column[i] *= std::sqrt(system_.lumped_mass[i]);
       scaled.append(column);
     }
-    basis.start_parts = transposed_product(rotation, space_.parts(scaled)).values;
+    basis.start_parts = transposed_product(rotation, space_.parts(scaled)).numbers();
   }
 
   void add_rows(const DenseMatrix& rotation, ModalBasis& basis) const {
     std::set<TracePoint> known;
     for (const auto* points : {&request_.contact_points, &request_.yielding_points,
                                &request_.other_points, &request_.shown_points}) {
-      const std::vector<std::uint8_t> exists = are_dofs(*points);
-      for (std::size_t p = 0; p < exists.size(); ++p) {
-        const TracePoint& point = (*points)[p];
-        if (exists[p] != 0 && known.insert(point).second) basis.points.push_back(point);
+      for (const TracePoint& point : dofs_of(*points)) {
+        if (known.insert(point).second) basis.points.push_back(point);
       }
     }
     DenseMatrix of_space(space_.size(), basis.points.size());
@@ -449,7 +453,7 @@ class BasisMaker {
       }
     }
     add_over_ranks(system_.comm, of_space.values);
-    basis.rows = transposed_product(rotation, of_space).values;
+    basis.rows = transposed_product(rotation, of_space).numbers();
   }
 
   const LinearSystem& system_;
@@ -485,14 +489,12 @@ void broadcast_basis(MPI_Comm comm, int root, ModalBasis& basis) {
   MPI_Bcast(basis.centre_of_mass.data(), 3, MPI_DOUBLE, root, comm);
   MPI_Bcast(basis.inertia.data(), 6, MPI_DOUBLE, root, comm);
   broadcast_array(comm, basis.mode_numbers, root);
-  broadcast_array(comm, basis.squared_frequency, root);
-  broadcast_array(comm, basis.participation, root);
   broadcast_array(comm, basis.points, root);
-  broadcast_array(comm, basis.rows, root);
-  broadcast_array(comm, basis.support_participation, root);
-  broadcast_array(comm, basis.support_rows, root);
-  broadcast_array(comm, basis.load_parts, root);
-  broadcast_array(comm, basis.start_parts, root);
+  for (auto* const values :
+       {&basis.squared_frequency, &basis.participation, &basis.rows, &basis.support_participation,
+        &basis.support_rows, &basis.load_parts, &basis.start_parts}) {
+    broadcast_array(comm, *values, root);
+  }
 }
 
 }  // namespace pounding

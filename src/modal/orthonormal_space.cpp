@@ -2,10 +2,62 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace pounding {
+namespace {
 
-void add_over_ranks(MPI_Comm comm, std::vector<double>& values) {
+/// Smallest remainder, relative to the largest one, that products of columns still show.
+constexpr double least_told = 1e-5;
+
+/// Columns of a matrix X, and weights with which X W is orthonormal, shape (columns of X, chosen).
+struct Combination {
+  std::vector<std::size_t> columns;
+  DenseMatrix weights;
+};
+
+/// Chooses columns of X by X^T X, that with the largest remainder beside those before first, while
+/// this is above `least` and more than rounding (Cholesky's factor with pivots).
+Combination orthonormal_combination(DenseMatrix products, double least) {
+  const std::size_t size = products.columns;
+  Combination found;
+  found.weights = DenseMatrix(size, 0);
+  std::vector<bool> chosen(size, false);
+  double largest = 0;
+  // A column that is not chosen, less its part along the chosen ones, is X times its column of
+  // `rest`; its products with the others are its column of `products`.
+  DenseMatrix rest(size, size);
+  for (std::size_t j = 0; j < size; ++j) rest.column(j)[j] = 1;
+  while (found.columns.size() < size) {
+    std::size_t best = size;
+    for (std::size_t j = 0; j < size; ++j) {
+      if (chosen[j]) continue;
+      if (best == size || products.column(j)[j] > products.column(best)[best]) best = j;
+    }
+    const double square = products.column(best)[best];
+    largest = std::max(largest, square);
+    if (!(square > std::max(least * least, least_told * least_told * largest))) break;
+    chosen[best] = true;
+    found.columns.push_back(best);
+    const double scale = 1 / std::sqrt(square);
+    for (std::size_t j = 0; j < size; ++j) {
+      if (chosen[j]) continue;
+      const double part = products.column(j)[best] / square;
+      for (std::size_t i = 0; i < size; ++i) {
+        rest.column(j)[i] -= part * rest.column(best)[i];
+        if (!chosen[i]) products.column(j)[i] -= part * products.column(best)[i];
+      }
+    }
+    std::vector<double> weights(rest.column(best), rest.column(best) + size);
+    for (double& weight : weights) weight *= scale;
+    found.weights.append(weights);
+  }
+  return found;
+}
+
+}  // namespace
+
+void add_over_ranks(MPI_Comm comm, std::span<double> values) {
   constexpr std::size_t portion = std::size_t{1} << 28;  // range of an int
   for (std::size_t first = 0; first < values.size(); first += portion) {
     const auto count = static_cast<int>(std::min(portion, values.size() - first));
@@ -21,9 +73,22 @@ DenseMatrix product_over_ranks(MPI_Comm comm, const DenseMatrix& a, const DenseM
 }
 
 void OrthonormalSpace::choose(const std::vector<std::size_t>& numbers) {
-  DenseMatrix chosen(columns_.rows, 0);
-  for (const std::size_t j : numbers) chosen.append({column(j), column(j) + columns_.rows});
-  columns_ = std::move(chosen);
+  std::size_t kept = 0;
+  for (const std::size_t j : numbers) {
+    if (j != kept) std::copy_n(column(j), columns_.rows, columns_.column(kept));
+    ++kept;
+  }
+  keep_first(kept);
+}
+
+void OrthonormalSpace::keep_first(std::size_t count) {
+  columns_.columns = count;
+  columns_.values.resize(count * columns_.rows);
+}
+
+void OrthonormalSpace::return_unused() {
+  LargeArray& values = columns_.values;
+  return_pages(values.data() + values.size(), (values.capacity() - values.size()) * sizeof(double));
 }
 
 DenseMatrix OrthonormalSpace::parts(const DenseMatrix& x, std::size_t first) const {
@@ -52,18 +117,18 @@ void OrthonormalSpace::normalise(DenseMatrix& x) const {
 
 void OrthonormalSpace::take_in(DenseMatrix& x, double least) {
   while (x.columns > 0) {
-    const std::vector<double> lengths = norms(x);
-    const auto best = std::ranges::max_element(lengths);
-    if (*best <= least) return;
-    const auto j = static_cast<std::size_t>(best - lengths.begin());
-    DenseMatrix next(x.rows, 0);
-    next.append({x.column(j), x.column(j) + x.rows});
-    x.remove(j);
-    normalise(next);
-    project(next);  // once more: the part that rounding put back grew with the scale
-    normalise(next);
-    append(next.values);
-    add_product(-1, next, product_over_ranks(comm_, next, x), x);
+    const Combination first = orthonormal_combination(product_over_ranks(comm_, x, x), least);
+    if (first.columns.empty()) return;
+    DenseMatrix block(x.rows, first.weights.columns);
+    add_product(1, x, first.weights, block);
+    std::vector<std::size_t> used = first.columns;
+    std::ranges::sort(used, std::greater());
+    for (const std::size_t j : used) x.remove(j);
+    project(block);  // once more: the part that rounding put back grew with the scale
+    combine_columns(block,
+                    orthonormal_combination(product_over_ranks(comm_, block, block), 0).weights);
+    append_columns(block);
+    add_product(-1, block, product_over_ranks(comm_, block, x), x);
   }
 }
 

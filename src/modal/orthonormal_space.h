@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+#include <utility>
 #include <vector>
 
 #include <mpi.h>
@@ -22,17 +24,21 @@ class OrthonormalSpace {
   /// Takes memory for so many columns at once.
   void reserve(std::size_t columns) { columns_.values.reserve(columns * columns_.rows); }
   /// Adds a column of length 1 that is orthogonal to the others.
-  void append(const std::vector<double>& column) { columns_.append(column); }
+  void append(std::span<const double> column) { columns_.append(column); }
   /// Adds such columns that are orthogonal to each other as well.
   void append_columns(const DenseMatrix& columns) { columns_.append_columns(columns); }
-  /// Keeps the columns of these numbers, in their order.
+  /// Keeps the columns of these increasing numbers.
   void choose(const std::vector<std::size_t>& numbers);
-
+  /// Keeps so many columns.
+  void keep_first(std::size_t count);
+  /// W := W S, S with orthonormal columns.
+  void combine(const DenseMatrix& s) { combine_columns(columns_, s); }
   /// Takes other columns, orthonormal among themselves, in place of all.
-  void replace(const DenseMatrix& columns) {
-    columns_.values.assign(columns.values.begin(), columns.values.end());
-    columns_.columns = columns.columns;
-  }
+  void replace(DenseMatrix&& columns) { columns_ = std::move(columns); }
+  /// Gives all columns away.
+  DenseMatrix release() { return std::exchange(columns_, DenseMatrix(columns_.rows, 0)); }
+  /// Gives the memory beyond the columns back; `reserve` need not be called again.
+  void return_unused();
 
   /// W^T X, the same on all ranks, of the columns of W from `first` on. Collective.
   DenseMatrix parts(const DenseMatrix& x, std::size_t first = 0) const;
@@ -53,7 +59,7 @@ class OrthonormalSpace {
 };
 
 /// Sums over ranks, in place. Collective.
-void add_over_ranks(MPI_Comm comm, std::vector<double>& values);
+void add_over_ranks(MPI_Comm comm, std::span<double> values);
 
 /// A^T B of matrices whose rows ranks share out, the same on all ranks, of the columns of A from
 /// `first` on. Collective.

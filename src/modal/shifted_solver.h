@@ -4,15 +4,16 @@
 
 #include "common/dense_matrix.h"
 #include "common/petsc.h"
-#include "system/linear_system.h"
+#include "modal/mumps_factor.h"
 
 namespace pounding {
 
 /// Factorisation L D L^T (MUMPS) of a symmetric matrix less a shift, for many right-hand sides.
 class ShiftedSolver {
  public:
-  /// Collective over the system's communicator.
-  ShiftedSolver(const LinearSystem& system, Mat matrix, double shift);
+  /// Keeps a reference to the matrix. Throws as MumpsFactor does. Collective over the matrix'
+  /// communicator.
+  ShiftedSolver(Mat matrix, double shift);
 
   /// x := (A - shift I)^-1 x over the owned dofs. Collective.
   void solve(std::vector<double>& x) const;
@@ -25,10 +26,9 @@ class ShiftedSolver {
   int eigenvalues_below(double value) const;
 
  private:
-  const LinearSystem& system_;
+  MatHandle matrix_;
   double shift_;
-  MatHandle shifted_;
-  PetscHandle<KSP, KSPDestroy> solver_;
+  MumpsFactor factor_;
 };
 
 }  // namespace pounding

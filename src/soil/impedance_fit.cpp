@@ -234,7 +234,7 @@ class Block {
     const double reach = 0.3 * std::pow(0.7, round);
     for (std::size_t t = 0; t < terms_.columns; ++t) {
       DenseMatrix factor(size_, size_);
-      factor.values = factors_[t];
+      factor.values.assign(factors_[t].begin(), factors_[t].end());
       add_eigenvectors(t, factor);
       add_eigenvectors(t, slopes[t]);
       const double own = std::sqrt(std::inner_product(factor.values.begin(), factor.values.end(),
@@ -339,7 +339,7 @@ class Block {
   /// motion that is coupled with none are one with its first internal part.
   void add_parts(std::size_t term, std::vector<DirectedImpedance>& parts) const {
     DenseMatrix factor(size_, size_);
-    factor.values = factors_[term];
+    factor.values.assign(factors_[term].begin(), factors_[term].end());
     const std::vector<double> values = symmetric_eigenvalues(factor);
     for (std::size_t k = 0; k < size_; ++k) {
       if (!(values[k] > negligible * values.back()) || !(values[k] > 0)) continue;

@@ -251,7 +251,7 @@ RotationBound::RotationBound(const LinearSystem& system, const Mesh& mesh, doubl
     : system_(system),
       mesh_(mesh),
       matrix_(shifted_mass(system, omega)),
-      solver_(system, matrix_.get(), 0) {}
+      solver_(matrix_.get(), 0) {}
 
 RotationBound::Found RotationBound::bound(std::span<const double> inertia) const {
   double largest = inertia.empty() ? 0 : *std::ranges::max_element(inertia);

@@ -32,7 +32,7 @@ double between(const ModalBasis& basis, std::size_t a, std::size_t b, Function&&
 
 /// Column of K^-1 of a unit force at a point.
 std::vector<double> static_response(const ReducedBox& box, const TracePoint& point) {
-  const ShiftedSolver solver(box.system, box.system.stiffness->matrix(), 0);
+  const ShiftedSolver solver(box.system.stiffness->matrix(), 0);
   std::vector<double> response(box.system.lumped_mass.size(), 0.0);
   response[box.dof(point)] = 1;
   solver.solve(response);

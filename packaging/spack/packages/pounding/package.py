@@ -25,6 +25,7 @@ class Pounding(CMakePackage):
     depends_on("slepc@3.18:")
     depends_on("hdf5@1.10:")
     depends_on("metis ~int64")
+    depends_on("mumps +mpi")
     depends_on("gmsh@4.8: +shared ~fltk")
     depends_on("fftw@3:")
     depends_on("libyaml")
