@@ -9,11 +9,13 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from pathlib import Path
 
 import program
 
 sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 sys.dont_write_bytecode = True
+from parts.benchmark import ensembles  # noqa: E402
 from parts.benchmark.comparison import check_agreement  # noqa: E402
 from parts.benchmark.forms import CASES, LABELS  # noqa: E402
 from parts.benchmark.scaling_model import CostCurve, Messages, Model  # noqa: E402
@@ -115,6 +117,26 @@ class Plant(unittest.TestCase):
         self.assertLess(float(row["damping_shortens"]), 1.3)  # what uniform damping promises
         self.assertGreater(float(row["damping_shortens"]), 1)
         self.assertGreater(float(row["minutes"]), 0)
+
+
+class Ensembles(unittest.TestCase):
+    def test_tables_of_members_hold_every_level_of_a_motion(self):
+        path = Path(tempfile.mkdtemp(prefix="pounding-"), "members.csv")
+        ensembles.write_members(path, 5, [0.5, 1.0])
+        self.assertEqual(path.read_text().splitlines(), ["motion_x_seed,motion_level", "1,0.5", "1,1.0", "2,0.5", "2,1.0", "3,0.5"])
+
+    @program.long
+    def test_members_beside_single_runs(self):
+        folder = tempfile.mkdtemp(prefix="pounding-")
+        result = script("benchmark", "--ensembles", "8", "--ranks", 1, "--rounds", 1, "--output", folder)
+        self.assertEqual(result.returncode, 0, result.stderr[-3000:])
+        with open(os.path.join(folder, "ensembles.md")) as file:
+            self.assertIn(file.read(), result.stdout)
+        rows = rows_of(os.path.join(folder, "ensembles.csv"))
+        self.assertEqual([row["scene"] for row in rows], list(ensembles.CASES))
+        for row in rows:
+            self.assertLess(float(row["member_stepped_seconds"]), float(row["member_seconds"]))
+            self.assertGreater(float(row["members_for_one_run"]), 0)
 
 
 class Faces(unittest.TestCase):

@@ -2,7 +2,6 @@
 rows, beside the step of a building of half a million dofs."""
 
 import json
-import subprocess
 import tempfile
 from pathlib import Path
 
@@ -10,9 +9,8 @@ import numpy as np
 
 from parts.tables import markdown, write_csv
 from pounding.files import write_text
-from pounding.runs import ending_with_us
 
-from .workers import SOURCE, MeasuringError, with_environment
+from .workers import run_program
 
 YOUNG, DENSITY = 30e9, 2400.0  # of concrete
 STEPS = 60  # of the short run; the long one has twice as many, all of them in contact
@@ -50,13 +48,7 @@ def run(build: Path, ranks: int, words: list, step: float, steps: int) -> dict:
     """The summary of a run of so many steps."""
     with tempfile.TemporaryDirectory() as folder:
         end = repr(float(step * (steps - 0.5)))
-        command = ["mpirun", "-n", ranks, build / "pounding", *words, end, "-output_interval", end,
-                   "-output", folder]
-        done = subprocess.run(with_environment(command), cwd=SOURCE, text=True, capture_output=True,
-                              preexec_fn=ending_with_us())
-        if done.returncode != 0:
-            lines = (done.stdout + done.stderr).strip().splitlines()
-            raise MeasuringError(next((line for line in lines if line.startswith("pounding:")), lines[-1]))
+        run_program(build, ranks, [*words, end, "-output_interval", end, "-output", folder])
         with open(Path(folder) / "summary.json") as file:
             return json.load(file)
 

@@ -2,16 +2,14 @@
 the same without dashpots and without damping."""
 
 import re
-import subprocess
 from pathlib import Path
 
 import numpy as np
 
 from parts.tables import markdown, write_csv
 from pounding.files import write_text
-from pounding.runs import ending_with_us
 
-from .workers import SOURCE, MeasuringError, with_environment
+from .workers import run_program
 
 SCENE = "petsc-options/plant/pair.yaml"
 DURATION = 20  # of the motion [s]
@@ -20,15 +18,10 @@ NO_DASHPOTS = ["-block_soil_dashpot", "0,0,0", "-frame_soil_dashpot", "0,0,0"]
 
 def dry_run(folder: Path, ranks: int, divisions: int, more: list) -> dict:
     """Numbers that the dry run prints: dofs, limits of the two structures, cost of a step."""
-    words = ["mpirun", "-n", ranks, folder / "pounding", "-options_file", SCENE, "-modes", 0,
-             "-block_mesh_set", f"m={divisions}", "-frame_mesh_set", f"m={divisions},x0=24.801",
-             "-block_damping_reference", 4.7, "-frame_damping_reference", 3.6, "-dry_run", *more]
-    done = subprocess.run(with_environment(words), cwd=SOURCE, text=True, capture_output=True,
-                          preexec_fn=ending_with_us())
-    said = done.stdout
-    if done.returncode != 0:
-        lines = (said + done.stderr).strip().splitlines()
-        raise MeasuringError(next((line for line in lines if line.startswith("pounding:")), lines[-1]))
+    said = run_program(folder, ranks, [
+        "-options_file", SCENE, "-modes", 0,
+        "-block_mesh_set", f"m={divisions}", "-frame_mesh_set", f"m={divisions},x0=24.801",
+        "-block_damping_reference", 4.7, "-frame_damping_reference", 3.6, "-dry_run", *more])
     limits = re.findall(r"stable time step (\S+) s .*without damping (\S+) s", said)
     step = re.search(r"time step (\S+) s \(", said[said.rindex("\ntime step"):])
     cost = re.search(r"\((\S+) microseconds per step", said)

@@ -33,6 +33,16 @@ def with_environment(command: list) -> list:
     return ["bash", "-c", 'source run/environment; exec "$@"', "run"] + [str(word) for word in command]
 
 
+def run_program(build: Path, ranks: int, words: list) -> str:
+    """Runs the program to its end; returns what it said. Throws MeasuringError where it refuses."""
+    done = subprocess.run(with_environment(["mpirun", "-n", ranks, build / "pounding", *words]), cwd=SOURCE,
+                          text=True, capture_output=True, preexec_fn=ending_with_us())
+    if done.returncode != 0:
+        lines = (done.stdout + done.stderr).strip().splitlines()
+        raise MeasuringError(next((line for line in lines if line.startswith("pounding:")), lines[-1]))
+    return done.stdout
+
+
 class Worker:
     """A program that answers a line of standard input with a line of JSON. What it says on standard
     error is shown only if it fails."""

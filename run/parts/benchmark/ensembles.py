@@ -1,0 +1,106 @@
+"""What a member of an ensemble costs beside a run of its own: whole commands, in turns."""
+
+import csv
+import json
+import re
+import tempfile
+import time
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from parts.tables import markdown, write_csv
+from pounding.files import write_text
+
+from .workers import run_program
+
+OUTPUTS = ["-modes", 0, "-output_interval", 1.8e-4, "-gap_interval", 1e-3]  # those of the studies
+
+
+class Case(NamedTuple):
+    """A scene whose two structures are reduced alike."""
+
+    options: list
+    structures: tuple
+    reduction: dict
+    levels: list  # factors on its motion
+
+
+CASES = {
+    "two-storey pair": Case(
+        ["-options_file", "petsc-options/azalee/gap2.yaml", "-probes", "s1_floor2,s2_floor2", "-courant", 0.99],
+        ("s1", "s2"), {"modal_vectors": 80, "modal_candidates": 400, "mass_scaling": 5.5e-5},
+        [0.5, 1.0, 1.75, 2.5]),
+    "plant pair on soil": Case(
+        ["-options_file", "petsc-options/plant/medium.yaml"], ("block", "frame"), {"modal_vectors": 200},
+        [0.25, 0.5, 0.75, 1.0]),
+}
+
+
+def write_members(path: Path, count: int, levels: list) -> None:
+    """A table of so many members: every level of one motion, then of the next."""
+    with open(path, "w", newline="") as file:
+        table = csv.writer(file)
+        table.writerow(["motion_x_seed", "motion_level"])
+        for member in range(count):
+            table.writerow([1 + member // len(levels), levels[member % len(levels)]])
+
+
+def timed(build: Path, ranks: int, words: list) -> tuple:
+    """Wall time of a whole command [s], and the seconds that it says its steps took."""
+    since = time.monotonic()
+    said = run_program(build, ranks, words)
+    whole = time.monotonic() - since
+    stepped = re.search(r"stepped in (\S+) s", said)
+    return whole, float(stepped.group(1)) if stepped else None
+
+
+def measure(build: Path, counts: list, ranks: list, rounds: int) -> list:
+    """A row per scene, number of ranks and of members: medians. A single run has one rank: as many as
+    there are ranks are thought to run side by side."""
+    rows = []
+    with tempfile.TemporaryDirectory(prefix="pounding-") as scratch:
+        for name, case in CASES.items():
+            words = case.options + OUTPUTS
+            for structure in case.structures:
+                words += [f"-{structure}_model", "modal",
+                          f"-{structure}_modal_basis", Path(scratch) / f"{structure}.basis"]
+                for option, value in case.reduction.items():
+                    words += [f"-{structure}_{option}", value]
+            single = [*words, "-motion_x_seed", 1, "-motion_level", case.levels[-1],
+                      "-output", Path(scratch) / "single"]
+            run_program(build, 1, [*single, "-dry_run"])  # leaves the bases
+            for count in ranks:
+                for members in counts:
+                    table = Path(scratch) / "members.csv"
+                    write_members(table, members, case.levels)
+                    turns = []
+                    for turn in range(rounds):
+                        folder = Path(scratch) / f"{case.structures[0]}-{count}-{members}-{turn}"
+                        alone, _ = timed(build, 1, single)
+                        together, stepped = timed(
+                            build, count, [*words, "-ensemble", table, "-output", folder])
+                        turns.append((alone, together / members, stepped / members,
+                                      alone / (together / members * count)))
+                    with open(Path(scratch) / "single" / "summary.json") as file:
+                        summary = json.load(file)
+                    alone, member, stepped, ratio = (float(np.median(column)) for column in zip(*turns))
+                    rows.append({"scene": name, "steps": summary["steps"], "ranks": count,
+                                 "members": members, "single_seconds": alone, "member_seconds": member,
+                                 "member_stepped_seconds": stepped, "members_for_one_run": ratio})
+    return rows
+
+
+def write(folder: Path, rows: list) -> str:
+    """Writes ensembles.md and ensembles.csv; returns the table."""
+    write_csv(folder / "ensembles.csv", rows)
+    head = ["scene", "steps", "ranks", "members", "a single run, whole command [s]",
+            "a member of the ensemble's [s]", "its steps and spectra [s]",
+            "members per core in the time of a single run"]
+    text = markdown("Ensembles beside single runs", head, [
+        [row["scene"], row["steps"], row["ranks"], row["members"], row["single_seconds"],
+         row["member_seconds"], row["member_stepped_seconds"], row["members_for_one_run"]]
+        for row in rows])
+    write_text(folder / "ensembles.md", text)
+    return text
