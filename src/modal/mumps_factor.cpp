@@ -195,7 +195,7 @@ class MumpsFactor::Instance {
     mumps_.call(Job::analysis_and_factorisation);
     while ((status() == workspace_too_small || status() == integer_workspace_too_small) &&
            mumps_.control(workspace) < most_workspace) {
-      mumps_.control(workspace) *= 2;
+      mumps_.control(workspace) = 2 * std::max(mumps_.control(workspace), first_workspace);
       mumps_.call(Job::factorisation);
     }
     singular_ = status() == singular;
