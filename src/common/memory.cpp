@@ -65,7 +65,7 @@ void advise(void* bytes, std::size_t count, std::uintptr_t page, int advice) {
 }  // namespace
 
 void wish_large_pages(void* bytes, std::size_t count) {
-  advise(bytes, count, std::uintptr_t{1} << 21, MADV_HUGEPAGE);
+  advise(bytes, count, LargePageAllocator<double>::page, MADV_HUGEPAGE);
 }
 
 void return_pages(void* bytes, std::size_t count) {

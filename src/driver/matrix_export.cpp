@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <span>
 
 #include "common/component_names.h"
 #include "common/error.h"
+#include "common/matrix_rows.h"
 #include "common/parallel.h"
 #include "io/csv_file.h"
 #include "io/matrix_market.h"
@@ -230,17 +232,10 @@ class Export {
 
   void write_square(const std::string& path, const std::string& comment, Mat matrix) const {
     std::vector<MatrixEntry> mine;
-    PetscInt begin = 0;
-    PetscInt end = 0;
-    POUNDING_PETSC(MatGetOwnershipRange(matrix, &begin, &end));
-    for (PetscInt row = begin; row < end; ++row) {
-      PetscInt count = 0;
-      const PetscInt* columns = nullptr;
-      const double* values = nullptr;
-      POUNDING_PETSC(MatGetRow(matrix, row, &count, &columns, &values));
-      for (PetscInt k = 0; k < count; ++k) mine.push_back({row, columns[k], values[k]});
-      POUNDING_PETSC(MatRestoreRow(matrix, row, &count, &columns, &values));
-    }
+    for_each_row(matrix, [&](PetscInt row, std::span<const PetscInt> columns,
+                             std::span<const double> values) {
+      for (std::size_t k = 0; k < columns.size(); ++k) mine.push_back({row, columns[k], values[k]});
+    });
     std::vector<MatrixEntry> all = gathered(comm_, std::move(mine));
     on_rank0(comm_, [&] {
       for (MatrixEntry& entry : all) {

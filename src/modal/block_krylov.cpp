@@ -319,7 +319,6 @@ class BlockKrylov {
   Eigenpairs pairs() {
     const std::size_t count = converged();
     keep_ritz_vectors(count);
-    space_.return_unused();
     Eigenpairs found{{}, space_.release()};
     for (std::size_t i = 0; i < count; ++i) found.values.push_back(solver_.shift() + 1 / theta_[i]);
     return found;

@@ -175,7 +175,6 @@ class BasisMaker {
     std::iota(mode_numbers_.begin(), mode_numbers_.end(), 1);
     space_.replace(std::move(vectors));
     space_.keep_first(mode_numbers_.size());
-    space_.return_unused();
   }
 
   /// Keeps so many of the candidates that are the space so far.
@@ -196,7 +195,6 @@ class BasisMaker {
     std::vector<int> numbers;
     for (const std::size_t j : order) numbers.push_back(mode_numbers_[j]);
     space_.choose(order);
-    space_.return_unused();
     mode_numbers_ = std::move(numbers);
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <new>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 
 #include <dmumps_c.h>
 
+#include "common/matrix_rows.h"
 #include "common/memory.h"
 
 namespace pounding {
@@ -54,27 +56,20 @@ struct Triangle {
 
 Triangle lower_triangle(Mat matrix, double shift) {
   Triangle triangle;
-  PetscInt first = 0;
-  PetscInt end = 0;
-  POUNDING_PETSC(MatGetOwnershipRange(matrix, &first, &end));
-  for (PetscInt row = first; row < end; ++row) {
-    PetscInt count = 0;
-    const PetscInt* columns = nullptr;
-    const PetscScalar* values = nullptr;
-    POUNDING_PETSC(MatGetRow(matrix, row, &count, &columns, &values));
-    double diagonal = -shift;
-    for (PetscInt k = 0; k < count; ++k) {
-      if (columns[k] == row) diagonal += values[k];
-      if (columns[k] >= row) continue;
-      triangle.rows.push_back(row + 1);
-      triangle.columns.push_back(columns[k] + 1);
-      triangle.values.push_back(values[k]);
-    }
-    POUNDING_PETSC(MatRestoreRow(matrix, row, &count, &columns, &values));
-    triangle.rows.push_back(row + 1);
-    triangle.columns.push_back(row + 1);
-    triangle.values.push_back(diagonal);
-  }
+  for_each_row(
+      matrix, [&](PetscInt row, std::span<const PetscInt> columns, std::span<const double> values) {
+        double diagonal = -shift;
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+          if (columns[k] == row) diagonal += values[k];
+          if (columns[k] >= row) continue;
+          triangle.rows.push_back(row + 1);
+          triangle.columns.push_back(columns[k] + 1);
+          triangle.values.push_back(values[k]);
+        }
+        triangle.rows.push_back(row + 1);
+        triangle.columns.push_back(row + 1);
+        triangle.values.push_back(diagonal);
+      });
   return triangle;
 }
 

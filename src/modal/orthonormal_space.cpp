@@ -82,12 +82,9 @@ void OrthonormalSpace::choose(const std::vector<std::size_t>& numbers) {
 }
 
 void OrthonormalSpace::keep_first(std::size_t count) {
-  columns_.columns = count;
-  columns_.values.resize(count * columns_.rows);
-}
-
-void OrthonormalSpace::return_unused() {
   LargeArray& values = columns_.values;
+  columns_.columns = count;
+  values.resize(count * columns_.rows);
   return_pages(values.data() + values.size(), (values.capacity() - values.size()) * sizeof(double));
 }
 

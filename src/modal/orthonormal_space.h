@@ -27,9 +27,9 @@ class OrthonormalSpace {
   void append(std::span<const double> column) { columns_.append(column); }
   /// Adds such columns that are orthogonal to each other as well.
   void append_columns(const DenseMatrix& columns) { columns_.append_columns(columns); }
-  /// Keeps the columns of these increasing numbers.
+  /// Keeps the columns of these increasing numbers, as `keep_first` does.
   void choose(const std::vector<std::size_t>& numbers);
-  /// Keeps so many columns.
+  /// Keeps so many columns and gives all memory beyond them back; `reserve` still holds.
   void keep_first(std::size_t count);
   /// W := W S, S with orthonormal columns.
   void combine(const DenseMatrix& s) { combine_columns(columns_, s); }
@@ -37,8 +37,6 @@ class OrthonormalSpace {
   void replace(DenseMatrix&& columns) { columns_ = std::move(columns); }
   /// Gives all columns away.
   DenseMatrix release() { return std::exchange(columns_, DenseMatrix(columns_.rows, 0)); }
-  /// Gives the memory beyond the columns back; `reserve` need not be called again.
-  void return_unused();
 
   /// W^T X, the same on all ranks, of the columns of W from `first` on. Collective.
   DenseMatrix parts(const DenseMatrix& x, std::size_t first = 0) const;

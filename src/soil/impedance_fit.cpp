@@ -186,7 +186,7 @@ class Block {
   void make_terms() {
     terms_ = samples_.of_grounded();
     for (const SeriesRates& rates : rates_) terms_.append(samples_.column(samples_.of(rates)));
-    factors_.assign(terms_.columns, std::vector<double>(size_ * size_, 0.0));
+    factors_.assign(terms_.columns, LargeArray(size_ * size_, 0.0));
     norms_ = squared_norms(terms_);
     for (double& norm : norms_) norm = std::sqrt(norm);
   }
@@ -234,7 +234,7 @@ class Block {
     const double reach = 0.3 * std::pow(0.7, round);
     for (std::size_t t = 0; t < terms_.columns; ++t) {
       DenseMatrix factor(size_, size_);
-      factor.values.assign(factors_[t].begin(), factors_[t].end());
+      factor.values = factors_[t];
       add_eigenvectors(t, factor);
       add_eigenvectors(t, slopes[t]);
       const double own = std::sqrt(std::inner_product(factor.values.begin(), factor.values.end(),
@@ -339,7 +339,7 @@ class Block {
   /// motion that is coupled with none are one with its first internal part.
   void add_parts(std::size_t term, std::vector<DirectedImpedance>& parts) const {
     DenseMatrix factor(size_, size_);
-    factor.values.assign(factors_[term].begin(), factors_[term].end());
+    factor.values = factors_[term];
     const std::vector<double> values = symmetric_eigenvalues(factor);
     for (std::size_t k = 0; k < size_; ++k) {
       if (!(values[k] > negligible * values.back()) || !(values[k] > 0)) continue;
@@ -466,7 +466,7 @@ class Block {
   std::vector<SeriesRates> rates_;
   DenseMatrix terms_;  ///< spring, dashpot, mass, then the rates
   std::vector<double> norms_;
-  std::vector<std::vector<double>> factors_;  ///< per term, shape (size, size)
+  std::vector<LargeArray> factors_;  ///< per term, shape (size, size)
 };
 
 }  // namespace

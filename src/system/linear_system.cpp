@@ -1,6 +1,9 @@
 #include "system/linear_system.h"
 
 #include <algorithm>
+#include <span>
+
+#include "common/matrix_rows.h"
 
 namespace pounding {
 
@@ -49,16 +52,11 @@ std::vector<char> dofs_of_extra_damping(const LinearSystem& system) {
   if (!system.has_extra_damping()) return acted_on;
   const Mat matrix = system.extra_damping->matrix();
   if (matrix == nullptr) return std::vector<char>(acted_on.size(), 1);
-  PetscInt row = 0;
-  POUNDING_PETSC(MatGetOwnershipRange(matrix, &row, nullptr));
-  for (char& acts : acted_on) {
-    PetscInt count = 0;
-    const PetscScalar* values = nullptr;
-    POUNDING_PETSC(MatGetRow(matrix, row, &count, nullptr, &values));
-    if (std::any_of(values, values + count, [](double value) { return value != 0; })) acts = 1;
-    POUNDING_PETSC(MatRestoreRow(matrix, row, &count, nullptr, &values));
-    ++row;
-  }
+  char* acts = acted_on.data();
+  for_each_row(matrix, [&](PetscInt, std::span<const PetscInt>, std::span<const double> values) {
+    if (std::ranges::any_of(values, [](double value) { return value != 0; })) *acts = 1;
+    ++acts;
+  });
   return acted_on;
 }
 

@@ -38,6 +38,16 @@ def rows_of(path):
         return list(csv.DictReader(file))
 
 
+def measured_once(test, kind, value, ranks):
+    """Rows of what run/benchmark --KIND VALUE leaves after one round; its table is printed as well."""
+    folder = tempfile.mkdtemp(prefix="pounding-")
+    result = script("benchmark", f"--{kind}", value, "--ranks", ranks, "--rounds", 1, "--output", folder)
+    test.assertEqual(result.returncode, 0, result.stderr[-3000:])
+    with open(os.path.join(folder, f"{kind}.md")) as file:
+        test.assertIn(file.read(), result.stdout)
+    return rows_of(os.path.join(folder, f"{kind}.csv"))
+
+
 class Measured(unittest.TestCase):
     def run_script(self, name, *words):
         self.folder = tempfile.mkdtemp(prefix="pounding-")
@@ -109,10 +119,7 @@ class Forms(unittest.TestCase):
 class Plant(unittest.TestCase):
     @program.long
     def test_the_coarsest_mesh(self):
-        folder = tempfile.mkdtemp(prefix="pounding-")
-        result = script("benchmark", "--plant", "1", "--ranks", 2, "--rounds", 1, "--output", folder)
-        self.assertEqual(result.returncode, 0, result.stderr[-3000:])
-        row, = rows_of(os.path.join(folder, "plant.csv"))
+        row, = measured_once(self, "plant", "1", 2)
         self.assertGreater(int(row["dofs"]), 1000)
         self.assertLess(float(row["damping_shortens"]), 1.3)  # what uniform damping promises
         self.assertGreater(float(row["damping_shortens"]), 1)
@@ -123,16 +130,12 @@ class Ensembles(unittest.TestCase):
     def test_tables_of_members_hold_every_level_of_a_motion(self):
         path = Path(tempfile.mkdtemp(prefix="pounding-"), "members.csv")
         ensembles.write_members(path, 5, [0.5, 1.0])
-        self.assertEqual(path.read_text().splitlines(), ["motion_x_seed,motion_level", "1,0.5", "1,1.0", "2,0.5", "2,1.0", "3,0.5"])
+        self.assertEqual(path.read_text().splitlines(), ["motion_x_seed,motion_level", "1,0.5", "1,1.0", "2,0.5", "2,1.0",
+                                                         "3,0.5"])
 
     @program.long
     def test_members_beside_single_runs(self):
-        folder = tempfile.mkdtemp(prefix="pounding-")
-        result = script("benchmark", "--ensembles", "8", "--ranks", 1, "--rounds", 1, "--output", folder)
-        self.assertEqual(result.returncode, 0, result.stderr[-3000:])
-        with open(os.path.join(folder, "ensembles.md")) as file:
-            self.assertIn(file.read(), result.stdout)
-        rows = rows_of(os.path.join(folder, "ensembles.csv"))
+        rows = measured_once(self, "ensembles", "8", 1)
         self.assertEqual([row["scene"] for row in rows], list(ensembles.CASES))
         for row in rows:
             self.assertLess(float(row["member_stepped_seconds"]), float(row["member_seconds"]))
@@ -142,12 +145,7 @@ class Ensembles(unittest.TestCase):
 class Faces(unittest.TestCase):
     @program.long
     def test_faces_that_close_at_once(self):
-        folder = tempfile.mkdtemp(prefix="pounding-")
-        result = script("benchmark", "--faces", "5,12", "--ranks", 2, "--rounds", 1, "--output", folder)
-        self.assertEqual(result.returncode, 0, result.stderr[-3000:])
-        with open(os.path.join(folder, "faces.md")) as file:
-            self.assertIn(file.read(), result.stdout)
-        rows = rows_of(os.path.join(folder, "faces.csv"))
+        rows = measured_once(self, "faces", "5,12", 2)
         self.assertEqual([(int(row["rows"]), int(row["coupled_rows"])) for row in rows],
                          [(25, 25), (144, 144), (961, 0), (961, 0)])
         for row in rows:

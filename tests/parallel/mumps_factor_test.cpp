@@ -96,8 +96,9 @@ TEST(MumpsFactor, CountsTheEigenvaluesBelowItsShift) {
   const Matrix matrix(false);
   DenseMatrix whole(size, size);
   for (PetscInt j = 0; j < size; ++j) {
-    for (PetscInt i = 0; i < size; ++i)
+    for (PetscInt i = 0; i < size; ++i) {
       whole.column(static_cast<std::size_t>(j))[i] = Matrix::at(i, j);
+    }
   }
   const std::vector<double> values = symmetric_eigenvalues(whole);
   for (const std::size_t below : {0, 1, 40, 149}) {

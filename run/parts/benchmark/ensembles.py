@@ -56,39 +56,44 @@ def timed(build: Path, ranks: int, words: list) -> tuple:
     return whole, float(stepped.group(1)) if stepped else None
 
 
+def options_of(case: Case, scratch: Path) -> list:
+    """Words of a scene whose bases lie in a folder."""
+    words = case.options + OUTPUTS
+    for structure in case.structures:
+        words += [f"-{structure}_model", "modal", f"-{structure}_modal_basis", scratch / f"{structure}.basis"]
+        for option, value in case.reduction.items():
+            words += [f"-{structure}_{option}", value]
+    return words
+
+
+def compare(build: Path, case: Case, scratch: Path, ranks: int, members: int, rounds: int) -> dict:
+    """Medians of a single run of the strongest level and of an ensemble, whose bases are there."""
+    words = options_of(case, scratch)
+    table, single = scratch / "members.csv", scratch / "single"
+    write_members(table, members, case.levels)
+    turns = []
+    for _ in range(rounds):
+        alone, _ = timed(build, 1, [*words, "-motion_level", case.levels[-1], "-output", single])
+        with tempfile.TemporaryDirectory(dir=scratch) as folder:
+            together, stepped = timed(build, ranks, [*words, "-ensemble", table, "-output", folder])
+        turns.append((alone, together / members, stepped / members, alone / (together / members * ranks)))
+    alone, member, stepped, ratio = (float(np.median(column)) for column in zip(*turns))
+    with open(single / "summary.json") as file:
+        steps = json.load(file)["steps"]
+    return {"steps": steps, "ranks": ranks, "members": members, "single_seconds": alone,
+            "member_seconds": member, "member_stepped_seconds": stepped, "members_for_one_run": ratio}
+
+
 def measure(build: Path, counts: list, ranks: list, rounds: int) -> list:
     """A row per scene, number of ranks and of members: medians. A single run has one rank: as many as
     there are ranks are thought to run side by side."""
     rows = []
-    with tempfile.TemporaryDirectory(prefix="pounding-") as scratch:
-        for name, case in CASES.items():
-            words = case.options + OUTPUTS
-            for structure in case.structures:
-                words += [f"-{structure}_model", "modal",
-                          f"-{structure}_modal_basis", Path(scratch) / f"{structure}.basis"]
-                for option, value in case.reduction.items():
-                    words += [f"-{structure}_{option}", value]
-            single = [*words, "-motion_x_seed", 1, "-motion_level", case.levels[-1],
-                      "-output", Path(scratch) / "single"]
-            run_program(build, 1, [*single, "-dry_run"])  # leaves the bases
-            for count in ranks:
-                for members in counts:
-                    table = Path(scratch) / "members.csv"
-                    write_members(table, members, case.levels)
-                    turns = []
-                    for turn in range(rounds):
-                        folder = Path(scratch) / f"{case.structures[0]}-{count}-{members}-{turn}"
-                        alone, _ = timed(build, 1, single)
-                        together, stepped = timed(
-                            build, count, [*words, "-ensemble", table, "-output", folder])
-                        turns.append((alone, together / members, stepped / members,
-                                      alone / (together / members * count)))
-                    with open(Path(scratch) / "single" / "summary.json") as file:
-                        summary = json.load(file)
-                    alone, member, stepped, ratio = (float(np.median(column)) for column in zip(*turns))
-                    rows.append({"scene": name, "steps": summary["steps"], "ranks": count,
-                                 "members": members, "single_seconds": alone, "member_seconds": member,
-                                 "member_stepped_seconds": stepped, "members_for_one_run": ratio})
+    for name, case in CASES.items():
+        with tempfile.TemporaryDirectory(prefix="pounding-") as scratch:
+            folder = Path(scratch)
+            run_program(build, 1, [*options_of(case, folder), "-output", folder / "single", "-dry_run"])  # the bases
+            rows += [{"scene": name, **compare(build, case, folder, count, members, rounds)}
+                     for count in ranks for members in counts]
     return rows
 
 

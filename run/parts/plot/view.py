@@ -15,7 +15,8 @@ from .style import contact_colour, envelope
 MOST_NODES = 60000     # shown in a page; ParaView takes any number
 GAP_BINS = 600         # of the curve of a gap
 HOLDS, FAILS = "#1b7837", "#d01c1c"  # colours of equipment
-DEMANDS = ((1, HOLDS), (2, "#e6b800"), (4, "#e07b00"), (np.inf, FAILS))  # most, over the first corner; colour
+DEMANDS = ((1, HOLDS, "no farther than 1"), (2, "#e6b800", "1 to 2"), (4, "#e07b00", "2 to 4"),
+           (np.inf, FAILS, "beyond 4"))  # the most over the first corner, colour, words
 SIDES = {"N": "z", "T": "z", "Vy": "y", "Vz": "z", "My": "z", "Mz": "y"}  # axis along which a component is drawn
 MOST_BYTES = 12000000  # of the frames in a page, before base64
 COLOURS = ("#9bb7d4", "#d9a066", "#8fbf8f", "#c99bc4", "#d98c8c", "#b8b86a", "#7fc4c4", "#a89a86", "#8c8cd9", "#c4c4c4")
@@ -130,16 +131,11 @@ class _Scene:
         nearest = cKDTree(points).query(np.column_stack([table[axis] for axis in "xyz"]))[1]
         farthest = np.zeros(len(points))
         np.maximum.at(farthest, nearest, table["ductility"])
-        own, shown, least = np.unique(nearest), [], 0.0
-        for most, colour in DEMANDS:
-            nodes = own[(farthest[own] <= most) & ((farthest[own] > least) | (least == 0))]
-            demand = (f"no farther than {most:g}" if least == 0 else f"beyond {least:g}" if most == np.inf else
-                      f"{least:g} to {most:g}")
-            if len(nodes):
-                shown.append({"name": f"yielding: {demand} times the first corner", "colour": colour,
-                              "nodes": _packed(nodes, "<u4")})
-            least = most
-        return shown
+        own = np.unique(nearest)
+        number = np.searchsorted([most for most, _, _ in DEMANDS], farthest[own])
+        return [{"name": f"yielding: {words} times the first corner", "colour": colour,
+                 "nodes": _packed(own[number == i], "<u4")}
+                for i, (_, colour, words) in enumerate(DEMANDS) if (number == i).any()]
 
     def members(self, result: Result, times: list) -> list:
         """Beams whose forces were recorded: ends, axes, and for each component at both ends the largest of the samples and,
@@ -239,7 +235,8 @@ def data(result: Result) -> dict:
     points = scene.rows([part.points for part in scene.parts]) + rest
     return {"points": _packed(points, "<f4"), "sag": float(np.abs(rest).max(initial=0.0)), "groups": scene.shapes(),
             "marks": scene.marks(folder) + scene.capacities(result) + scene.yielding(result),
-            "modes": scene.modes(folder), "motion": motion, "gaps": _gaps(result), "members": scene.members(result, motion.get("times", []))}
+            "modes": scene.modes(folder), "motion": motion, "gaps": _gaps(result),
+            "members": scene.members(result, motion.get("times", []))}
 
 
 def html(result: Result) -> str:
