@@ -1,5 +1,7 @@
 #include "common/row_products.h"
 
+#include <cstring>
+
 #include "common/lanes.h"
 
 namespace pounding {
@@ -42,6 +44,32 @@ void multiply_together(const double* rows, std::size_t n, const Octet* x, Octet*
   for (std::size_t r = 0; r < count; ++r) out[r] = sums[r];
 }
 
+/// `width` elements of the transposed product, which stay in registers over all rows.
+template <std::size_t width>
+void multiply_columns(const double* rows, std::size_t count, std::size_t n, const Octet* x,
+                      Octet* out) {
+  Octet sums[width]{};
+  for (std::size_t r = 0; r < count; ++r) {
+    for (std::size_t k = 0; k < width; ++k) add_product(all_octet(rows[r * n + k]), x[r], sums[k]);
+  }
+  for (std::size_t k = 0; k < width; ++k) out[k] = sums[k];
+}
+
+/// Eight times `width` elements likewise, eight neighbours in a vector.
+template <std::size_t width>
+void multiply_columns(const double* rows, std::size_t count, std::size_t n, const double* x,
+                      double* out) {
+  Octet sums[width]{};
+  for (std::size_t r = 0; r < count; ++r) {
+    for (std::size_t k = 0; k < width; ++k) {
+      Octet row;
+      std::memcpy(&row, rows + r * n + octet_size * k, sizeof row);
+      add_product(all_octet(x[r]), row, sums[k]);
+    }
+  }
+  std::memcpy(out, sums, sizeof sums);
+}
+
 }  // namespace
 
 void multiply_rows(const double* rows, std::size_t count, std::size_t n, const double* x,
@@ -57,6 +85,27 @@ void multiply_rows(const double* rows, std::size_t count, std::size_t n, const O
   for (; r + 8 <= count; r += 8) multiply_together<8>(rows + r * n, n, x, out + r);
   for (; r + 3 <= count; r += 3) multiply_together<3>(rows + r * n, n, x, out + r);
   for (; r < count; ++r) multiply_together<1>(rows + r * n, n, x, out + r);
+}
+
+void multiply_transposed_rows(const double* rows, std::size_t count, std::size_t n, const double* x,
+                              double* out) {
+  std::size_t k = 0;
+  for (; k + 4 * octet_size <= n; k += 4 * octet_size) {
+    multiply_columns<4>(rows + k, count, n, x, out + k);
+  }
+  for (; k + octet_size <= n; k += octet_size) multiply_columns<1>(rows + k, count, n, x, out + k);
+  for (; k < n; ++k) {
+    double sum = 0;
+    for (std::size_t r = 0; r < count; ++r) add_product(x[r], rows[r * n + k], sum);
+    out[k] = sum;
+  }
+}
+
+void multiply_transposed_rows(const double* rows, std::size_t count, std::size_t n, const Octet* x,
+                              Octet* out) {
+  std::size_t k = 0;
+  for (; k + 8 <= n; k += 8) multiply_columns<8>(rows + k, count, n, x, out + k);
+  for (; k < n; ++k) multiply_columns<1>(rows + k, count, n, x, out + k);
 }
 
 }  // namespace pounding

@@ -52,6 +52,7 @@ OctetStep::OctetStep(std::span<const LinearSystem* const> systems, double time_s
   for (std::size_t lane = 0; lane < systems.size(); ++lane) {
     take_system(*systems[lane], time_step, lane);
   }
+  take_dashpots(systems);
   const std::vector<Octet> zero(coordinates(), Octet{});
   state_ = {zero, zero, std::vector<std::vector<Octet>>(filters_.count, zero)};
 }
@@ -87,6 +88,31 @@ void OctetStep::take_loads(const LinearSystem& system, std::size_t lane) {
       loads_[l].shape[i].set(lane, shapes[l].force[k] * system.inverse_mass[i]);
     }
   }
+}
+
+void OctetStep::take_dashpots(std::span<const LinearSystem* const> systems) {
+  const LinearSystem& first = *systems.front();
+  const auto dashpots = interactions::dashpot_rows(first);
+  if (!dashpots) return;
+  for (const LinearSystem* system : systems.subspan(1)) {
+    const bool alike = system->inverse_mass == first.inverse_mass &&
+                       system->lumped_mass == first.lumped_mass &&
+                       interactions::dashpot_rows(*system) == dashpots;
+    if (!alike) return;
+  }
+  dashpots_.emplace(interactions::DashpotModes(first, *dashpots, time_step_));
+  free_.resize(coordinates());
+  before_.resize(coordinates());
+  velocity_.resize(coordinates());
+}
+
+void OctetStep::brake() {
+  for (std::size_t i = 0; i < coordinates(); ++i) {
+    before_[i] = state_.velocity[i];
+    velocity_[i] = free_[i].velocity;
+  }
+  dashpots_->brake(terms_.duration[0] / time_step_, before_, velocity_);
+  dashpot_loss_ = dashpots_->loss(before_, velocity_);
 }
 
 void OctetStep::step(double duration, const std::array<Octet, 3>& ground_acceleration,
@@ -129,8 +155,8 @@ void OctetStep::advance() {
   const bool has_extra = !extra_damping_.empty();
   Octet* const displacement = state_.displacement.data();
   Octet* const velocity = state_.velocity.data();
-  for (std::size_t i = 0; i < stiffness_.size(); ++i) {
-    DofState<Octet> dof{displacement[i], velocity[i]};
+  const auto move_freely = [&](std::size_t i) __attribute__((always_inline)) {
+    const DofState<Octet> dof{displacement[i], velocity[i]};
     const Octet before = dof.velocity;
     const Octet q = stiffness_[i] * (dof.displacement + terms.beta * before);
     if constexpr (with_energies) {
@@ -148,21 +174,37 @@ void OctetStep::advance() {
       if (shaken[d]) add_product(ground_step[d], influence_[d][i], ground);
     }
     for (const Load& load : loads_) add_product(load.step, load.shape[i], ground);
-    Octet free = free_velocity(terms, before, f, inverse_mass_[i], ground);
+    FreeDof free{q, f, {}, free_velocity(terms, before, f, inverse_mass_[i], ground)};
     if (has_extra) {
-      const Octet extra = extra_damping_[i] * before;
-      subtract_product(terms.duration, inverse_mass_[i] * extra, free);
-      extra_before_ += before * extra;
-      device_ += extra * (free + before);
+      free.extra = extra_damping_[i] * before;
+      subtract_product(terms.duration, inverse_mass_[i] * free.extra, free.velocity);
+      extra_before_ += before * free.extra;
     }
-    if constexpr (filtered) sums.filtered += (f - q) * (free + before);
-    const Octet gained = settle(terms, q, free, mass_[i], dof, sums);
+    return free;
+  };
+  const auto settle_dof = [&](std::size_t i, const FreeDof& free, const Octet& after)
+      __attribute__((always_inline)) {
+    DofState<Octet> dof{displacement[i], velocity[i]};
+    const Octet both = after + dof.velocity;
+    if (has_extra) device_ += free.extra * both;
+    if constexpr (filtered) sums.filtered += (free.acting - free.stiffness) * both;
+    const Octet gained = settle(terms, free.stiffness, after, mass_[i], dof, sums);
     for (std::size_t d = 0; d < 3; ++d) {
       if (shaken[d]) add_product(influence_[d][i], gained, momentum[d]);
     }
     for (Load& load : loads_) add_product(load.shape[i], gained, load.gained);
     displacement[i] = dof.displacement;
     velocity[i] = dof.velocity;
+  };
+  if (dashpots_) {
+    for (std::size_t i = 0; i < stiffness_.size(); ++i) free_[i] = move_freely(i);
+    brake();
+    for (std::size_t i = 0; i < stiffness_.size(); ++i) settle_dof(i, free_[i], velocity_[i]);
+  } else {
+    for (std::size_t i = 0; i < stiffness_.size(); ++i) {
+      const FreeDof free = move_freely(i);
+      settle_dof(i, free, free.velocity);
+    }
   }
   sums_ = sums;
   momentum_ = momentum;
@@ -262,6 +304,9 @@ void OctetLane::correct(std::span<const LocalIndex> dofs, const interactions::Be
       correction.device +=
           octet_.extra_damping_[i][lane_] * old.velocity * (velocity[k] - dof.velocity);
     }
+    if (octet_.dashpots_) {
+      correction.link_loss += octet_.dashpots_->loss_rate(i)[lane_] * (velocity[k] - dof.velocity);
+    }
     const double gained =
         correct_dof(terms, octet_.mass_[i][lane_], old, velocity[k], forces_[i], dof, sums);
     for (std::size_t d = 0; d < 3; ++d) {
@@ -297,6 +342,7 @@ void OctetLane::sum_up(StepSums& total) const {
   }
   total.extra_damping_before = octet_.extra_before_[lane_];
   total.device += octet_.device_[lane_];
+  total.link_loss += octet_.dashpot_loss_[lane_];
 }
 
 }  // namespace pounding

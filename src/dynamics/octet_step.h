@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "dynamics/state.h"
 #include "dynamics/step_sums.h"
 #include "dynamics/update.h"
+#include "interactions/dashpot_modes.h"
 #include "interactions/interaction.h"
 #include "system/linear_system.h"
 
@@ -24,8 +26,9 @@ struct OctetState {
 
 /// Brings eight runs of a structure in generalised coordinates one step on together, as
 /// StructureStep does one of them (update.h, lane by lane); the runs may differ in mass, stiffness
-/// and damping. Each run is an OctetLane of it, which interactions correct alone. Local; a step
-/// allocates nothing.
+/// and damping. Each run is an OctetLane of it, which interactions correct alone, but for links
+/// that are all dashpots, the same in all runs: the step brakes by those itself, before any other
+/// interaction. Local; a step allocates nothing.
 class OctetStep {
  public:
   /// `systems`: of each run, alike in their numbers of coordinates; their states are zero.
@@ -33,6 +36,8 @@ class OctetStep {
 
   std::size_t coordinates() const { return stiffness_.size(); }
   const OctetState& state() const { return state_; }
+  /// The step brakes by the links of its runs, which then are no interaction.
+  bool has_dashpots() const { return dashpots_.has_value(); }
 
   /// The step with the ground's acceleration [m/s2], gravity apart; `duration`: see
   /// StructureStep::begin; `loads`: f of every load of the scene, the same in all runs;
@@ -42,6 +47,15 @@ class OctetStep {
 
  private:
   friend class OctetLane;
+
+  /// A coordinate in the middle of a step, before dashpots act: q, f and the force x of extra
+  /// damping [N, N m], v_free.
+  struct FreeDof {
+    Octet stiffness;
+    Octet acting;
+    Octet extra{};
+    Octet velocity;
+  };
 
   /// A load of the structure.
   struct Load {
@@ -54,6 +68,10 @@ class OctetStep {
 
   void take_system(const LinearSystem& system, double time_step, std::size_t lane);
   void take_loads(const LinearSystem& system, std::size_t lane);
+  /// Takes the dashpots of all runs where they and the masses are the same in each.
+  void take_dashpots(std::span<const LinearSystem* const> systems);
+  /// Velocities become those after the dashpots.
+  void brake();
   template <bool with_energies, bool filtered>
   void advance();
 
@@ -78,6 +96,11 @@ class OctetStep {
   std::array<Octet, 3> momentum_{};
   Octet extra_before_{};  ///< v-^T D v- [W]
   Octet device_{};
+  std::optional<interactions::DashpotBrake<Octet>> dashpots_;
+  std::vector<FreeDof> free_;    ///< per coordinate; empty without dashpots, as the next two
+  std::vector<Octet> before_;    ///< v-
+  std::vector<Octet> velocity_;  ///< v_free, then v+
+  Octet dashpot_loss_{};         ///< in the step, before contact [J]
   std::array<bool, octet_size> corrected_{};  ///< lanes in this step
   std::array<StepSums, octet_size> corrections_;
   std::vector<Octet> places_;       ///< u_n at the places of a trace

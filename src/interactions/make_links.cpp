@@ -1,12 +1,10 @@
 #include "interactions/make_links.h"
 
-#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "interactions/dashpot_modes.h"
-#include "interactions/laws/dashpot_law.h"
 #include "interactions/link_rows.h"
 #include "interactions/structure_links.h"
 
@@ -14,13 +12,11 @@ namespace pounding::interactions {
 namespace {
 
 /// The links of a structure in generalised coordinates where all of them are dashpots: braked
-/// together in their modes (DashpotModes). Local.
+/// together in their modes (DashpotBrake). Local.
 class ModalDashpots final : public StructureLinks {
  public:
-  /// All links of a system are dashpots that no wave drives and no support carries.
-  static bool are_all_links(const LinearSystem& system);
-
-  ModalDashpots(const LinearSystem& system, std::size_t structure, double time_step);
+  ModalDashpots(const LinearSystem& system, const DashpotRows& dashpots, std::size_t structure,
+                double time_step);
 
   void begin(const Step& step) override;
   void push(const Step& step) override;
@@ -28,45 +24,19 @@ class ModalDashpots final : public StructureLinks {
   double force(std::size_t link) const override;
 
  private:
-  DashpotModes make_modes(const LinearSystem& system) const;
-
-  DashpotModes modes_;
+  DashpotBrake<double> brake_;
   std::vector<double> force_;
   std::vector<double> before_;  ///< e_{n-1} less e_n, of all links
   std::vector<double> after_;   ///< (e_{n+1} - e_{n-1}) / 2
 };
 
-bool ModalDashpots::are_all_links(const LinearSystem& system) {
-  const std::vector<Link>& links = system.links->links();
-  if (!system.generalised || links.empty() || !carried_by_supports(system).empty()) return false;
-  return std::ranges::all_of(links, [](const Link& link) {
-    const auto law = law_of(link.origin, 1);
-    return link.incident == Vector3{0, 0, 0} &&
-           dynamic_cast<const DashpotLaw*>(law.get()) != nullptr;
-  });
-}
-
-ModalDashpots::ModalDashpots(const LinearSystem& system, std::size_t structure, double time_step)
+ModalDashpots::ModalDashpots(const LinearSystem& system, const DashpotRows& dashpots,
+                             std::size_t structure, double time_step)
     : StructureLinks(system, structure, time_step),
-      modes_(make_modes(system)),
+      brake_({system, dashpots, time_step}),
       force_(links_.size(), 0.0),
       before_(links_.size(), 0.0),
       after_(links_.size(), 0.0) {}
-
-DashpotModes ModalDashpots::make_modes(const LinearSystem& system) const {
-  const std::size_t size = trace_.dofs().size();
-  std::vector<double> rows(links_.size() * size, 0.0);
-  std::vector<double> strengths;
-  for (std::size_t b = 0; b < links_.size(); ++b) {
-    for (std::size_t k = 0; k < links_[b].place.size(); ++k) {
-      if (links_[b].place[k] < 0) continue;
-      trace_.add_force(static_cast<std::size_t>(links_[b].place[k]), links_[b].weight[k],
-                       {&rows[b * size], size});
-    }
-    strengths.push_back(2 * time_step_ * laws_[b]->rate());
-  }
-  return {system, rows, strengths, time_step_};
-}
 
 double ModalDashpots::force(std::size_t link) const {
   double rate = 0;  // b . (v- + v+)
@@ -74,7 +44,7 @@ double ModalDashpots::force(std::size_t link) const {
     if (links_[link].place[k] < 0) continue;
     const auto row = trace_.row(static_cast<std::size_t>(links_[link].place[k]));
     for (std::size_t i = 0; i < row.size(); ++i) {
-      rate += links_[link].weight[k] * row[i] * modes_.sums()[i];
+      rate += links_[link].weight[k] * row[i] * brake_.sums()[i];
     }
   }
   return laws_[link]->rate() * time_step_ * rate;
@@ -91,13 +61,13 @@ void ModalDashpots::push(const Step& step) {
   const ScopedTimer timer(step.profile, Phase::step);
   SteppedStructure& structure = *step.structures[structure_];
   trace_.restrict_to_dofs(structure.velocity().data(), velocity_.data());
-  modes_.brake(step.share(), held_.velocity, velocity_);
+  brake_.brake(step.share(), held_.velocity, velocity_);
   structure.correct(trace_.dofs(), held_, velocity_);
 }
 
 void ModalDashpots::finish(const Step& step) {
   const std::vector<double>& velocity = step.structures[structure_]->velocity();
-  step.ledger[structure_]->link_loss += modes_.loss(held_.velocity, velocity);
+  step.ledger[structure_]->link_loss += brake_.loss(held_.velocity, velocity);
   if (records_.empty()) return;
   for (const std::size_t b : records_.links()) force_[b] = force(b);
   measure(held_.velocity, before_);
@@ -113,8 +83,8 @@ void ModalDashpots::finish(const Step& step) {
 
 std::unique_ptr<StructureLinks> make_links(const LinearSystem& system, std::size_t structure,
                                            double time_step) {
-  if (ModalDashpots::are_all_links(system)) {
-    return std::make_unique<ModalDashpots>(system, structure, time_step);
+  if (const auto dashpots = dashpot_rows(system)) {
+    return std::make_unique<ModalDashpots>(system, *dashpots, structure, time_step);
   }
   return std::make_unique<LinkRows>(system, structure, time_step);
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/dense_solver.h"
+#include "common/octet.h"
 
 namespace pounding::interactions {
 namespace dashpot_modes_test {
@@ -14,12 +15,11 @@ struct Braked {
   static constexpr std::size_t size = 7;
   static constexpr double time_step = 1e-3;
   LinearSystem system;
-  std::vector<double> rows;
-  std::vector<double> strengths;
+  DashpotRows dashpots;
   std::vector<double> before;
   std::vector<double> free;
 
-  explicit Braked(std::size_t dashpots) {
+  explicit Braked(std::size_t count) {
     for (std::size_t i = 0; i < size; ++i) {
       const double x = static_cast<double>(i);
       system.lumped_mass.push_back(1 + 0.3 * x);
@@ -27,10 +27,10 @@ struct Braked {
       before.push_back(std::sin(3 * x));
       free.push_back(std::cos(2 * x) + 0.5);
     }
-    for (std::size_t b = 0; b < dashpots; ++b) {
-      strengths.push_back(std::pow(10.0, static_cast<double>(b % 5)));
+    for (std::size_t b = 0; b < count; ++b) {
+      dashpots.strengths.push_back(std::pow(10.0, static_cast<double>(b % 5)));
       for (std::size_t i = 0; i < size; ++i) {
-        rows.push_back(std::cos(0.7 * static_cast<double>((2 * b + 1) * (i + 1) + b)));
+        dashpots.rows.push_back(std::cos(0.7 * static_cast<double>((2 * b + 1) * (i + 1) + b)));
       }
     }
   }
@@ -38,6 +38,7 @@ struct Braked {
   /// Entry of C = B^T diag(c) B.
   double damping(std::size_t i, std::size_t j) const {
     double sum = 0;
+    const auto& [rows, strengths] = dashpots;
     for (std::size_t b = 0; b < strengths.size(); ++b) {
       sum += strengths[b] * rows[b * size + i] * rows[b * size + j];
     }
@@ -61,12 +62,13 @@ struct Braked {
   }
 };
 
-TEST(DashpotModes, AreTheDashpotsThemselves) {
-  for (const std::size_t dashpots : {1u, 4u, 20u}) {
+TEST(DashpotBrake, AreTheDashpotsThemselves) {
+  for (const std::size_t count : {1u, 4u, 20u}) {
     for (const double share : {0.5, 1.0}) {
-      const Braked braked(dashpots);
-      DashpotModes modes(braked.system, braked.rows, braked.strengths, Braked::time_step);
-      EXPECT_EQ(modes.size(), std::min(dashpots, Braked::size));
+      const Braked braked(count);
+      const DashpotModes all(braked.system, braked.dashpots, Braked::time_step);
+      EXPECT_EQ(all.lambda.size(), std::min(count, Braked::size));
+      DashpotBrake<double> modes(all);
       std::vector<double> velocity = braked.free;
       modes.brake(share, braked.before, velocity);
       const std::vector<double> expected = braked.solved(share);
@@ -83,15 +85,47 @@ TEST(DashpotModes, AreTheDashpotsThemselves) {
   }
 }
 
-TEST(DashpotModes, LeaveAloneWhatTheyDoNotHold) {
+TEST(DashpotBrake, LeaveAloneWhatTheyDoNotHold) {
   Braked braked(1);
-  for (std::size_t i = 1; i < Braked::size; ++i) braked.rows[i] = 0;
-  DashpotModes modes(braked.system, braked.rows, braked.strengths, Braked::time_step);
-  ASSERT_EQ(modes.size(), 1u);
+  for (std::size_t i = 1; i < Braked::size; ++i) braked.dashpots.rows[i] = 0;
+  const DashpotModes all(braked.system, braked.dashpots, Braked::time_step);
+  ASSERT_EQ(all.lambda.size(), 1u);
+  DashpotBrake<double> modes(all);
   std::vector<double> velocity = braked.free;
   modes.brake(1, braked.before, velocity);
   EXPECT_NE(velocity[0], braked.free[0]);
   for (std::size_t i = 1; i < Braked::size; ++i) EXPECT_NEAR(velocity[i], braked.free[i], 1e-15);
+}
+
+TEST(DashpotBrake, BrakeEightRunsAsEachOfThem) {
+  const Braked braked(20);
+  DashpotBrake<double> one({braked.system, braked.dashpots, Braked::time_step});
+  DashpotBrake<Octet> all({braked.system, braked.dashpots, Braked::time_step});
+  std::vector<Octet> before(Braked::size, Octet{});
+  std::vector<Octet> velocities(Braked::size, Octet{});
+  const auto level = [](std::size_t lane) { return 0.25 * static_cast<double>(lane) - 1; };
+  for (std::size_t lane = 0; lane < octet_size; ++lane) {
+    for (std::size_t i = 0; i < Braked::size; ++i) {
+      before[i].set(lane, level(lane) * braked.before[i]);
+      velocities[i].set(lane, level(lane) * braked.free[i]);
+    }
+  }
+  all.brake(0.5, before, velocities);
+  const Octet losses = all.loss(before, velocities);
+  std::vector<double> velocity = braked.free;
+  one.brake(0.5, braked.before, velocity);
+  const double loss = one.loss(braked.before, velocity);
+  for (std::size_t lane = 0; lane < octet_size; ++lane) {
+    EXPECT_NEAR(losses[lane], level(lane) * level(lane) * loss, 1e-13 * loss);
+    for (std::size_t i = 0; i < Braked::size; ++i) {
+      EXPECT_NEAR(velocities[i][lane], level(lane) * velocity[i], 1e-13);
+    }
+  }
+  // Contact that then moves a coordinate of one run.
+  const double change = 0.01;
+  const double rate = all.loss_rate(3)[6];
+  velocities[3].set(6, velocities[3][6] + change);
+  EXPECT_NEAR(all.loss(before, velocities)[6], losses[6] + rate * change, 1e-13 * loss);
 }
 
 }  // namespace dashpot_modes_test
