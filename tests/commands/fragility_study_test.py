@@ -192,20 +192,27 @@ class Study(unittest.TestCase):
                 "relay_capacity": str(self.place / "relay.csv"), "relay_dip": 0.05}
         field = {"deviation": 0.002, "length": 1.5}
         study = {"options": {**STUDY["options"], **item}, "full_order": {"share": 0}, "capacities": [], "levels": [5.0],
-                 "joints": {"floor1": {"field": field}, "floor2": {"field": field}}, "exchange": True}
+                 "joints": {"floor1": {"field": field}, "floor2": {"field": field}}, "exchange": True,
+                 "field_factors": [[3, 1], [1, 0.5]]}
         said = self.fragility("--runner", "ensemble", "--ranks", "2", **study).stdout
         rows = [row for row in rows_of(self.place / "out" / "probability.csv") if row["event"].startswith("relay fails")]
         found = {row["gap [m]"]: int(row["hits"]) for row in rows}
-        failed, gaps, spectra = 0, set(), {}
+        failed, gaps, spectra, wider = 0, set(), {}, []
         for sample, row in enumerate(rows_of(self.place / "out" / "design.csv")):
             motion = {**study["options"], "motion_x_seed": row["motion x"], "motion_x_duration": 6, "motion_x_pga": 5,
                        "motion_x_envelope": "0.3,4", "spectra_frequencies": STUDY["frequencies"],
                        "spectra_damping": STUDY["dampings"],
                        **{f"{name}_{key}": value for name, one in STUDY["reduction"].items()
                           for key, value in one.items()}}
-            for owner in (sample, (sample + 1) % 3):  # of the joint
-                joint = {f"{floor}_{key}": value for floor in ("floor1", "floor2") for key, value in (
-                    ("gap", 0.01), ("gap_deviation", 0.002), ("gap_length", 1.5), ("gap_seed", 100000 + owner))}
+
+            def joint_of(owner, deviation):
+                return {f"{floor}_{key}": value for floor in ("floor1", "floor2") for key, value in (
+                    ("gap", 0.01), ("gap_deviation", deviation), ("gap_length", 1.5), ("gap_seed", 100000 + owner))}
+
+            run = pounding.run(two_buildings.SCENE, self.place / f"{sample}-wider", 1, **motion, **joint_of(sample, 0.006))
+            wider.append(run.spectrum("left_roof", "x", 0.05)[1])
+            for owner in (sample, (sample + 1) % 3):
+                joint = joint_of(owner, 0.002)
                 run = pounding.run(two_buildings.SCENE, self.place / f"{sample}-{owner}", 1, **motion, **joint)
                 spectra[sample, owner] = np.log(run.spectrum("left_roof", "x", 0.05)[1])
                 if owner != sample:
@@ -228,7 +235,20 @@ class Study(unittest.TestCase):
         self.assertGreater(max(joint), 1e-4)
         self.assertIn("the joint's own width makes", said)
         members = rows_of(self.place / "out" / "members.csv")
-        self.assertEqual([row["exchanged"] for row in members], 3 * ["0", "0", "1"])
+        self.assertEqual([row["exchanged"] for row in members], 3 * ["0", "0", "1"] + 6 * ["0", "1"])
+        # Other fields: the 84 % spectra of single runs in fields of thrice the deviation.
+        rows = [row for row in rows_of(self.place / "out" / "fields.csv") if row["channel"] == "left_roof x"]
+        self.assertEqual([(row["deviation times"], row["length times"]) for row in rows[::len(rows) // 3]],
+                         [("1.0", "1.0"), ("3.0", "1.0"), ("1.0", "0.5")])
+        own = np.quantile([np.exp(spectra[a, a]) for a in range(3)], 0.84, 0)
+        frequencies = run.spectrum("left_roof", "x", 0.05)[0]
+        for row in (row for row in rows if row["deviation times"] == "3.0"):
+            low, high = map(float, row["band [Hz]"].split("-"))
+            ratio = (np.quantile(wider, 0.84, 0) / own)[(frequencies >= low) & (frequencies <= high)]
+            self.assertAlmostEqual(float(row["84 % ratio, median"]), np.median(ratio), delta=2e-3)
+            self.assertAlmostEqual(float(row["84 % ratio, furthest"]), ratio[abs(np.log(ratio)).argmax()], delta=2e-3)
+        self.assertTrue(any(abs(float(row["84 % ratio, furthest"]) - 1) > 0.02 for row in rows))
+        self.assertRegex(said, "Fields of 3 times the deviation and 1 times the length make the 84 % spectra")
         self.assertTrue((self.place / "out" / "scatter.png").is_file())
         self.refuse("joints: floor1: field: length", joints={"floor1": {"field": {"deviation": 0.002}}})
         self.refuse("relay.csv", options={**study["options"], "relay_capacity": "other/relay.csv"})
@@ -251,6 +271,8 @@ class Study(unittest.TestCase):
         self.refuse("joints is missing", joints={})
         self.refuse("exchange: 1 is neither true nor false", exchange=1)
         self.refuse("makes no difference: no joint has a deviation", exchange=True, joints={"floor1": {}})
+        self.refuse("makes no difference: no joint has a field", field_factors=[[2, 1]])
+        self.refuse("is not two factors", field_factors=[[1, 1]])
         self.refuse("output is the study's own", options={"output": "x"})
         self.refuse("needs either records or a target", motions={"x": {}})
         self.refuse("goes with another distribution", joints={"floor1": {"deviation": {"cov": 0.1}}})

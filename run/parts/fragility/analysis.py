@@ -8,7 +8,7 @@ from scipy import stats
 from pounding.fragility import (Fragility, FitRefused, binomial_interval, fit_paired, joint_share, members_needed,
                                 moments, scatter, widened)
 
-from .design import Design
+from .design import OWN_FIELD, Design
 from .equipment import Item
 from .outcomes import Outcomes
 from .study import Study, StudyError
@@ -31,7 +31,7 @@ class Analysis:
     equipment: list = field(default_factory=list)
 
     def __post_init__(self):
-        self.index = {(one.gap, one.level, one.sample, one.exchanged): number
+        self.index = {(one.gap, one.level, one.sample, one.exchanged, one.factors): number
                       for number, one in enumerate(self.design.members) if not one.disturbed}
         largest = self.outcomes.spectra.max((0, 2, 3))
         if not self.main(self.outcomes.spectra):
@@ -50,9 +50,10 @@ class Analysis:
         return [number for number, name in enumerate(self.outcomes.channels)
                 if largest[number] > MAIN * of_probe[name.split()[0]] > 0]
 
-    def of(self, gap: float | None, level: float, exchanged: bool = False) -> np.ndarray:
-        """Members of a cell, by sample; `exchanged`: those in the joints of the next samples."""
-        return np.array([self.index[gap, level, sample, exchanged] for sample in range(self.study.samples)])
+    def of(self, gap: float | None, level: float, exchanged: bool = False, factors: tuple = OWN_FIELD) -> np.ndarray:
+        """Members of a cell, by sample; `exchanged`: those in the joints of the next samples; `factors`: in other
+        fields."""
+        return np.array([self.index[gap, level, sample, exchanged, factors] for sample in range(self.study.samples)])
 
     def damping(self, ratio: float) -> int:
         """Number of the study's damping ratio that is nearest."""
@@ -208,9 +209,9 @@ class Analysis:
     def exchanged_cells(self) -> list:
         return [cell for cell in self.cells if cell[0] is not None] if self.study.exchange else []
 
-    def logarithms(self, gap: float, level: float, channels: list) -> list:
+    def logarithms(self, gap: float, level: float, channels: list, factors: tuple = OWN_FIELD) -> list:
         """ln of the spectra of a cell, with each sample's own joint and with the next one's."""
-        return [np.log(np.maximum(self.outcomes.spectra[self.of(gap, level, exchanged)][:, channels], 1e-300))
+        return [np.log(np.maximum(self.outcomes.spectra[self.of(gap, level, exchanged, factors)][:, channels], 1e-300))
                 for exchanged in (False, True)]
 
     def scatter_rows(self) -> list:
@@ -249,6 +250,34 @@ class Analysis:
                          for c, channel in enumerate(main)]
         return rows
 
+    def field_rows(self) -> list:
+        """Per joint at the strongest level, main channel and band, for the study's own fields and each pair of factors on
+        them: how many members touch, the 84 % spectrum at 5 % damping over that in the study's own fields, in the median
+        of the band's frequencies and where it is furthest from 1, and with `exchange` the deviation of ln S that the
+        joint makes alone."""
+        rows, found, level = [], self.outcomes, self.study.levels[-1]
+        damping = self.damping(0.05)
+        for gap in self.study.gaps if self.study.field_factors else []:
+            main = self.main(found.spectra[self.of(gap, level)])
+            high = {factors: moments(found.spectra[self.of(gap, level, factors=factors)][:, main, damping]).high
+                    for factors in (OWN_FIELD, *self.study.field_factors)}
+            for factors, spectra in high.items():
+                hits = int((found.episodes[self.of(gap, level, factors=factors)].sum(-1) > 0).sum())
+                ratio = spectra / high[OWN_FIELD]
+                joint = scatter(*(values[:, :, damping] for values in self.logarithms(gap, level, main, factors))).joint \
+                    if self.study.exchange else None
+                for low, end in BANDS:
+                    inside = (found.frequency >= low) & (found.frequency <= end)
+                    if not inside.any():
+                        continue
+                    rows += [{"gap [m]": gap_text(gap), "pga [m/s2]": level, "channel": found.channels[channel],
+                              "band [Hz]": f"{low:g}-{end:g}", "deviation times": factors[0], "length times": factors[1],
+                              "touch": hits, "84 % ratio, median": float(np.median(ratio[c, inside])),
+                              "84 % ratio, furthest": furthest(ratio[c, inside]),
+                              "joint": rms(joint[c, inside]) if joint is not None else ""}
+                             for c, channel in enumerate(main)]
+        return rows
+
     # Repeats at full order.
 
     def repeat_rows(self, full: Outcomes) -> list:
@@ -277,7 +306,9 @@ class Analysis:
         for number, one in enumerate(self.design.members):
             touched = found.episodes[number].sum() > 0
             rows.append({"sample": one.sample, "gap [m]": gap_text(one.gap), "pga [m/s2]": one.level,
-                         "disturbed": int(one.disturbed), "exchanged": int(one.exchanged), "impacts": int(found.episodes[number].sum()),
+                         "disturbed": int(one.disturbed), "exchanged": int(one.exchanged),
+                         "deviation times": one.factors[0], "length times": one.factors[1],
+                         "impacts": int(found.episodes[number].sum()),
                          "first [s]": float(np.nanmin(found.first_time[number])) if touched else "",
                          "impulses [N s]": float(found.impulse_sum[number].sum()),
                          "largest impulse [N s]": float(found.impulse_largest[number].max(initial=0.0)),
@@ -286,6 +317,11 @@ class Analysis:
                             for place, name in enumerate(found.contacts)},
                          "energy residual": float(found.residual[number])})
         return rows
+
+
+def furthest(ratios: np.ndarray) -> float:
+    """The ratio that is furthest from 1, up or down."""
+    return float(ratios[abs(np.log(ratios)).argmax()])
 
 
 def rms(values: np.ndarray) -> float:

@@ -6,9 +6,10 @@ import numpy as np
 
 from pounding.fragility import latin_hypercube
 
-from .study import Study, StudyError
+from .study import Joint, Study, StudyError
 
 MOST_SAMPLES = 100_000  # so that studies of different seeds have different joints
+OWN_FIELD = (1.0, 1.0)  # factors of a field as the study has it
 APART = "apart"  # the runs without pounding, whose gap is the study's `apart`
 
 
@@ -16,7 +17,8 @@ APART = "apart"  # the runs without pounding, whose gap is the study's `apart`
 class Member:
     """`gap`: nominal [m], None of a run apart; `level`: peak ground acceleration [m/s2]; `values`: texts of the options
     of the table's columns. `disturbed`: by the study's noise, beside a member that is repeated at full order.
-    `exchanged`: in the joint of the next sample, that of the first one for the last."""
+    `exchanged`: in the joint of the next sample, that of the first one for the last. `factors`: on deviation and length of
+    the fields of its joints."""
 
     sample: int
     gap: float | None
@@ -24,6 +26,7 @@ class Member:
     values: tuple
     disturbed: bool = False
     exchanged: bool = False
+    factors: tuple = OWN_FIELD
 
 
 @dataclass
@@ -66,7 +69,8 @@ def build(study: Study) -> Design:
                              "take a lognormal one")
     motions = [sample % count for sample in range(study.samples)]
 
-    def member(sample: int, gap: float | None, level: float, disturbed: bool = False, exchanged: bool = False) -> Member:
+    def member(sample: int, gap: float | None, level: float, disturbed: bool = False, exchanged: bool = False,
+               factors: tuple = OWN_FIELD) -> Member:
         shaken = level * (1 + study.noise) if disturbed else level
         owner = (sample + exchanged) % study.samples  # of the joint
         values = motion_values(study, motions[sample], shaken)
@@ -75,25 +79,38 @@ def build(study: Study) -> Design:
             nominal = study.apart if gap is None else gap
             values += (",".join(text_of(max(0.0, nominal + one + off)) for one in joint.shape),)
             values += (str((study.seed * MOST_SAMPLES + owner) % 2**31),) if joint.field else ()
+            if joint.field and study.field_factors:
+                values += tuple(text_of(factor * one) for factor, one in zip(factors, joint.field))
         values += tuple(text_of(drawn[sample, names.index(one.name)]) for one in study.factors)
-        return Member(sample, gap, level, values, disturbed, exchanged)
+        return Member(sample, gap, level, values, disturbed, exchanged, factors)
 
     own_or_next = (False, True) if study.exchange else (False,)
     ways = [(None, False), *((gap, exchanged) for gap in study.gaps for exchanged in own_or_next)]
     members = [member(sample, gap, level, exchanged=exchanged) for sample in range(study.samples)
                for gap, exchanged in ways for level in study.levels]
+    members += [member(sample, gap, study.levels[-1], exchanged=exchanged, factors=factors)
+                for factors in study.field_factors for sample in range(study.samples)
+                for gap in study.gaps for exchanged in own_or_next]
     repeated = choose(study, members)
     members += [member(one.sample, one.gap, one.level, True) for one in (members[index] for index in repeated)]
     joints = [column for name, joint in study.joints.items()
-              for column in (f"{name}_gap", *([f"{name}_gap_seed"] if joint.field else []))]
+              for column in (f"{name}_gap", *(f"{name}_gap_{part}" for part in field_columns(study, joint)))]
     columns = motion_columns(study) + joints + [one.name for one in study.factors]
     return Design(columns, members, drawn, motions, repeated)
 
 
+def field_columns(study: Study, joint: Joint) -> tuple:
+    """Options of a joint's field that the members' table has; the scene has the others."""
+    if not joint.field:
+        return ()
+    return ("seed", "deviation", "length") if study.field_factors else ("seed",)
+
+
 def choose(study: Study, members: list) -> list:
-    """Indices of members to be repeated at full order, spread over all cells by the seed; those apart, and in the joints of
-    others, are left out."""
-    cells = [index for index, one in enumerate(members) if one.gap is not None and not one.exchanged]
+    """Indices of members to be repeated at full order, spread over all cells by the seed; those apart, in the joints of
+    others, and in other fields, are left out."""
+    cells = [index for index, one in enumerate(members)
+             if one.gap is not None and not one.exchanged and one.factors == OWN_FIELD]
     wanted = int(np.ceil(study.share * len(cells) - 1e-9))
     generator = np.random.default_rng([study.seed, 1])
     strata = np.array_split(np.array(cells), wanted) if wanted else []

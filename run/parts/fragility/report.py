@@ -14,6 +14,7 @@ from pounding.fragility import Fragility, binomial_interval, moments
 
 from . import figures
 from .analysis import CONTACT, EXCEEDED, TOLERANCE, Analysis, fit_row, gap_text, name_of
+from .design import OWN_FIELD
 from .outcomes import Outcomes
 
 PLACES = ("gap [m]", "pga [m/s2]")
@@ -90,6 +91,7 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
     tables = {"members": analysis.member_rows(), "probability": analysis.probability_rows(), "curves": fit_rows,
               "joint": analysis.joint_rows(rules), "first_contact": first_rows, "enough": enough_rows,
               "confidence": widths, "scatter": analysis.scatter_rows(), "joint_share": analysis.joint_share_rows(),
+              "fields": analysis.field_rows(),
               "full_order": analysis.repeat_rows(full) if full else []}
     for name, rows in tables.items():
         if rows:
@@ -98,6 +100,7 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
             (folder / f"{name}.csv").unlink(missing_ok=True)
     parts = [("Probability", tables["probability"]), ("Lognormal curves", fit_rows),
              ("Deviation of the logarithm of spectra, 5 % damping", of_shown(analysis, tables["joint_share"])),
+             ("Other deviations and lengths of the joints' fields, 5 % damping", fields_summary(tables["fields"])),
              ("Joint that would be needed [m]", tables["joint"]),
              (f"Members that the mean of any spectrum needs, within {100 * TOLERANCE:g} %",
               enough_summary(enough_rows)), ("Repeats at full order: ln-ratio of the spectra", repeats_summary(tables["full_order"]))]
@@ -114,6 +117,39 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
     text = "\n".join(f"{line}" for line in lines) + "\n\n" + "\n".join(
         markdown(caption, *_cells(rows)) for caption, rows in parts if rows)
     return write_page(folder / "fragility.html", study.title, content, f"study {study.path.name}"), text
+
+
+def fields_summary(rows: list) -> list:
+    """Of each joint, band and pair of factors the median of the channels, and the channel that changes most."""
+    groups = {}
+    for row in rows:
+        key = tuple(row[name] for name in ("gap [m]", "pga [m/s2]", "band [Hz]", "deviation times", "length times", "touch"))
+        groups.setdefault(key, []).append(row)
+    found = []
+    for (gap, level, band, deviation, length, touch), some in groups.items():
+        worst = max(some, key=lambda row: abs(np.log(row["84 % ratio, furthest"])))
+        one = {"gap [m]": gap, "pga [m/s2]": level, "band [Hz]": band, "deviation times": deviation, "length times": length,
+               "touch": touch, "84 % ratio, median": float(np.median([row["84 % ratio, median"] for row in some])),
+               "furthest": worst["84 % ratio, furthest"], "of": worst["channel"]}
+        if some[0]["joint"] != "":
+            one["deviation by the joint, median"] = float(np.median([row["joint"] for row in some]))
+        found.append(one)
+    return found
+
+
+def fields_told(rows: list) -> list:
+    """How far other fields than the study's own change the answer, in a sentence for each pair of factors."""
+    lines = []
+    for pair in dict.fromkeys((row["deviation times"], row["length times"]) for row in rows):
+        mine = [row for row in rows if (row["deviation times"], row["length times"]) == pair]
+        worst = max(mine, key=lambda row: abs(np.log(row["furthest"])))
+        if pair != OWN_FIELD:
+            middle = "; ".join(f"{row['84 % ratio, median']:.3g} at {row['band [Hz]']} Hz" for row in mine
+                               if row["gap [m]"] == worst["gap [m]"])
+            lines.append(f"Fields of {pair[0]:g} times the deviation and {pair[1]:g} times the length make the 84 % spectra of "
+                         f"the joint of {1e3 * float(worst['gap [m]']):g} mm at {worst['pga [m/s2]']:g} m/s2, in the median, {middle} "
+                         f"times those of the study's, and {worst['furthest']:.3g} times at most ({worst['of']}).")
+    return lines
 
 
 def of_shown(analysis: Analysis, rows: list) -> list:
@@ -198,7 +234,10 @@ def told(analysis: Analysis, fits: dict, full: Outcomes | None, tables: dict) ->
     cells = len(study.gaps) * len(study.levels) * study.samples
     disturbed = f", and {len(analysis.design.repeated)} disturbed" if analysis.design.repeated else ""
     lines += touching(fits) + failing(analysis) + scattered(analysis, tables["joint_share"])
+    lines += fields_told(fields_summary(tables["fields"]))
     exchanged = ", as many in the joint of the next sample" if study.exchange else ""
+    others = sum(one.factors != OWN_FIELD for one in analysis.design.members)
+    exchanged += f", at {study.levels[-1]:g} m/s2 in other fields ({others})" if others else ""
     lines += [f"{len(analysis.design.members)} runs: {study.samples} samples of motion and building at "
              f"{len(study.levels)} levels, in {len(study.gaps)} joints ({cells}){exchanged}, apart "
              f"({len(study.levels) * study.samples}){disturbed}."]

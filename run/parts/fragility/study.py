@@ -11,7 +11,7 @@ from pounding.results import DIRECTIONS
 from pounding.scenes import SceneError, flatten
 
 KEYS = ("title", "scene", "output", "options", "reduction", "seed", "samples", "confidence", "motions", "levels",
-        "gaps", "apart", "joints", "exchange", "factors", "capacities", "full_order", "frequencies", "dampings", "show")
+        "gaps", "apart", "joints", "exchange", "field_factors", "factors", "capacities", "full_order", "frequencies", "dampings", "show")
 DAMPINGS = (0.02, 0.03, 0.04, 0.05, 0.07)
 SYNTHETIC = {"duration": "25", "envelope": "2,15"}
 RECORDED = {"unit": "auto", "time_step": "0", "column": "0"}
@@ -89,6 +89,7 @@ class Study:
     apart: float  # of the runs without pounding [m]
     joints: dict  # contact -> Joint
     exchange: bool  # each member with a joint is run once more in the joint of the next sample
+    field_factors: list  # pairs of factors on deviation and length of the fields, of joints beside the study's own
     factors: list  # Variables, whose names are options
     capacities: list
     share: float  # of the members that are repeated at full order
@@ -285,6 +286,21 @@ def _field(reader: _Reader) -> tuple:
     return found
 
 
+def _field_factors(reader: _Reader, joints: dict) -> list:
+    found = []
+    for number, pair in enumerate(reader.entries("field_factors"), 1):
+        one = _Reader({"pair": pair}, reader.path, f"field_factors, number {number}", ("pair",))
+        values = tuple(one.numbers("pair", None, 0.0))
+        if len(values) != 2 or values == (1.0, 1.0):
+            one.fail("pair", "is not two factors, on deviation and length, that change a field")
+        found.append(values)
+    if found and not any(joint.field for joint in joints.values()):
+        reader.fail("field_factors", "makes no difference: no joint has a field")
+    if len(set(found)) < len(found):
+        reader.fail("field_factors", "has a pair twice")
+    return found
+
+
 def _factors(reader: _Reader) -> list:
     values = reader.values.get("factors") or {}
     if not isinstance(values, dict):
@@ -393,7 +409,8 @@ def read(path: Path) -> Study:
     joints, exchange = _joints(reader), reader.flag("exchange")
     if exchange and not any(joint.deviation or joint.field for joint in joints.values()):
         reader.fail("exchange", "makes no difference: no joint has a deviation or a field")
-    members = samples * len(levels) * (1 + len(gaps) * (1 + exchange))
+    field_factors = _field_factors(reader, joints)
+    members = samples * (len(levels) + len(gaps) * (1 + exchange) * (len(levels) + len(field_factors)))
     if members > MOST_MEMBERS:
         reader.fail("samples", f"makes {members} members, more than {MOST_MEMBERS}")
     return Study(
@@ -401,7 +418,7 @@ def read(path: Path) -> Study:
         Path(str(reader.values.get("output", Path("results") / f"fragility-{path.stem}"))), reader.options("options"),
         reader.options("reduction"), reader.whole("seed", 1, 0), samples,
         reader.number("confidence", 0.95, 0.0, 1.0), axes, limit, wanted, levels, gaps,
-        reader.number("apart", max(1.0, 20 * gaps[-1]), gaps[-1]), joints, exchange, _factors(reader),
+        reader.number("apart", max(1.0, 20 * gaps[-1]), gaps[-1]), joints, exchange, field_factors, _factors(reader),
         _capacities(reader, frequencies, dampings), full.number("share", 0.0, -1e-12, 1.0 + 1e-12),
         full.options("options"), full.number("noise", 1e-3, 0.0), frequencies, dampings,
         _show(reader, gaps, levels))
