@@ -10,12 +10,13 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import program
 
 sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 sys.dont_write_bytecode = True
-from parts.benchmark import ensembles  # noqa: E402
+from parts.benchmark import ensembles, instructions, workers  # noqa: E402
 from parts.benchmark.comparison import check_agreement  # noqa: E402
 from parts.benchmark.forms import CASES, LABELS  # noqa: E402
 from parts.benchmark.scaling_model import CostCurve, Messages, Model  # noqa: E402
@@ -114,6 +115,35 @@ class Forms(unittest.TestCase):
 
     def test_unknown_cases_are_refused(self):
         self.assertEqual(script("benchmark", "--forms", "house").returncode, 2)
+
+
+class Instructions(unittest.TestCase):
+    def test_kinds(self):
+        for line, kinds in (("vfmadd231pd 0x40(%rax),%zmm1,%zmm2", {"arithmetic", "loads"}), ("vaddpd %zmm0,%zmm1,%zmm2", {"arithmetic"}),
+                            ("vmovupd %zmm1,0x8(%rax,%rbx,8){%k1}", {"stores"}), ("vmovupd (%rax),%zmm1{%k1}{z}", {"loads"}),
+                            ("vmulpd 0x8(%rax){1to8},%zmm0,%zmm1", {"arithmetic", "loads"}), ("valignq $0x7,%zmm1,%zmm2,%zmm3", {"shuffles and masks"}),
+                            ("mov %rax,(%rsp)", {"stores"}), ("lea 0x8(%rax),%rcx", set()), ("cmp %rax,0x8(%rsp)", {"loads"})):
+            mnemonic, operands = line.split()
+            self.assertEqual(set(instructions.kinds_of(mnemonic, operands)) - {"instructions"}, kinds, line)
+
+    def test_a_small_slab(self):
+        with tempfile.TemporaryDirectory() as folder, mock.patch.dict(instructions.CASES, {"slab": ("slab", (6, 6, 1))}), \
+                mock.patch.dict(os.environ, {"POUNDING_BUILD": os.path.abspath(program.BUILD)}):
+            place = Path(folder)
+            try:
+                rows = instructions.measure(workers.build(), place, workers.write_motion(place / "motion.txt"), "slab", 1, 0.01)
+            except MeasuringError as error:
+                if "tracing is forbidden" in str(error) or "on x86-64 alone" in str(error):
+                    self.skipTest(str(error))
+                raise
+            whole, *functions = rows
+            self.assertEqual(whole["dofs"], 6 * 7 * 2 * 3)
+            for kind in instructions.KINDS:
+                self.assertAlmostEqual(whole[kind], sum(row[kind] for row in functions), delta=1e-9 * whole[kind])
+            self.assertIn("StructureStep::advance_vectors", {row["function"] for row in functions})
+            self.assertLess(0.5, whole["arithmetic"])
+            self.assertLess(whole["arithmetic"], whole["instructions"])
+            self.assertIn("instructions per dof", instructions.write(place, rows))
 
 
 class Plant(unittest.TestCase):

@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import platform
 import subprocess
 import sys
 import tempfile
@@ -12,6 +13,7 @@ from pounding.runs import ending_with_us
 
 SOURCE = Path(__file__).resolve().parents[3]
 PROGRAMS = "pounding step_benchmark machine_limits partition_study"
+COUNTING = "count_instructions" if platform.machine() == "x86_64" else ""
 MOTION_STEP = 2e-3  # [s]
 ELEMENT_MEMORY = 1500  # of a Stepper without a matrix while it is built [B per dof]
 
@@ -23,7 +25,7 @@ class MeasuringError(Exception):
 def build() -> Path:
     """Builds what is measured; returns the build folder."""
     if subprocess.run(["run/setup"], cwd=SOURCE, stdout=sys.stderr,
-                      env={**os.environ, "POUNDING_TARGETS": PROGRAMS}).returncode != 0:
+                      env={**os.environ, "POUNDING_TARGETS": f"{PROGRAMS} {COUNTING}"}).returncode != 0:
         raise MeasuringError("run/setup failed, see above")
     return SOURCE / os.environ.get("POUNDING_BUILD", "build")
 

@@ -1,0 +1,147 @@
+"""Instructions of a step, counted one by one and put beside the time of the step: a roofline by ports."""
+
+import re
+import subprocess
+from collections import Counter
+from pathlib import Path
+from typing import NamedTuple
+
+from parts.tables import markdown, write_csv
+from pounding.files import write_text
+
+from .machine import Machine
+from .workers import COUNTING, MeasuringError, Stepper, block_cells, slab_cells, step_benchmark, with_environment
+
+CASES = {"cube": ("cube of bricks", block_cells(100_000)), "slab": ("slab of bricks, one layer", slab_cells(36_000)),
+         "plate": ("plate of shells", (*slab_cells(36_000)[:2], 0))}
+LANES = {"avx512f": 8, "avx2": 4}  # of vectors, where the processor has them; else 2
+ARITHMETIC = re.compile(r"v?(f?n?m?(add|sub)\w*|mul|div|sqrt|max|min)\w*[ps]d$")
+SHUFFLE = re.compile(r"v?(perm|shuf|unpck|p?align|insert|extract|blend|broadcast|pbroadcast|compress|expand|movddup|movhlps|k)")
+KINDS = ["instructions", "arithmetic", "loads", "stores", "shuffles and masks"]
+PER_CYCLE = {"arithmetic": 2, "loads": 2, "stores": 1, "instructions": 8}  # of full vectors, on a core of today
+STATE_BYTES = 32  # u and v, read and written, of a dof
+SHOWN = 10  # functions
+
+
+class Count(NamedTuple):
+    """Instructions of one step by function, each a Counter of KINDS."""
+
+    functions: dict
+    all: Counter
+
+
+def kinds_of(mnemonic: str, operands: str) -> list:
+    """What an instruction, as objdump writes it, takes of a core: some load and compute."""
+    found = ["instructions"]
+    at = operands.find("(")
+    touches = at >= 0 and not mnemonic.startswith(("lea", "nop", "prefetch"))
+    last = operands.rfind(",", 0, at) if at >= 0 else -1
+    stores = touches and mnemonic.startswith(("v", "mov")) and "mov" in mnemonic and ")" in operands \
+        and not operands[operands.rfind(")") + 1:].replace("{%k", "").count("%") and last >= 0
+    if ARITHMETIC.match(mnemonic):
+        found.append("arithmetic")
+    elif SHUFFLE.match(mnemonic):
+        found.append("shuffles and masks")
+    if touches:
+        found.append("stores" if stores or mnemonic.startswith("push") else "loads")
+    return found
+
+
+def name_of(symbol: str) -> str:
+    """A function without namespaces and arguments, those of templates included."""
+    bare = re.sub(r"\(anonymous namespace\)::|pounding::(stiffness::)?", "", symbol)
+    return re.sub(r"[<(].*", "", bare).removeprefix("void ").strip()
+
+
+def read_counts(path: Path) -> dict:
+    """Offset -> times; those in libraries under None."""
+    found = {}
+    for line in path.read_text().splitlines():
+        place, times = line.split()
+        found[None if place == "elsewhere" else int(place, 16)] = int(times)
+    return found
+
+
+def explain(program: Path, counts: dict) -> Count:
+    """Kinds and functions of the counted addresses, from the program's own text."""
+    text = subprocess.run(["objdump", "-d", "-C", "--no-show-raw-insn", program], text=True, capture_output=True)
+    if text.returncode != 0:
+        raise MeasuringError(f"objdump: {text.stderr.strip().splitlines()[0]}")
+    functions, function, found = {}, "", 0
+    for line in text.stdout.splitlines():
+        if head := re.match(r"[0-9a-f]+ <(.*)>:$", line):
+            function = head[1]
+            continue
+        one = re.match(r"\s*([0-9a-f]+):\t(?:(?:rep[nz]*|lock|bnd|notrack|data16|cs|ds) )*(\S+)\s*(.*)", line)
+        times = counts.get(int(one[1], 16), 0) if one else 0
+        if times:
+            found += times
+            kinds = functions.setdefault(name_of(function), Counter())
+            for kind in kinds_of(one[2], one[3].split("#")[0].split("<")[0].strip()):
+                kinds[kind] += times
+    own = sum(times for place, times in counts.items() if place is not None)
+    if found != own:
+        raise MeasuringError(f"objdump explains {found} of {own} instructions of {program}")
+    functions["libraries"] = Counter(instructions=counts[None])
+    total = Counter()
+    for kinds in functions.values():
+        total += kinds
+    return Count(functions, total)
+
+
+def measure(build: Path, scratch: Path, motion: Path, case: str, rounds: int, seconds: float) -> list:
+    """Rows of the functions of a step on one rank, with the whole first: numbers per dof, and of the whole the time."""
+    if not COUNTING:
+        raise MeasuringError("instructions are counted on x86-64 alone")
+    model = ["-cells", ",".join(str(n) for n in CASES[case][1])]
+    command = step_benchmark(build, 1, motion, model, ["element"])[3:]
+    counted = scratch / f"{case}.counts"
+    done = subprocess.run(with_environment([build / "tests" / "count_instructions", counted, *command]), text=True,
+                          capture_output=True, input="element 0\n")
+    if done.returncode != 0:
+        raise MeasuringError(f"count_instructions: {(done.stderr.strip().splitlines() or ['failed'])[-1]}")
+    with Stepper(step_benchmark(build, 1, motion, model, ["element"])) as stepper, Machine(build, [1]) as machine:
+        dofs = stepper.ways["element"]["dofs"]
+        times, rates, streams = [], [], []
+        for _ in range(rounds):
+            rates.append(machine.calibrate()[1])
+            streams.append(machine.measure_triad("state", 1, STATE_BYTES * dofs, seconds))
+            times.append(stepper.ask(f"element {seconds}")["quiet_seconds_per_step"])
+    count = explain(Path(command[0]), read_counts(counted))
+    ordered = sorted(count.functions.items(), key=lambda one: -one[1]["instructions"])
+    speed = {"dofs": dofs, "nanoseconds": 1e9 * min(times) / dofs, "flops_per_second": max(rates),
+             "bytes_per_second": max(streams)}
+    return [{"case": case, "function": name, **{kind: kinds[kind] / dofs for kind in KINDS}, **speed}
+            for name, kinds in [("whole step", count.all), *ordered]]
+
+
+def lanes_of_machine() -> int:
+    flags = set(re.findall(r"\w+", next((line for line in Path("/proc/cpuinfo").read_text().splitlines()
+                                         if line.startswith("flags")), "")))
+    return next((lanes for flag, lanes in LANES.items() if flag in flags), 2)
+
+
+def bounds(row: dict, lanes: int) -> dict:
+    """Least time of a dof by what a core can begin in a cycle, and by the bytes of the state at the rate of a triad on as
+    many [ns]; a cycle is that in which the machine does two multiply-adds of full vectors."""
+    cycle = 1e9 * 4 * lanes / row["flops_per_second"]
+    return {**{kind: row[kind] / most * cycle for kind, most in PER_CYCLE.items()},
+            "state": 1e9 * STATE_BYTES / row["bytes_per_second"]}
+
+
+def write(folder: Path, rows: list) -> str:
+    """Writes instructions.md and instructions.csv; returns the tables."""
+    write_csv(folder / "instructions.csv", rows)
+    whole = [row for row in rows if row["function"] == "whole step"]
+    lanes = lanes_of_machine()
+    limits = {row["case"]: bounds(row, lanes) for row in whole}
+    text = markdown(f"A step on one rank, vectors of {lanes}: measured, and the least that its instructions take [ns per dof]",
+                    ["", "dofs", "measured", *(f"{kind}, {most} a cycle" for kind, most in PER_CYCLE.items()),
+                     f"{STATE_BYTES} bytes of the state"],
+                    [[CASES[row["case"]][0], row["dofs"], row["nanoseconds"], *limits[row["case"]].values()] for row in whole])
+    for row in whole:
+        mine = [one for one in rows if one["case"] == row["case"]][:SHOWN + 1]
+        text += "\n" + markdown(f"{CASES[row['case']][0]}: instructions per dof", ["", *KINDS],
+                                [[one["function"], *(one[kind] for kind in KINDS)] for one in mine])
+    write_text(folder / "instructions.md", text)
+    return text
