@@ -99,7 +99,7 @@ struct StepClosedForm {
   // max |u| over [s, 1] is at most this.
   double bound(double s) const {
     return std::max(std::abs(alpha + beta * s), std::abs(alpha + beta)) +
-           std::hypot(c, d) * std::exp(-xi * theta * s);
+           std::sqrt(c * c + d * d) * std::exp(-xi * theta * s);
   }
 };
 

@@ -46,6 +46,9 @@ struct BetweenSamples {
 class Passages {
  public:
   struct Passage {
+    /// Leaves the largest ones open.
+    Passage(const Stretch& through, const BlockState& from) : stretch(&through), start(from) {}
+
     const Stretch* stretch;
     BlockState start;
     OscillatorBlock::Vector largest;  ///< |u| at the samples
@@ -122,9 +125,7 @@ BlockState Passages::pass(const OscillatorBlock& block, const Stretch& stretch,
     before = behind;
   }
   for (std::size_t b = 0; b < vectors; ++b) come_to_rest(stretch.load, at.u[b], at.v[b]);
-  Passage& passage = passages_.emplace_back();
-  passage.stretch = &stretch;
-  passage.start = start;
+  Passage& passage = passages_.emplace_back(stretch, start);
   std::copy(std::begin(largest), std::end(largest), std::begin(passage.largest));
   return at;
 }
