@@ -14,10 +14,12 @@ from .workers import COUNTING, MeasuringError, Stepper, block_cells, slab_cells,
 
 CASES = {"cube": ("cube of bricks", block_cells(100_000)), "slab": ("slab of bricks, one layer", slab_cells(36_000)),
          "plate": ("plate of shells", (*slab_cells(36_000)[:2], 0))}
-LANES = {"avx512f": 8, "avx2": 4}  # of vectors, where the processor has them; else 2
+UNITS = {"v4": "avx512f", "v3": "avx2", "v2": "sse4_2"}  # and a flag of processors that have them
+WHOLE = "whole step"
 ARITHMETIC = re.compile(r"v?(f?n?m?(add|sub)\w*|mul|div|sqrt|max|min)\w*[ps]d$")
 SHUFFLE = re.compile(r"v?(perm|shuf|unpck|p?align|insert|extract|blend|broadcast|pbroadcast|compress|expand|movddup|movhlps|k)")
 KINDS = ["instructions", "arithmetic", "loads", "stores", "shuffles and masks"]
+MULTIPLY_ADDS = 2 * 2 * 4  # operations that machine_limits does in a cycle: two multiply-adds of four
 PER_CYCLE = {"arithmetic": 2, "loads": 2, "stores": 1, "instructions": 8}  # of full vectors, on a core of today
 STATE_BYTES = 32  # u and v, read and written, of a dof
 SHOWN = 10  # functions
@@ -90,41 +92,47 @@ def explain(program: Path, counts: dict) -> Count:
 
 
 def measure(build: Path, scratch: Path, motion: Path, case: str, rounds: int, seconds: float) -> list:
-    """Rows of the functions of a step on one rank, with the whole first: numbers per dof, and of the whole the time."""
+    """Rows of the functions of a step on one rank, by each vector unit, with the whole first: numbers per dof, and the
+    time of the step."""
     if not COUNTING:
         raise MeasuringError("instructions are counted on x86-64 alone")
     model = ["-cells", ",".join(str(n) for n in CASES[case][1])]
-    command = step_benchmark(build, 1, motion, model, ["element"])[3:]
-    counted = scratch / f"{case}.counts"
-    done = subprocess.run(with_environment([build / "tests" / "count_instructions", counted, *command]), text=True,
-                          capture_output=True, input="element 0\n")
-    if done.returncode != 0:
-        raise MeasuringError(f"count_instructions: {(done.stderr.strip().splitlines() or ['failed'])[-1]}")
-    with Stepper(step_benchmark(build, 1, motion, model, ["element"])) as stepper, Machine(build, [1]) as machine:
-        dofs = stepper.ways["element"]["dofs"]
-        times, rates, streams = [], [], []
-        for _ in range(rounds):
-            rates.append(machine.calibrate()[1])
-            streams.append(machine.measure_triad("state", 1, STATE_BYTES * dofs, seconds))
-            times.append(stepper.ask(f"element {seconds}")["quiet_seconds_per_step"])
-    count = explain(Path(command[0]), read_counts(counted))
-    ordered = sorted(count.functions.items(), key=lambda one: -one[1]["instructions"])
-    speed = {"dofs": dofs, "nanoseconds": 1e9 * min(times) / dofs, "flops_per_second": max(rates),
-             "bytes_per_second": max(streams)}
-    return [{"case": case, "function": name, **{kind: kinds[kind] / dofs for kind in KINDS}, **speed}
-            for name, kinds in [("whole step", count.all), *ordered]]
+    rows = []
+    with Machine(build, [1]) as machine:
+        for unit in units_of_machine():
+            command = step_benchmark(build, 1, motion, model, ["element"], "-vector_unit", unit)
+            counted = scratch / f"{case}-{unit}.counts"
+            done = subprocess.run(with_environment([build / "tests" / "count_instructions", counted, *command[3:]]), text=True,
+                                  capture_output=True, input="element 0\n")
+            if done.returncode != 0:
+                raise MeasuringError(f"count_instructions: {(done.stderr.strip().splitlines() or ['failed'])[-1]}")
+            with Stepper(command) as stepper:
+                dofs = stepper.ways["element"]["dofs"]
+                times, rates = [], []
+                for _ in range(rounds):
+                    rates.append(machine.calibrate()[1])
+                    machine.measure_triad(case, 1, STATE_BYTES * dofs, seconds)
+                    times.append(stepper.ask(f"element {seconds}")["quiet_seconds_per_step"])
+            count = explain(Path(command[3]), read_counts(counted))
+            ordered = sorted(count.functions.items(), key=lambda one: -one[1]["instructions"])
+            speed = {"dofs": dofs, "nanoseconds": 1e9 * min(times) / dofs, "flops_per_second": max(rates),
+                     "bytes_per_second": max(machine.triad[case, 1].values)}
+            rows += [{"case": case, "unit": unit, "function": name, **{kind: kinds[kind] / dofs for kind in KINDS}, **speed}
+                     for name, kinds in [(WHOLE, count.all), *ordered]]
+    return rows
 
 
-def lanes_of_machine() -> int:
+def units_of_machine() -> list:
+    """The two best vector units that the processor has, of those of UNITS."""
     flags = set(re.findall(r"\w+", next((line for line in Path("/proc/cpuinfo").read_text().splitlines()
                                          if line.startswith("flags")), "")))
-    return next((lanes for flag, lanes in LANES.items() if flag in flags), 2)
+    return [unit for unit, flag in UNITS.items() if flag in flags][:2]
 
 
-def bounds(row: dict, lanes: int) -> dict:
+def bounds(row: dict) -> dict:
     """Least time of a dof by what a core can begin in a cycle, and by the bytes of the state at the rate of a triad on as
-    many [ns]; a cycle is that in which the machine does two multiply-adds of full vectors."""
-    cycle = 1e9 * 4 * lanes / row["flops_per_second"]
+    many [ns]."""
+    cycle = 1e9 * MULTIPLY_ADDS / row["flops_per_second"]
     return {**{kind: row[kind] / most * cycle for kind, most in PER_CYCLE.items()},
             "state": 1e9 * STATE_BYTES / row["bytes_per_second"]}
 
@@ -132,16 +140,20 @@ def bounds(row: dict, lanes: int) -> dict:
 def write(folder: Path, rows: list) -> str:
     """Writes instructions.md and instructions.csv; returns the tables."""
     write_csv(folder / "instructions.csv", rows)
-    whole = [row for row in rows if row["function"] == "whole step"]
-    lanes = lanes_of_machine()
-    limits = {row["case"]: bounds(row, lanes) for row in whole}
-    text = markdown(f"A step on one rank, vectors of {lanes}: measured, and the least that its instructions take [ns per dof]",
-                    ["", "dofs", "measured", *(f"{kind}, {most} a cycle" for kind, most in PER_CYCLE.items()),
+    whole = [row for row in rows if row["function"] == WHOLE]
+    text = markdown("A step on one rank: measured, and the least that its instructions take [ns per dof]",
+                    ["", "unit", "dofs", "measured", *(f"{kind}, {most} a cycle" for kind, most in PER_CYCLE.items()),
                      f"{STATE_BYTES} bytes of the state"],
-                    [[CASES[row["case"]][0], row["dofs"], row["nanoseconds"], *limits[row["case"]].values()] for row in whole])
-    for row in whole:
-        mine = [one for one in rows if one["case"] == row["case"]][:SHOWN + 1]
-        text += "\n" + markdown(f"{CASES[row['case']][0]}: instructions per dof", ["", *KINDS],
-                                [[one["function"], *(one[kind] for kind in KINDS)] for one in mine])
+                    [[CASES[row["case"]][0], row["unit"], row["dofs"], row["nanoseconds"], *bounds(row).values()]
+                     for row in whole])
+    for case in dict.fromkeys(row["case"] for row in whole):
+        mine = [row for row in rows if row["case"] == case]
+        best, *others = dict.fromkeys(row["unit"] for row in mine)
+        found = {(row["unit"], row["function"]): row for row in mine}
+        text += "\n" + markdown(
+            f"{CASES[case][0]}: instructions per dof by {best}", ["", *KINDS, *(f"all by {unit}" for unit in others)],
+            [[row["function"], *(row[kind] for kind in KINDS),
+              *(found.get((unit, row["function"]), {}).get("instructions") for unit in others)]
+             for row in [row for row in mine if row["unit"] == best][:SHOWN + 1]])
     write_text(folder / "instructions.md", text)
     return text
