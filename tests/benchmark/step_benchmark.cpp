@@ -9,6 +9,7 @@
 //                          by element without one form, see leave_out); bare (a slab by a kernel
 //                          for it alone); aij, baij, sbaij (PETSc's products in a step written out)
 //   -apart                 every rank steps a model of its own, nothing is exchanged
+//   -vector_unit UNIT      whose kernels compute, as the program's option
 //   -export FOLDER         leaves stiffness.petsc and mass.petsc there (one rank, a brick)
 //
 // First a line of JSON per way, when it has taken its first steps, and {"ready":true}; then answers
@@ -34,6 +35,7 @@
 #include "common/floating_point.h"
 #include "common/memory.h"
 #include "common/parallel.h"
+#include "common/vector_unit.h"
 
 namespace pounding::measuring {
 namespace {
@@ -202,6 +204,8 @@ class Bench {
 };
 
 void run() {
+  const std::string unit = option("-vector_unit");
+  use_vector_unit(PETSC_COMM_WORLD, unit.empty() ? "auto" : unit);
   PetscBool apart = PETSC_FALSE;
   POUNDING_PETSC(PetscOptionsGetBool(nullptr, nullptr, "-apart", &apart, nullptr));
   Bench bench(read_request(), apart == PETSC_TRUE);

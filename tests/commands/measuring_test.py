@@ -144,6 +144,8 @@ class Instructions(unittest.TestCase):
                 self.assertIn("StructureStep::advance_vectors", {row["function"] for row in functions})
                 self.assertLess(0.5, whole["arithmetic"])
                 self.assertLess(whole["arithmetic"], whole["instructions"])
+            wholes = [row["instructions"] for row in rows if row["function"] == instructions.WHOLE]
+            self.assertEqual(sorted(set(wholes)), wholes)  # fewer by wider vectors
             self.assertIn("instructions per dof", instructions.write(place, rows))
 
 
