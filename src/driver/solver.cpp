@@ -68,7 +68,7 @@ void Solver::make_stepper() {
                              : &stepper_->add(std::make_unique<interactions::InelasticElements>(
                                    s, parts.meshes[s], system, parts.time_step, system.laws)));
     const bool braked_in_lanes =
-        !parts.lane.structures.empty() && parts.lane.structures[s].has_dashpots();
+        !parts.lane.structures.empty() && parts.lane.structures[s].brakes(parts.lane.number);
     links_.push_back(system.links && !braked_in_lanes
                          ? &stepper_->add(interactions::make_links(system, s, parts.time_step))
                          : nullptr);

@@ -1,6 +1,7 @@
 #include "dynamics/octet_step.h"
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 
 #include "common/row_products.h"
@@ -45,14 +46,15 @@ std::vector<double> diagonal_of(const LinearSystem& system, const stiffness::Sti
 
 }  // namespace
 
-OctetStep::OctetStep(std::span<const LinearSystem* const> systems, double time_step)
+OctetStep::OctetStep(std::span<const LinearSystem* const> systems, const LinearSystem& scene,
+                     double time_step)
     : time_step_(time_step) {
   filters_.passing = all_octet(1);
   for (auto& [weight, keep, take] : filters_.filters) weight = keep = take = Octet{};
   for (std::size_t lane = 0; lane < systems.size(); ++lane) {
     take_system(*systems[lane], time_step, lane);
   }
-  take_dashpots(systems);
+  take_dashpots(systems, scene);
   const std::vector<Octet> zero(coordinates(), Octet{});
   state_ = {zero, zero, std::vector<std::vector<Octet>>(filters_.count, zero)};
 }
@@ -90,17 +92,18 @@ void OctetStep::take_loads(const LinearSystem& system, std::size_t lane) {
   }
 }
 
-void OctetStep::take_dashpots(std::span<const LinearSystem* const> systems) {
-  const LinearSystem& first = *systems.front();
-  const auto dashpots = interactions::dashpot_rows(first);
+void OctetStep::take_dashpots(std::span<const LinearSystem* const> systems,
+                              const LinearSystem& scene) {
+  const auto dashpots = interactions::dashpot_rows(scene);
   if (!dashpots) return;
-  for (const LinearSystem* system : systems.subspan(1)) {
-    const bool alike = system->inverse_mass == first.inverse_mass &&
-                       system->lumped_mass == first.lumped_mass &&
-                       interactions::dashpot_rows(*system) == dashpots;
-    if (!alike) return;
+  for (std::size_t lane = 0; lane < systems.size(); ++lane) {
+    const LinearSystem& own = *systems[lane];
+    braked_[lane] = own.inverse_mass == scene.inverse_mass &&
+                    own.lumped_mass == scene.lumped_mass &&
+                    interactions::dashpot_rows(own) == dashpots;
   }
-  dashpots_.emplace(interactions::DashpotModes(first, *dashpots, time_step_));
+  if (std::ranges::none_of(braked_, std::identity())) return;
+  dashpots_.emplace(interactions::DashpotModes(scene, *dashpots, time_step_));
   free_.resize(coordinates());
   before_.resize(coordinates());
   velocity_.resize(coordinates());
@@ -113,6 +116,13 @@ void OctetStep::brake() {
   }
   dashpots_->brake(terms_.duration[0] / time_step_, before_, velocity_);
   dashpot_loss_ = dashpots_->loss(before_, velocity_);
+  for (std::size_t lane = 0; lane < octet_size; ++lane) {
+    if (braked_[lane]) continue;
+    dashpot_loss_.set(lane, 0);
+    for (std::size_t i = 0; i < coordinates(); ++i) {
+      velocity_[i].set(lane, free_[i].velocity[lane]);
+    }
+  }
 }
 
 void OctetStep::step(double duration, const std::array<Octet, 3>& ground_acceleration,
@@ -304,7 +314,7 @@ void OctetLane::correct(std::span<const LocalIndex> dofs, const interactions::Be
       correction.device +=
           octet_.extra_damping_[i][lane_] * old.velocity * (velocity[k] - dof.velocity);
     }
-    if (octet_.dashpots_) {
+    if (octet_.brakes(lane_)) {
       correction.link_loss += octet_.dashpots_->loss_rate(i)[lane_] * (velocity[k] - dof.velocity);
     }
     const double gained =

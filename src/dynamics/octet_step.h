@@ -27,17 +27,19 @@ struct OctetState {
 /// Brings eight runs of a structure in generalised coordinates one step on together, as
 /// StructureStep does one of them (update.h, lane by lane); the runs may differ in mass, stiffness
 /// and damping. Each run is an OctetLane of it, which interactions correct alone, but for links
-/// that are all dashpots, the same in all runs: the step brakes by those itself, before any other
-/// interaction. Local; a step allocates nothing.
+/// that are all dashpots: the step itself brakes those runs by them whose dashpots and masses are
+/// those of the scene, before any other interaction. Local; a step allocates nothing.
 class OctetStep {
  public:
   /// `systems`: of each run, alike in their numbers of coordinates; their states are zero.
-  OctetStep(std::span<const LinearSystem* const> systems, double time_step);
+  /// `scene`: the one whose dashpots count.
+  OctetStep(std::span<const LinearSystem* const> systems, const LinearSystem& scene,
+            double time_step);
 
   std::size_t coordinates() const { return stiffness_.size(); }
   const OctetState& state() const { return state_; }
-  /// The step brakes by the links of its runs, which then are no interaction.
-  bool has_dashpots() const { return dashpots_.has_value(); }
+  /// The step brakes the run in a lane by its links, which then are no interaction.
+  bool brakes(std::size_t lane) const { return braked_[lane]; }
 
   /// The step with the ground's acceleration [m/s2], gravity apart; `duration`: see
   /// StructureStep::begin; `loads`: f of every load of the scene, the same in all runs;
@@ -68,9 +70,9 @@ class OctetStep {
 
   void take_system(const LinearSystem& system, double time_step, std::size_t lane);
   void take_loads(const LinearSystem& system, std::size_t lane);
-  /// Takes the dashpots of all runs where they and the masses are the same in each.
-  void take_dashpots(std::span<const LinearSystem* const> systems);
-  /// Velocities become those after the dashpots.
+  /// Takes the dashpots of the scene, and notes whose run has them and its masses.
+  void take_dashpots(std::span<const LinearSystem* const> systems, const LinearSystem& scene);
+  /// Velocities of those runs become those after the dashpots.
   void brake();
   template <bool with_energies, bool filtered>
   void advance();
@@ -101,6 +103,7 @@ class OctetStep {
   std::vector<Octet> before_;    ///< v-
   std::vector<Octet> velocity_;  ///< v_free, then v+
   Octet dashpot_loss_{};         ///< in the step, before contact [J]
+  std::array<bool, octet_size> braked_{};
   std::array<bool, octet_size> corrected_{};  ///< lanes in this step
   std::array<StepSums, octet_size> corrections_;
   std::vector<Octet> places_;       ///< u_n at the places of a trace

@@ -21,7 +21,7 @@ OctetGroup::OctetGroup(std::span<const MemberScene* const> members, const Scene&
   for (std::size_t s = 0; s < shared_.systems.size(); ++s) {
     std::vector<const LinearSystem*> systems;
     for (const Model& model : models_) systems.push_back(&model.systems[s]);
-    octets_.emplace_back(systems, shared_.time_step);
+    octets_.emplace_back(systems, shared_.systems[s], shared_.time_step);
   }
   for (std::size_t lane = 0; lane < members.size(); ++lane) {
     runs_.push_back(

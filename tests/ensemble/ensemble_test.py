@@ -248,6 +248,21 @@ class Kinds(unittest.TestCase):
     def test_dashpots(self):
         self.check(*self.FEET, "-left_base_dashpot", "2e5,2e5,4e5,0,0,0")
 
+    def test_dashpots_beside_members_of_other_masses(self):
+        """The same numbers to the bit whatever the masses of its companions."""
+        words = [*SCENE, *MODAL, "-end_time", "0.5", "-spectra_damping", "0.05", *self.FEET, "-left_base_dashpot",
+                 "2e5,2e5,4e5,0,0,0", "-left_mass_scaling", "2e-3"]
+        columns = "motion_x_seed,motion_x_pga,left_stiffness_factor"
+        rows, found = ["1,3.5,1", "2,5,1.3", "3,4,1"], []
+        for some in (rows, rows[:1], rows[1:2]):
+            folder = tempfile.mkdtemp(prefix="pounding-ensemble-")
+            program.must_end(self, [*words, "-time_step", "1e-4", "-ensemble", table(some, columns), "-output", folder], 1)
+            found.append(pounding.load_ensemble(folder))
+            self.assertLess(np.abs(found[-1].residual).max(), 1e-9)
+        together, first, second = found
+        np.testing.assert_array_equal(together.pseudo_acceleration[0], first.pseudo_acceleration[0])
+        np.testing.assert_array_equal(together.pseudo_acceleration[1], second.pseudo_acceleration[0])
+
     def test_dashpots_in_series_with_springs_and_stops_between_nodes(self):
         words = [*self.FEET, "-left_base_dashpot", "2e5,2e5,4e5,0,0,0", "-left_base_dashpot_stiffness", "4e7,4e7,0,0,0,0",
                  "-floor1_along", "1,0,0", "-floor1_stiffness", "2e6", "-floor1_dashpot", "1e4", "-floor1_gap", ".01,.03",
