@@ -33,29 +33,21 @@ void multiply_together(const double* rows, std::size_t n, const double* x, doubl
   }
 }
 
-template <std::size_t count>
-void multiply_together(const double* rows, std::size_t n, const Octet* x, Octet* out) {
-  Octet sums[count]{};
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t r = 0; r < count; ++r) {
-      add_product(all_octet(rows[r * n + i]), x[i], sums[r]);
+/// out[w] = sum over l of entries[across * w + along * l] x[l], `length` products in each of
+/// `width` sums, which stay in registers.
+template <std::size_t width>
+void multiply_together(const double* entries, std::size_t across, std::size_t along,
+                       std::size_t length, const Octet* x, Octet* out) {
+  Octet sums[width]{};
+  for (std::size_t l = 0; l < length; ++l) {
+    for (std::size_t w = 0; w < width; ++w) {
+      add_product(all_octet(entries[across * w + along * l]), x[l], sums[w]);
     }
   }
-  for (std::size_t r = 0; r < count; ++r) out[r] = sums[r];
+  for (std::size_t w = 0; w < width; ++w) out[w] = sums[w];
 }
 
-/// `width` elements of the transposed product, which stay in registers over all rows.
-template <std::size_t width>
-void multiply_columns(const double* rows, std::size_t count, std::size_t n, const Octet* x,
-                      Octet* out) {
-  Octet sums[width]{};
-  for (std::size_t r = 0; r < count; ++r) {
-    for (std::size_t k = 0; k < width; ++k) add_product(all_octet(rows[r * n + k]), x[r], sums[k]);
-  }
-  for (std::size_t k = 0; k < width; ++k) out[k] = sums[k];
-}
-
-/// Eight times `width` elements likewise, eight neighbours in a vector.
+/// Eight times `width` elements of the transposed product, eight neighbours in a vector.
 template <std::size_t width>
 void multiply_columns(const double* rows, std::size_t count, std::size_t n, const double* x,
                       double* out) {
@@ -82,9 +74,9 @@ void multiply_rows(const double* rows, std::size_t count, std::size_t n, const d
 void multiply_rows(const double* rows, std::size_t count, std::size_t n, const Octet* x,
                    Octet* out) {
   std::size_t r = 0;
-  for (; r + 8 <= count; r += 8) multiply_together<8>(rows + r * n, n, x, out + r);
-  for (; r + 3 <= count; r += 3) multiply_together<3>(rows + r * n, n, x, out + r);
-  for (; r < count; ++r) multiply_together<1>(rows + r * n, n, x, out + r);
+  for (; r + 8 <= count; r += 8) multiply_together<8>(rows + r * n, n, 1, n, x, out + r);
+  for (; r + 3 <= count; r += 3) multiply_together<3>(rows + r * n, n, 1, n, x, out + r);
+  for (; r < count; ++r) multiply_together<1>(rows + r * n, n, 1, n, x, out + r);
 }
 
 void multiply_transposed_rows(const double* rows, std::size_t count, std::size_t n, const double* x,
@@ -104,8 +96,8 @@ void multiply_transposed_rows(const double* rows, std::size_t count, std::size_t
 void multiply_transposed_rows(const double* rows, std::size_t count, std::size_t n, const Octet* x,
                               Octet* out) {
   std::size_t k = 0;
-  for (; k + 8 <= n; k += 8) multiply_columns<8>(rows + k, count, n, x, out + k);
-  for (; k < n; ++k) multiply_columns<1>(rows + k, count, n, x, out + k);
+  for (; k + 8 <= n; k += 8) multiply_together<8>(rows + k, 1, n, count, x, out + k);
+  for (; k < n; ++k) multiply_together<1>(rows + k, 1, n, count, x, out + k);
 }
 
 }  // namespace pounding

@@ -103,19 +103,16 @@ void OctetStep::take_dashpots(std::span<const LinearSystem* const> systems,
                     interactions::dashpot_rows(own) == dashpots;
   }
   if (std::ranges::none_of(braked_, std::identity())) return;
+  std::fill(braked_.begin() + systems.size(), braked_.end(), true);  // nothing moves in these
   dashpots_.emplace(interactions::DashpotModes(scene, *dashpots, time_step_));
   free_.resize(coordinates());
-  before_.resize(coordinates());
   velocity_.resize(coordinates());
 }
 
 void OctetStep::brake() {
-  for (std::size_t i = 0; i < coordinates(); ++i) {
-    before_[i] = state_.velocity[i];
-    velocity_[i] = free_[i].velocity;
-  }
-  dashpots_->brake(terms_.duration[0] / time_step_, before_, velocity_);
-  dashpot_loss_ = dashpots_->loss(before_, velocity_);
+  for (std::size_t i = 0; i < coordinates(); ++i) velocity_[i] = free_[i].velocity;
+  dashpots_->brake(terms_.duration[0] / time_step_, state_.velocity, velocity_);
+  dashpot_loss_ = dashpots_->loss(state_.velocity, velocity_);
   for (std::size_t lane = 0; lane < octet_size; ++lane) {
     if (braked_[lane]) continue;
     dashpot_loss_.set(lane, 0);

@@ -99,8 +99,7 @@ class OctetStep {
   Octet extra_before_{};  ///< v-^T D v- [W]
   Octet device_{};
   std::optional<interactions::DashpotBrake<Octet>> dashpots_;
-  std::vector<FreeDof> free_;    ///< per coordinate; empty without dashpots, as the next two
-  std::vector<Octet> before_;    ///< v-
+  std::vector<FreeDof> free_;    ///< per coordinate; empty without dashpots, as the next one
   std::vector<Octet> velocity_;  ///< v_free, then v+
   Octet dashpot_loss_{};         ///< in the step, before contact [J]
   std::array<bool, octet_size> braked_{};
