@@ -197,6 +197,11 @@ class Study(unittest.TestCase):
         said = self.fragility("--runner", "ensemble", "--ranks", "2", **study).stdout
         rows = [row for row in rows_of(self.place / "out" / "probability.csv") if row["event"].startswith("relay fails")]
         found = {row["gap [m]"]: int(row["hits"]) for row in rows}
+
+        def joint_of(owner, deviation):
+            return {f"{floor}_{key}": value for floor in ("floor1", "floor2") for key, value in (
+                ("gap", 0.01), ("gap_deviation", deviation), ("gap_length", 1.5), ("gap_seed", 100000 + owner))}
+
         failed, gaps, spectra, wider = 0, set(), {}, []
         for sample, row in enumerate(rows_of(self.place / "out" / "design.csv")):
             motion = {**study["options"], "motion_x_seed": row["motion x"], "motion_x_duration": 6, "motion_x_pga": 5,
@@ -204,11 +209,6 @@ class Study(unittest.TestCase):
                        "spectra_damping": STUDY["dampings"],
                        **{f"{name}_{key}": value for name, one in STUDY["reduction"].items()
                           for key, value in one.items()}}
-
-            def joint_of(owner, deviation):
-                return {f"{floor}_{key}": value for floor in ("floor1", "floor2") for key, value in (
-                    ("gap", 0.01), ("gap_deviation", deviation), ("gap_length", 1.5), ("gap_seed", 100000 + owner))}
-
             run = pounding.run(two_buildings.SCENE, self.place / f"{sample}-wider", 1, **motion, **joint_of(sample, 0.006))
             wider.append(run.spectrum("left_roof", "x", 0.05)[1])
             for owner in (sample, (sample + 1) % 3):

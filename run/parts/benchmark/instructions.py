@@ -18,6 +18,7 @@ UNITS = {"v4": "avx512f", "v3": "avx2", "v2": "sse4_2"}  # and a flag of process
 WHOLE = "whole step"
 ARITHMETIC = re.compile(r"v?(f?n?m?(add|sub)\w*|mul|div|sqrt|max|min)\w*[ps]d$")
 SHUFFLE = re.compile(r"v?(perm|shuf|unpck|p?align|insert|extract|blend|broadcast|pbroadcast|compress|expand|movddup|movhlps|k)")
+INTO_MEMORY = re.compile(r",[^,()]*\([^()]*\)(\{%k\d\})?$")  # the last operand
 KINDS = ["instructions", "arithmetic", "loads", "stores", "shuffles and masks"]
 MULTIPLY_ADDS = 2 * 2 * 4  # operations that machine_limits does in a cycle: two multiply-adds of four
 PER_CYCLE = {"arithmetic": 2, "loads": 2, "stores": 1, "instructions": 8}  # of full vectors, on a core of today
@@ -35,17 +36,13 @@ class Count(NamedTuple):
 def kinds_of(mnemonic: str, operands: str) -> list:
     """What an instruction, as objdump writes it, takes of a core: some load and compute."""
     found = ["instructions"]
-    at = operands.find("(")
-    touches = at >= 0 and not mnemonic.startswith(("lea", "nop", "prefetch"))
-    last = operands.rfind(",", 0, at) if at >= 0 else -1
-    stores = touches and mnemonic.startswith(("v", "mov")) and "mov" in mnemonic and ")" in operands \
-        and not operands[operands.rfind(")") + 1:].replace("{%k", "").count("%") and last >= 0
     if ARITHMETIC.match(mnemonic):
         found.append("arithmetic")
     elif SHUFFLE.match(mnemonic):
         found.append("shuffles and masks")
-    if touches:
-        found.append("stores" if stores or mnemonic.startswith("push") else "loads")
+    if "(" in operands and not mnemonic.startswith(("lea", "nop", "prefetch")):
+        stores = "mov" in mnemonic and INTO_MEMORY.search(operands) or mnemonic.startswith("push")
+        found.append("stores" if stores else "loads")
     return found
 
 
