@@ -54,7 +54,7 @@ void add_matrices(const std::string& option, const std::string& folder,
 std::map<std::string, std::string> lasting_options(MPI_Comm comm, const std::string& resolved) {
   std::map<std::string, std::string> options;
   for (const auto& [name, value] : resolved_values(resolved)) {
-    if (!may_change_on_restart(name)) options[name] = value;
+    if (!may_differ(name, Comparison::restart)) options[name] = value;
   }
   on_rank0(comm, [&] {
     const std::map<std::string, std::string> named = options;

@@ -1,7 +1,5 @@
 #include "ensemble/ensemble_identity.h"
 
-#include <algorithm>
-#include <array>
 #include <filesystem>
 #include <set>
 
@@ -12,15 +10,8 @@
 namespace pounding {
 namespace {
 
-/// Options that leave the numbers of an ensemble as they are.
-constexpr auto of_no_effect = std::to_array<std::string_view>(
-    {"title", "output", "ensemble", "dry_run", "progress_interval", "mesh_time_limit", "modes",
-     "modes_solver", "partition", "csv_digits", "checkpoint_interval", "checkpoint_steps",
-     "fidelity_target", "fidelity_window", "vector_unit"});
-
 bool counts(const std::string& name) {
-  return std::ranges::find(of_no_effect, name) == of_no_effect.end() &&
-         !name.ends_with("_modal_basis") && !is_petsc_option(name);
+  return !may_differ(name, Comparison::ensemble) && !name.ends_with("_modal_basis");
 }
 
 bool names_content(const std::string& name) {

@@ -1,56 +1,12 @@
 #include "scene/mesh_options.h"
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include "common/component_names.h"
 #include "scene/option_table.h"
 
 namespace pounding {
 namespace {
-
-/// Options of a run that leave its meshes, contacts, probes and their shares as they are.
-constexpr auto of_no_effect = std::to_array<std::string_view>({"title",
-                                                               "end_time",
-                                                               "courant",
-                                                               "time_step",
-                                                               "allow_unstable",
-                                                               "omega_max_tolerance",
-                                                               "modes",
-                                                               "modes_solver",
-                                                               "write_modes",
-                                                               "write_model",
-                                                               "preload_solver",
-                                                               "gap_tolerance",
-                                                               "impact_merge_time",
-                                                               "force_window",
-                                                               "output_interval",
-                                                               "gap_interval",
-                                                               "energy_interval",
-                                                               "mesh_time_limit",
-                                                               "dry_run",
-                                                               "predict_ranks",
-                                                               "latency",
-                                                               "bandwidth",
-                                                               "vector_unit",
-                                                               "progress_interval",
-                                                               "output",
-                                                               "csv_digits",
-                                                               "fields_interval",
-                                                               "fields_start",
-                                                               "fields_end",
-                                                               "fields_format",
-                                                               "checkpoint_interval",
-                                                               "checkpoint_steps",
-                                                               "restart",
-                                                               "stiffness",
-                                                               "motion_level",
-                                                               "resampling",
-                                                               "fidelity_target",
-                                                               "fidelity_window",
-                                                               "mesh_pieces",
-                                                               "write_mesh_pieces"});
 
 /// Whether an option is of the motion of the ground or of the spectra.
 bool is_of_motion(const std::string& name) {
@@ -73,8 +29,8 @@ std::vector<std::pair<std::string, std::string>> mesh_options(
     const std::vector<std::pair<std::string, std::string>>& in_force, const Scene& scene) {
   std::vector<std::pair<std::string, std::string>> options;
   for (const auto& [name, value] : in_force) {
-    const bool counts = std::ranges::find(of_no_effect, name) == of_no_effect.end() &&
-                        !is_of_motion(name) && !is_file(name, scene);
+    const bool counts =
+        !may_differ(name, Comparison::pieces) && !is_of_motion(name) && !is_file(name, scene);
     if (counts) options.emplace_back(name, value);
   }
   for (const Structure& structure : scene.structures) {

@@ -53,6 +53,22 @@ constexpr Families for_extents =
 constexpr Families for_yielding = families_of(
     {Family::shell, Family::beam, Family::bar, Family::grounded_spring, Family::spring});
 
+constexpr Comparisons free_among(std::initializer_list<Comparison> comparisons) {
+  Comparisons all;
+  for (const Comparison one : comparisons) all.bits |= 1U << static_cast<unsigned>(one);
+  return all;
+}
+using enum Comparison;
+constexpr Comparisons free_everywhere = free_among({pieces, scene, ensemble, restart});
+constexpr Comparisons free_but_in_pieces = free_among({scene, ensemble, restart});
+constexpr Comparisons free_but_in_scene = free_among({pieces, ensemble, restart});
+constexpr Comparisons free_but_on_restart = free_among({pieces, scene, ensemble});
+constexpr Comparisons free_of_steps = free_among({pieces, restart});
+constexpr Comparisons free_of_fidelity = free_among({pieces, ensemble});
+constexpr Comparisons free_in_pieces = free_among({pieces});
+constexpr Comparisons free_in_ensemble = free_among({ensemble});
+constexpr Comparisons free_on_restart = free_among({restart});
+
 constexpr Preset required{false, true, "required"};
 constexpr Preset value(std::string_view text) {
   return {true, false, text};
@@ -63,7 +79,7 @@ constexpr Preset absent(std::string_view when) {
 
 // clang-format off
 constexpr std::array option_rows{
-    OptionRow{Block::run, "title", Kind::text, "text", value(""), any, "text", "one line that names the run"},
+    OptionRow{Block::run, "title", Kind::text, "text", value(""), any, "text", "one line that names the run", {}, free_but_in_scene},
     OptionRow{Block::run, "structures", Kind::names, "names", required, any, "", "the buildings"},
     OptionRow{Block::run, "contacts", Kind::names, "names", value("none"), any, "", "the places where they may hit"},
     OptionRow{Block::run, "probes", Kind::names, "names", value("none"), any, "", "where the motion is recorded"},
@@ -73,52 +89,52 @@ constexpr std::array option_rows{
     OptionRow{Block::run, "supports", Kind::names, "names", value("none"), any, "", "parts of the ground that move otherwise than the motion says"},
     OptionRow{Block::run, "loads", Kind::names, "names", value("none"), any, "", "forces on groups of structures beside gravity and the motion of the ground"},
     OptionRow{Block::run, "equipment", Kind::names, "names", value("none"), any, "", "items of equipment whose capacity is set beside the spectra of their floors"},
-    OptionRow{Block::run, "end_time", Kind::real, "s", required, positive, "", "duration of the run"},
-    OptionRow{Block::run, "courant", Kind::real, "-", value("0.9"), fraction, "", "fraction of the stable time step that is used"},
-    OptionRow{Block::run, "time_step", Kind::real, "s", value("0"), not_negative, "", "time step; 0: courant x the stable one, or a shorter one that resolves vibrations up to the last of spectra_frequencies"},
-    OptionRow{Block::run, "allow_unstable", Kind::boolean, "flag", value("false"), any, "", "accept a time step above the stable one (for studies)"},
-    OptionRow{Block::run, "omega_max_tolerance", Kind::real, "-", value("1e-3"), eigen_tolerance, "", "part by which omega_max may be too large, and the stable step too small, where 1e-10 would take long"},
-    OptionRow{Block::run, "modes", Kind::integer, "-", value("12"), not_negative, "", "lowest modes computed per structure"},
-    OptionRow{Block::run, "modes_solver", Kind::choice, "word", value("auto"), any, "auto|direct|iterative", "how they are found at full order: with a factorisation, by an iteration with multigrid, or by that where the factor would take too much memory"},
-    OptionRow{Block::run, "write_modes", Kind::boolean, "flag", value("false"), any, "", "write their shapes to modes.h5, and modes.xdmf for ParaView"},
-    OptionRow{Block::run, "write_model", Kind::boolean, "flag", value("false"), any, "", "write the meshes with groups, supports, contacts and probes to model.xdmf and model.h5 for ParaView"},
+    OptionRow{Block::run, "end_time", Kind::real, "s", required, positive, "", "duration of the run", {}, free_of_steps},
+    OptionRow{Block::run, "courant", Kind::real, "-", value("0.9"), fraction, "", "fraction of the stable time step that is used", {}, free_of_steps},
+    OptionRow{Block::run, "time_step", Kind::real, "s", value("0"), not_negative, "", "time step; 0: courant x the stable one, or a shorter one that resolves vibrations up to the last of spectra_frequencies", {}, free_of_steps},
+    OptionRow{Block::run, "allow_unstable", Kind::boolean, "flag", value("false"), any, "", "accept a time step above the stable one (for studies)", {}, free_of_steps},
+    OptionRow{Block::run, "omega_max_tolerance", Kind::real, "-", value("1e-3"), eigen_tolerance, "", "part by which omega_max may be too large, and the stable step too small, where 1e-10 would take long", {}, free_of_steps},
+    OptionRow{Block::run, "modes", Kind::integer, "-", value("12"), not_negative, "", "lowest modes computed per structure", {}, free_but_in_scene},
+    OptionRow{Block::run, "modes_solver", Kind::choice, "word", value("auto"), any, "auto|direct|iterative", "how they are found at full order: with a factorisation, by an iteration with multigrid, or by that where the factor would take too much memory", {}, free_but_in_scene},
+    OptionRow{Block::run, "write_modes", Kind::boolean, "flag", value("false"), any, "", "write their shapes to modes.h5, and modes.xdmf for ParaView", {}, free_everywhere},
+    OptionRow{Block::run, "write_model", Kind::boolean, "flag", value("false"), any, "", "write the meshes with groups, supports, contacts and probes to model.xdmf and model.h5 for ParaView", {}, free_everywhere},
     OptionRow{Block::run, "gravity", Kind::real, "m/s2", value("0"), not_negative, "", "acceleration of gravity, along -z, of every structure without one of its own"},
     OptionRow{Block::run, "preload", Kind::choice, "word", value("none"), any, "none|static", "static: the run starts from the equilibrium under gravity, contacts closed where they carry"},
-    OptionRow{Block::run, "preload_solver", Kind::choice, "word", value("auto"), any, "auto|direct|iterative", "how the equilibrium is solved: by a factorisation, by conjugate gradients, or as the memory allows"},
-    OptionRow{Block::run, "gap_tolerance", Kind::real, "-", value("1e-12"), not_negative, "", "contact where gap <= gap_tolerance x model size"},
-    OptionRow{Block::run, "impact_merge_time", Kind::real, "s", value("1e-3"), not_negative, "", "contacts separated by less are one impact"},
-    OptionRow{Block::run, "force_window", Kind::real, "s", value("1e-3"), positive, "", "time over which the largest force of an impact is taken: its largest impulse within it, over it"},
-    OptionRow{Block::run, "output_interval", Kind::real, "s", value("5e-5"), positive, "", "time between two samples of the probes"},
-    OptionRow{Block::run, "gap_interval", Kind::real, "s", value("0"), not_negative, "", "time between two samples of the gaps, not a number in between unless they were looked at anyway; 0: with every sample of the probes"},
-    OptionRow{Block::run, "energy_interval", Kind::integer, "steps", value("100"), at_least_1, "", "steps between two lines of the energy balance; each takes one more product with the stiffness"},
-    OptionRow{Block::run, "mesh_time_limit", Kind::real, "s", value("600"), positive, "", "time that Gmsh may take for one mesh"},
+    OptionRow{Block::run, "preload_solver", Kind::choice, "word", value("auto"), any, "auto|direct|iterative", "how the equilibrium is solved: by a factorisation, by conjugate gradients, or as the memory allows", {}, free_in_pieces},
+    OptionRow{Block::run, "gap_tolerance", Kind::real, "-", value("1e-12"), not_negative, "", "contact where gap <= gap_tolerance x model size", {}, free_in_pieces},
+    OptionRow{Block::run, "impact_merge_time", Kind::real, "s", value("1e-3"), not_negative, "", "contacts separated by less are one impact", {}, free_in_pieces},
+    OptionRow{Block::run, "force_window", Kind::real, "s", value("1e-3"), positive, "", "time over which the largest force of an impact is taken: its largest impulse within it, over it", {}, free_in_pieces},
+    OptionRow{Block::run, "output_interval", Kind::real, "s", value("5e-5"), positive, "", "time between two samples of the probes", {}, free_in_pieces},
+    OptionRow{Block::run, "gap_interval", Kind::real, "s", value("0"), not_negative, "", "time between two samples of the gaps, not a number in between unless they were looked at anyway; 0: with every sample of the probes", {}, free_in_pieces},
+    OptionRow{Block::run, "energy_interval", Kind::integer, "steps", value("100"), at_least_1, "", "steps between two lines of the energy balance; each takes one more product with the stiffness", {}, free_in_pieces},
+    OptionRow{Block::run, "mesh_time_limit", Kind::real, "s", value("600"), positive, "", "time that Gmsh may take for one mesh", {}, free_everywhere},
     OptionRow{Block::run, "law_cycles", Kind::reals, "-", value("0"), not_negative, "amplitudes over the first corner", "in place of a run: takes every law of the scene through cycles of these amplitudes and writes laws.csv; 0: none"},
-    OptionRow{Block::run, "dry_run", Kind::boolean, "flag", value("false"), any, "", "check the model, print the cost of a run, and stop"},
-    OptionRow{Block::run, "predict_ranks", Kind::integer, "ranks", value("0"), rank_count, "", "unknowns, messages, memory and time of a step foreseen on so many ranks, which need not be there; 0: none"},
-    OptionRow{Block::run, "latency", Kind::real, "s", value("2e-6"), positive, "", "time of a short message between these ranks"},
-    OptionRow{Block::run, "bandwidth", Kind::real, "B/s", value("1e10"), positive, "", "of long messages between these ranks"},
-    OptionRow{Block::run, "vector_unit", Kind::choice, "word", value("auto"), any, "auto|v2|v3|v4", "whose kernels compute: v2 (SSE4.2), v3 (AVX2 and FMA), v4 (AVX-512), or the best that every rank has"},
-    OptionRow{Block::run, "progress_interval", Kind::real, "s", value("2"), positive, "", "phases of the start-up that take longer say how far they are, twice as late each time; in a log the steps as well"},
-    OptionRow{Block::run, "output", Kind::text, "folder", value("results"), any, "a folder", "result folder"},
-    OptionRow{Block::run, "csv_digits", Kind::integer, "-", value("9"), csv_digits, "", "significant digits of the numbers in spectra.csv, impacts.csv, energy.csv and forces.csv; 17: to the bit"},
-    OptionRow{Block::run, "fields_interval", Kind::real, "s", value("0"), not_negative, "", "time between two frames of the motion of all nodes in fields.h5, for ParaView; 0: none"},
-    OptionRow{Block::run, "fields_start", Kind::real, "s", value("0"), not_negative, "", "time of the first frame"},
-    OptionRow{Block::run, "fields_end", Kind::real, "s", value("0"), not_negative, "", "no frame is later; 0: until the end of the run"},
-    OptionRow{Block::run, "fields_format", Kind::choice, "word", value("both"), any, "xdmf|vtkhdf|both", "how ParaView finds the frames in fields.h5: by fields.xdmf, by fields.vtkhdf (ParaView 5.12 and later), or by either"},
-    OptionRow{Block::run, "checkpoint_interval", Kind::real, "s", value("0"), not_negative, "", "wall time between two checkpoints; 0: one only when a signal stops the run"},
-    OptionRow{Block::run, "checkpoint_steps", Kind::integer, "steps", value("0"), not_negative, "", "steps between two checkpoints; 0: none"},
-    OptionRow{Block::run, "ensemble", Kind::text, "file", value("none"), any, "a CSV file or none", "many runs at once: a table whose first line names options of the scene, with a line of values for each run; writes ensemble.h5 and ensemble.csv"},
-    OptionRow{Block::run, "export_matrices", Kind::text, "folder", value("none"), any, "a folder or none", "writes the matrices of every structure there, with contact, influence and probe rows"},
-    OptionRow{Block::run, "restart", Kind::text, "file", value("none"), any, "a checkpoint.h5 or none", "checkpoint to continue from, with the history.h5 beside it"},
-    OptionRow{Block::run, "partition", Kind::choice, "word", value("auto"), any, "auto|elements|structures", "parts shared out among the ranks: elements, whole structures, or whichever costs a step less"},
-    OptionRow{Block::run, "mesh_pieces", Kind::text, "folder", value("none"), any, "a folder or none", "meshes cut before, of which every rank reads its piece alone"},
-    OptionRow{Block::run, "write_mesh_pieces", Kind::integer, "ranks", value("0"), rank_count, "", "cuts the meshes for so many ranks into the folder mesh_pieces, and stops; 0: does not"},
-    OptionRow{Block::run, "stiffness", Kind::choice, "word", value("auto"), any, "auto|assembled|element", "how K is applied: as a matrix, element by element, or as suits the mesh"},
-    OptionRow{Block::run, "fidelity_target", Kind::real, "-", absent("optional"), fraction, "", "rms error of the floor spectra beside full order that is accepted (0.05: 5 %); the program takes as few modes as it finds to be enough, or full order"},
-    OptionRow{Block::run, "fidelity_window", Kind::real, "s", value("0"), not_negative, "", "part of the run around its strongest impact that is stepped at full order as well, by which the error of reduced structures is estimated; 0: none"},
+    OptionRow{Block::run, "dry_run", Kind::boolean, "flag", value("false"), any, "", "check the model, print the cost of a run, and stop", {}, free_everywhere},
+    OptionRow{Block::run, "predict_ranks", Kind::integer, "ranks", value("0"), rank_count, "", "unknowns, messages, memory and time of a step foreseen on so many ranks, which need not be there; 0: none", {}, free_everywhere},
+    OptionRow{Block::run, "latency", Kind::real, "s", value("2e-6"), positive, "", "time of a short message between these ranks", {}, free_everywhere},
+    OptionRow{Block::run, "bandwidth", Kind::real, "B/s", value("1e10"), positive, "", "of long messages between these ranks", {}, free_everywhere},
+    OptionRow{Block::run, "vector_unit", Kind::choice, "word", value("auto"), any, "auto|v2|v3|v4", "whose kernels compute: v2 (SSE4.2), v3 (AVX2 and FMA), v4 (AVX-512), or the best that every rank has", {}, free_everywhere},
+    OptionRow{Block::run, "progress_interval", Kind::real, "s", value("2"), positive, "", "phases of the start-up that take longer say how far they are, twice as late each time; in a log the steps as well", {}, free_everywhere},
+    OptionRow{Block::run, "output", Kind::text, "folder", value("results"), any, "a folder", "result folder", {}, free_everywhere},
+    OptionRow{Block::run, "csv_digits", Kind::integer, "-", value("9"), csv_digits, "", "significant digits of the numbers in spectra.csv, impacts.csv, energy.csv and forces.csv; 17: to the bit", {}, free_everywhere},
+    OptionRow{Block::run, "fields_interval", Kind::real, "s", value("0"), not_negative, "", "time between two frames of the motion of all nodes in fields.h5, for ParaView; 0: none", {}, free_but_on_restart},
+    OptionRow{Block::run, "fields_start", Kind::real, "s", value("0"), not_negative, "", "time of the first frame", {}, free_but_on_restart},
+    OptionRow{Block::run, "fields_end", Kind::real, "s", value("0"), not_negative, "", "no frame is later; 0: until the end of the run", {}, free_but_on_restart},
+    OptionRow{Block::run, "fields_format", Kind::choice, "word", value("both"), any, "xdmf|vtkhdf|both", "how ParaView finds the frames in fields.h5: by fields.xdmf, by fields.vtkhdf (ParaView 5.12 and later), or by either", {}, free_everywhere},
+    OptionRow{Block::run, "checkpoint_interval", Kind::real, "s", value("0"), not_negative, "", "wall time between two checkpoints; 0: one only when a signal stops the run", {}, free_everywhere},
+    OptionRow{Block::run, "checkpoint_steps", Kind::integer, "steps", value("0"), not_negative, "", "steps between two checkpoints; 0: none", {}, free_everywhere},
+    OptionRow{Block::run, "ensemble", Kind::text, "file", value("none"), any, "a CSV file or none", "many runs at once: a table whose first line names options of the scene, with a line of values for each run; writes ensemble.h5 and ensemble.csv", {}, free_in_ensemble},
+    OptionRow{Block::run, "export_matrices", Kind::text, "folder", value("none"), any, "a folder or none", "writes the matrices of every structure there, with contact, influence and probe rows", {}, free_but_in_pieces},
+    OptionRow{Block::run, "restart", Kind::text, "file", value("none"), any, "a checkpoint.h5 or none", "checkpoint to continue from, with the history.h5 beside it", {}, free_everywhere},
+    OptionRow{Block::run, "partition", Kind::choice, "word", value("auto"), any, "auto|elements|structures", "parts shared out among the ranks: elements, whole structures, or whichever costs a step less", {}, free_but_in_pieces},
+    OptionRow{Block::run, "mesh_pieces", Kind::text, "folder", value("none"), any, "a folder or none", "meshes cut before, of which every rank reads its piece alone", {}, free_everywhere},
+    OptionRow{Block::run, "write_mesh_pieces", Kind::integer, "ranks", value("0"), rank_count, "", "cuts the meshes for so many ranks into the folder mesh_pieces, and stops; 0: does not", {}, free_everywhere},
+    OptionRow{Block::run, "stiffness", Kind::choice, "word", value("auto"), any, "auto|assembled|element", "how K is applied: as a matrix, element by element, or as suits the mesh", {}, free_in_pieces},
+    OptionRow{Block::run, "fidelity_target", Kind::real, "-", absent("optional"), fraction, "", "rms error of the floor spectra beside full order that is accepted (0.05: 5 %); the program takes as few modes as it finds to be enough, or full order", {}, free_of_fidelity},
+    OptionRow{Block::run, "fidelity_window", Kind::real, "s", value("0"), not_negative, "", "part of the run around its strongest impact that is stepped at full order as well, by which the error of reduced structures is estimated; 0: none", {}, free_of_fidelity},
     OptionRow{Block::run, "motion_input", Kind::choice, "word", value("base"), any, "base|below", "place of the motion: the ground under every support, or a wave that enters from below through the faces of absorbing_base"},
-    OptionRow{Block::run, "motion_level", Kind::real, "-", value("1"), positive, "", "factor on the motion along all axes, after its pga or scale"},
-    OptionRow{Block::run, "resampling", Kind::choice, "word", value("linear"), any, "linear|band_limited", "how records are upsampled to the time step"},
+    OptionRow{Block::run, "motion_level", Kind::real, "-", value("1"), positive, "", "factor on the motion along all axes, after its pga or scale", {}, free_in_pieces},
+    OptionRow{Block::run, "resampling", Kind::choice, "word", value("linear"), any, "linear|band_limited", "how records are upsampled to the time step", {}, free_in_pieces},
 
     OptionRow{Block::structure, "<structure>_mesh", Kind::text, "file", required, any, "a .geo or .msh file", "geometry to mesh (.geo) or mesh"},
     OptionRow{Block::structure, "<structure>_mesh_set", Kind::text, "pairs", value("none"), any, "name=value,name=value or none", "parameters of the .geo file"},
@@ -340,17 +356,11 @@ constexpr std::array option_rows{
     OptionRow{Block::equipment, "<equipment>_cabinet_frequency", Kind::real, "Hz", absent("left out: it is mounted on the floor"), positive, "", "frequency of the cabinet in which it is mounted, an oscillator on the floor"},
     OptionRow{Block::equipment, "<equipment>_cabinet_damping", Kind::real, "-", value("0.05"), damping_ratio, "", "damping ratio of the cabinet"},
 
-    OptionRow{Block::spectra, "spectra_damping", Kind::reals, "-", value("0.05"), damping_ratio, "a comma-separated list of numbers", "damping ratios of the oscillators"},
-    OptionRow{Block::spectra, "spectra_frequencies", Kind::text, "Hz", value("0.5:400:200log"), positive, "start:stop:COUNTlog, start:stop:COUNTlin (COUNT 2 to 100000) or an increasing list", "frequencies of the oscillators"},
-    OptionRow{Block::spectra, "spectra_start", Kind::real, "s", value("0"), not_negative, "", "time from which spectra and peak values count: the oscillators are at rest then"},
-    OptionRow{Block::spectra, "peak_frequency", Kind::real, "Hz", value("0"), not_negative, "", "peaks of acceleration are those after a low-pass at this frequency; 0: the highest of spectra_frequencies"},
+    OptionRow{Block::spectra, "spectra_damping", Kind::reals, "-", value("0.05"), damping_ratio, "a comma-separated list of numbers", "damping ratios of the oscillators", {}, free_on_restart},
+    OptionRow{Block::spectra, "spectra_frequencies", Kind::text, "Hz", value("0.5:400:200log"), positive, "start:stop:COUNTlog, start:stop:COUNTlin (COUNT 2 to 100000) or an increasing list", "frequencies of the oscillators", {}, free_on_restart},
+    OptionRow{Block::spectra, "spectra_start", Kind::real, "s", value("0"), not_negative, "", "time from which spectra and peak values count: the oscillators are at rest then", {}, free_on_restart},
+    OptionRow{Block::spectra, "peak_frequency", Kind::real, "Hz", value("0"), not_negative, "", "peaks of acceleration are those after a low-pass at this frequency; 0: the highest of spectra_frequencies", {}, free_on_restart},
 };
-
-// Options that touch neither motion nor records; the time step itself is compared, not its options.
-constexpr std::array changeable_on_restart = std::to_array<std::string_view>({
-    "title", "end_time", "courant", "time_step", "allow_unstable", "omega_max_tolerance", "progress_interval", "modes", "modes_solver", "write_modes", "write_model", "mesh_time_limit", "dry_run", "output",
-    "checkpoint_interval", "checkpoint_steps", "export_matrices", "partition", "mesh_pieces", "write_mesh_pieces", "restart", "spectra_damping",
-    "spectra_frequencies", "spectra_start", "peak_frequency", "csv_digits", "fields_format", "predict_ranks", "latency", "bandwidth", "vector_unit"});
 // clang-format on
 
 }  // namespace
@@ -440,9 +450,10 @@ std::string expected_text(const OptionRow& row) {
   return std::string(row.form) + (ranged ? ", each" + within : "") + (numeric ? unit : "");
 }
 
-bool may_change_on_restart(std::string_view name) {
-  return is_petsc_option(name) ||
-         std::ranges::find(changeable_on_restart, name) != changeable_on_restart.end();
+bool may_differ(std::string_view name, Comparison comparison) {
+  if (is_petsc_option(name)) return true;
+  const auto row = std::ranges::find(option_rows, name, &OptionRow::pattern);
+  return row != option_rows.end() && row->free.contains(comparison);
 }
 
 }  // namespace pounding

@@ -66,6 +66,21 @@ struct Families {
   }
 };
 
+/// Comparison of two runs by their options: of the meshes, contacts, probes and shares that pieces
+/// of meshes were written for; of the physics with that of the scene file; of the numbers of an
+/// ensemble with those already computed; of a run with the one that it continues (the time step
+/// itself is compared, not its options).
+enum class Comparison { pieces, scene, ensemble, restart };
+
+/// Set of comparisons, a bit each.
+struct Comparisons {
+  unsigned bits = 0;
+
+  constexpr bool contains(Comparison comparison) const {
+    return (bits >> static_cast<unsigned>(comparison) & 1U) != 0;
+  }
+};
+
 struct OptionRow {
   OptionBlock block;
   std::string_view pattern;  ///< with placeholders: <structure>_<group>_element
@@ -76,6 +91,7 @@ struct OptionRow {
   std::string_view form;  ///< choice: the words, separated by '|'; reals, text: the shape expected
   std::string_view help;
   Families families{};  ///< region: elements whose option it is, refused of others; none: all
+  Comparisons free{};   ///< run, spectra: in which it may have another value
 
   bool is_for(ElementFamily family) const {
     return families.bits == 0 || families.contains(family);
@@ -101,9 +117,9 @@ std::string expected_text(const OptionRow& row);
 std::span<const std::string_view> petsc_option_patterns();
 bool is_petsc_option(std::string_view name);
 
-/// A run that continues another may have another value of this option: its end, its written where,
-/// and those of PETSc and SLEPc.
-bool may_change_on_restart(std::string_view name);
+/// Whether two runs may have different values of the option `name` in a comparison: of those that
+/// the table marks as free in it, and of those of PETSc and SLEPc.
+bool may_differ(std::string_view name, Comparison comparison);
 
 /// The text of `pounding -help`: usage, every option with unit, default, range and one line, and
 /// the admitted PETSc and SLEPc names.

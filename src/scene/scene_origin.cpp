@@ -1,26 +1,13 @@
 #include "scene/scene_origin.h"
 
-#include <algorithm>
-#include <array>
-#include <string_view>
-
+#include "scene/option_table.h"
 #include "scene/option_values.h"
 
 namespace pounding {
 namespace {
 
-/// Options of the whole run that leave the physics as it is.
-constexpr auto of_the_run = std::to_array<std::string_view>(
-    {"output",           "restart",           "dry_run",         "write_modes",
-     "write_model",      "progress_interval", "mesh_time_limit", "checkpoint_interval",
-     "checkpoint_steps", "export_matrices",   "csv_digits",      "partition",
-     "mesh_pieces",      "write_mesh_pieces", "fields_interval", "fields_start",
-     "fields_end",       "fields_format",     "predict_ranks",   "latency",
-     "bandwidth",        "vector_unit"});
-
 bool is_silent(const std::string& name) {
-  return std::ranges::find(of_the_run, name) != of_the_run.end() ||
-         name.ends_with("_modal_basis") || is_petsc_option(name);
+  return may_differ(name, Comparison::scene) || name.ends_with("_modal_basis");
 }
 
 }  // namespace

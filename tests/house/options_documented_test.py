@@ -16,7 +16,7 @@ RANGES = {"any": "", "positive": "> 0", "not_negative": ">= 0", "at_least_1": ">
           "Range{0, 10, false, false}": "[0, 10]", "rank_count": "[0, 99999]"}
 
 ROW = re.compile(r'OptionRow\{\s*Block::(\w+),\s*"([^"]+)",\s*Kind::(\w+),\s*"([^"]*)",\s*'
-                 r'(required|value\("[^"]*"\)|absent\("[^"]*"\)),\s*(Range\{[^}]*\}|\w+),\s*("[^"]*"|\w+),\s*"[^"]*"(?:,\s*\w+)?\}')
+                 r'(required|value\("[^"]*"\)|absent\("[^"]*"\)),\s*(Range\{[^}]*\}|\w+),\s*("[^"]*"|\w+),\s*"[^"]*"(?:,\s*(?:\w+|\{\}))*\}')
 PETSC_ROW = re.compile(r'\{"([a-z][a-z0-9_]*\*?)", Value::\w+\}')
 NAME = r"[A-Za-z]\w*"
 

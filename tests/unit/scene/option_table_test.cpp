@@ -155,11 +155,34 @@ TEST(OptionTable, ValuesOfTheLibrariesOptionsAreChecked) {
 
 TEST(OptionTable, ContinuedRunKeepsWhatTouchesTheMotion) {
   for (const char* name : {"end_time", "output", "restart", "checkpoint_steps", "log_view"}) {
-    EXPECT_TRUE(may_change_on_restart(name)) << name;
+    EXPECT_TRUE(may_differ(name, Comparison::restart)) << name;
   }
   for (const char* name : {"structures", "tower_mesh", "tower_damping_beta", "output_interval",
                            "energy_interval", "impact_merge_time", "motion_x_pga"}) {
-    EXPECT_FALSE(may_change_on_restart(name)) << name;
+    EXPECT_FALSE(may_differ(name, Comparison::restart)) << name;
+  }
+}
+
+TEST(OptionTable, SaysInWhichComparisonsAnOptionIsFree) {
+  const std::vector<Comparison> all{Comparison::pieces, Comparison::scene, Comparison::ensemble,
+                                    Comparison::restart};
+  const std::map<std::string, std::vector<Comparison>> free{
+      {"vector_unit", all},
+      {"write_modes", all},
+      {"log_view", all},
+      {"partition", {Comparison::scene, Comparison::ensemble, Comparison::restart}},
+      {"fields_interval", {Comparison::pieces, Comparison::scene, Comparison::ensemble}},
+      {"modes", {Comparison::pieces, Comparison::ensemble, Comparison::restart}},
+      {"end_time", {Comparison::pieces, Comparison::restart}},
+      {"spectra_damping", {Comparison::restart}},
+      {"ensemble", {Comparison::ensemble}},
+      {"gravity", {}},
+      {"tower_mesh", {}}};
+  for (const auto& [name, where] : free) {
+    for (const Comparison one : all) {
+      EXPECT_EQ(may_differ(name, one), std::ranges::find(where, one) != where.end())
+          << name << " in comparison " << static_cast<int>(one);
+    }
   }
 }
 
