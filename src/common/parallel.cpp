@@ -1,8 +1,11 @@
 #include "common/parallel.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <new>
 #include <stdexcept>
+#include <thread>
 
 #include "common/error.h"
 #include "common/memory_use.h"
@@ -29,6 +32,21 @@ std::pair<Failure, std::string> failure_of(MPI_Comm comm, const std::function<vo
 [[noreturn]] void raise(Failure failure, const std::string& message) {
   if (failure == Failure::user) throw UserError(message);
   throw std::runtime_error(message);
+}
+
+/// Ends a request; a wait of more than some microseconds leaves the processor to others, as Gmsh's
+/// process while rank 0 waits for its mesh.
+void wait_asleep(MPI_Request& request) {
+  constexpr int quick_looks = 200;
+  constexpr std::chrono::microseconds longest(1000);
+  std::chrono::microseconds pause(20);
+  for (int look = 0, done = 0;; ++look) {
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    if (done != 0) return;
+    if (look < quick_looks) continue;
+    std::this_thread::sleep_for(pause);
+    pause = std::min(2 * pause, longest);
+  }
 }
 
 }  // namespace
@@ -69,7 +87,9 @@ void on_rank0(MPI_Comm comm, const std::function<void()>& work) {
   std::pair<Failure, std::string> outcome{Failure::none, ""};
   if (rank_of(comm) == 0) outcome = failure_of(comm, work);
   int kind = static_cast<int>(outcome.first);
-  MPI_Bcast(&kind, 1, MPI_INT, 0, comm);
+  MPI_Request shared = MPI_REQUEST_NULL;
+  MPI_Ibcast(&kind, 1, MPI_INT, 0, comm, &shared);
+  wait_asleep(shared);
   if (kind != 0) {
     broadcast(comm, outcome.second);
     raise(static_cast<Failure>(kind), outcome.second);
