@@ -136,8 +136,13 @@ void read_meshes(MPI_Comm comm, Scene& scene, Profile& profile, const ContactsKn
         join_parcel(comm, scene.structures[s].name, std::move(parcels[s]), whole.meshes[s]));
   }
   on_rank0(comm, [&] {
+    std::vector<const Structure*> reduced;
+    for (const Structure& structure : scene.structures) {
+      if (structure.modal) reduced.push_back(&structure);
+    }
+    MeshReader reader(std::move(reduced), scene.mesh_time_limit);
     for (std::size_t s = 0; s < scene.structures.size(); ++s) {
-      if (scene.structures[s].modal) read_whole_mesh(comm, scene, s, whole, model);
+      if (scene.structures[s].modal) read_whole_mesh(comm, scene, s, reader, whole, model);
     }
   });
 }

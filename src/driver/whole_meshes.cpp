@@ -10,7 +10,6 @@
 #include "driver/warnings.h"
 #include "interactions/pairing/absorbing_faces.h"
 #include "mesh/find_supported_nodes.h"
-#include "mesh/gmsh_reader.h"
 #include "mesh/sliding_order.h"
 #include "mesh/soil_node.h"
 #include "mesh/start_states.h"
@@ -36,13 +35,14 @@ void check_mesh(const Scene& scene, std::size_t s, const GlobalMesh& mesh, Model
 
 }  // namespace
 
-void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, WholeMeshes& whole, Model& model) {
+void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, MeshReader& reader,
+                     WholeMeshes& whole, Model& model) {
   Structure& structure = scene.structures[s];
   GlobalMesh& mesh = whole.meshes[s];
   const Progress progress(comm, structure.name + ": mesh", scene.progress_interval);
   fit_soil(structure);
   append(fit_doubts(structure), model.warnings);
-  MeshRead read = read_mesh(structure, scene.mesh_time_limit);
+  MeshRead read = reader.next();
   mesh = std::move(read.mesh);
   model.buildings[s].findings.files = std::move(read.files);
   model.buildings[s].findings.divided = std::move(read.divided);
@@ -59,8 +59,11 @@ void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, WholeMeshes& wh
 WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model) {
   const std::size_t count = scene.structures.size();
   WholeMeshes whole{std::vector<GlobalMesh>(count), std::vector<MatPlace>(count), {}};
+  std::vector<const Structure*> structures;
+  for (const Structure& structure : scene.structures) structures.push_back(&structure);
+  MeshReader reader(std::move(structures), scene.mesh_time_limit);
   for (std::size_t s = 0; s < count; ++s) {
-    read_whole_mesh(comm, scene, s, whole, model);
+    read_whole_mesh(comm, scene, s, reader, whole, model);
     check_mesh(scene, s, whole.meshes[s], model);
   }
   if (std::ranges::any_of(model.buildings,

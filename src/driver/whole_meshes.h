@@ -8,6 +8,7 @@
 #include "driver/model.h"
 #include "interactions/pairing/find_interface.h"
 #include "mesh/global_mesh.h"
+#include "mesh/gmsh_reader.h"
 #include "mesh/partition.h"
 #include "scene/scene.h"
 
@@ -21,10 +22,11 @@ struct WholeMeshes {
   std::vector<interactions::GapShare> gap_shares;  ///< of the rows of the interface
 };
 
-/// Reads the mesh of a structure, lays its soil under the mat and finds its nodes on absorbing
-/// faces, spread springs and supports. `comm`: for lines of progress, rank 0 alone calls. Serial.
-/// Throws UserError.
-void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, WholeMeshes& whole, Model& model);
+/// Takes the mesh of a structure, the next of `reader`, lays its soil under the mat and finds its
+/// nodes on absorbing faces, spread springs and supports. `comm`: for lines of progress, rank 0
+/// alone calls. Serial. Throws UserError.
+void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, MeshReader& reader,
+                     WholeMeshes& whole, Model& model);
 
 /// The meshes of all structures, checked, with contacts, probes and forces found in them. Throws
 /// UserError for faults of meshes. Rank 0.

@@ -71,10 +71,30 @@ std::vector<std::string> command_of(const MeshRequest& request) {
 struct TimeIsUp {};
 struct AnswerCut {};
 
+/// Why no whole answer came.
+std::string describe_end(int status, const std::string& last_words) {
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGSYS) {
+    return "stopped as it was about to start a program, which no mesh may; take the command out of "
+           "it";
+  }
+  std::string text;
+  if (WIFSIGNALED(status)) {
+    const int signal = WTERMSIG(status);
+    text = "Gmsh crashed on it (signal " + std::to_string(signal) + ", " + strsignal(signal) +
+           (signal == SIGKILL ? ": was the memory enough?" : "") + ")";
+  } else {
+    text = "Gmsh ended without an answer (exit status " + std::to_string(WEXITSTATUS(status)) + ")";
+  }
+  if (!last_words.empty()) text += " after '" + last_words + "'";
+  return text + "; look at the file and at the values of its parameters";
+}
+
+}  // namespace
+
 /// A running pounding-mesh, which does not outlive this object.
-class GmshProcess {
+class GmshRun::Process {
  public:
-  explicit GmshProcess(const MeshRequest& request) {
+  explicit Process(const MeshRequest& request) {
     const Pipe answer;
     const Pipe errors;
     posix_spawn_file_actions_t actions;
@@ -110,9 +130,9 @@ class GmshProcess {
       throw UserError(words[0] + " cannot be run: " + std::strerror(failure));
     }
   }
-  GmshProcess(const GmshProcess&) = delete;
-  GmshProcess& operator=(const GmshProcess&) = delete;
-  ~GmshProcess() {
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+  ~Process() {
     end();
     close(answer_);
     close(errors_);
@@ -193,31 +213,16 @@ class GmshProcess {
   int status_ = 0;
 };
 
-/// Why no whole answer came.
-std::string describe_end(int status, const std::string& last_words) {
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGSYS) {
-    return "stopped as it was about to start a program, which no mesh may; take the command out of "
-           "it";
-  }
-  std::string text;
-  if (WIFSIGNALED(status)) {
-    const int signal = WTERMSIG(status);
-    text = "Gmsh crashed on it (signal " + std::to_string(signal) + ", " + strsignal(signal) +
-           (signal == SIGKILL ? ": was the memory enough?" : "") + ")";
-  } else {
-    text = "Gmsh ended without an answer (exit status " + std::to_string(WEXITSTATUS(status)) + ")";
-  }
-  if (!last_words.empty()) text += " after '" + last_words + "'";
-  return text + "; look at the file and at the values of its parameters";
-}
+GmshRun::GmshRun(MeshRequest request)
+    : request_(std::move(request)), process_(std::make_unique<Process>(request_)) {}
 
-}  // namespace
+GmshRun::~GmshRun() = default;
 
-RawAnswer run_gmsh(const MeshRequest& request) {
-  GmshProcess process(request);
+RawAnswer GmshRun::answer() {
+  Process& process = *process_;
   const Clock::time_point deadline =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                         std::chrono::duration<double>(std::min(request.time_limit, longest_wait)));
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
+                         std::min(request_.time_limit, longest_wait)));
   std::optional<RawAnswer> answer;
   try {
     answer = read_answer([&](std::span<char> bytes) { process.read_exactly(bytes, deadline); },
@@ -225,13 +230,13 @@ RawAnswer run_gmsh(const MeshRequest& request) {
   } catch (const AnswerCut&) {  // its exit status has the reason
   } catch (const TimeIsUp&) {
     std::ostringstream text;
-    text << "option " << request.option << ": Gmsh was not done after " << request.time_limit
+    text << "option " << request_.option << ": Gmsh was not done after " << request_.time_limit
          << " s; look for a loop without end or too fine a mesh, or give a larger "
             "-mesh_time_limit";
     throw UserError(text.str());
   }
   const int status = process.end(false);
-  const std::string head = "option " + request.option + ": ";
+  const std::string head = "option " + request_.option + ": ";
   if (status != 0 || !answer) {
     throw UserError(head + describe_end(status, process.last_words()));
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,25 @@ struct MeshRequest {
   double time_limit = 600;                                      ///< [s]
 };
 
-/// Runs Gmsh in a process of its own and takes its answer through a pipe; the process is killed at
-/// the time limit, and ends with this one. Throws UserError where Gmsh reports an error, crashes,
-/// takes too long, or is stopped since the file asks for more than to be read. To be called on one
-/// rank only.
-RawAnswer run_gmsh(const MeshRequest& request);
+/// Run of Gmsh in a process of its own, which begins with the object and ends with it, with this
+/// process or at the time limit. To be used on one rank only.
+class GmshRun {
+ public:
+  /// Throws UserError where pounding-mesh cannot be run.
+  explicit GmshRun(MeshRequest request);
+  GmshRun(const GmshRun&) = delete;
+  GmshRun& operator=(const GmshRun&) = delete;
+  ~GmshRun();
+
+  /// Waits for the answer, from now on as long as the time limit; once only. Throws UserError where
+  /// Gmsh reports an error, crashes, takes too long, or is stopped since the file asks for more
+  /// than to be read.
+  RawAnswer answer();
+
+ private:
+  class Process;
+  MeshRequest request_;
+  std::unique_ptr<Process> process_;
+};
 
 }  // namespace pounding

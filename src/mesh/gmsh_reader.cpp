@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <iterator>
 #include <map>
@@ -43,7 +44,12 @@ void check_parameters(const Structure& structure, const RawMesh& raw) {
   }
 }
 
-RawAnswer read_raw_mesh(const Structure& structure, double time_limit) {
+bool is_unv(const Structure& structure) {
+  return std::filesystem::path(structure.mesh).extension() == ".unv";
+}
+
+/// Gmsh on its way to the mesh of a structure; nothing for one that is read without it.
+std::unique_ptr<GmshRun> begin_raw_mesh(const Structure& structure, double time_limit) {
   MeshRequest request;
   request.option = mesh_option(structure);
   request.time_limit = time_limit;
@@ -55,11 +61,17 @@ RawAnswer read_raw_mesh(const Structure& structure, double time_limit) {
     throw UserError("option -" + structure.name + "_mesh_set: " + structure.mesh +
                     " is a mesh, parameters apply to .geo files only");
   }
-  if (std::filesystem::path(request.file).extension() == ".unv") {
-    return {read_unv(request.option, request.file), "", "", true};
+  if (is_unv(structure)) return nullptr;
+  return std::make_unique<GmshRun>(std::move(request));
+}
+
+RawAnswer finish_raw_mesh(const Structure& structure, GmshRun* run) {
+  if (run == nullptr) {
+    const std::string file = std::filesystem::absolute(structure.mesh).string();
+    return {read_unv(mesh_option(structure), file), "", "", true};
   }
-  RawAnswer answer = run_gmsh(request);
-  check_opened_files(request.option, answer.mesh.files);
+  RawAnswer answer = run->answer();
+  check_opened_files(mesh_option(structure), answer.mesh.files);
   check_parameters(structure, answer.mesh);
   return answer;
 }
@@ -415,15 +427,50 @@ class MeshBuilder {
 
 }  // namespace
 
-MeshRead read_mesh(const Structure& structure, double time_limit) {
-  RawAnswer answer = read_raw_mesh(structure, time_limit);
-  merge_shared_elements(answer.mesh);
-  const std::vector<std::string> doubts = doubts_of(structure, answer);
-  const std::vector<DividedLines> divided = divide_beams(structure, answer.mesh);
-  MeshFiles files{files_beside(structure.mesh, answer.mesh.files), answer.landlock};
-  MeshRead read{MeshBuilder(structure, std::move(answer.mesh)).build(), std::move(files), divided};
-  read.mesh.doubts.insert(read.mesh.doubts.begin(), doubts.begin(), doubts.end());
-  return read;
+/// A mesh being read; the error of its beginning, if there is one, belongs to its end.
+class MeshReader::Reading {
+ public:
+  Reading(const Structure& structure, double time_limit) : structure_(structure) {
+    try {
+      run_ = begin_raw_mesh(structure, time_limit);
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+  }
+
+  MeshRead finish() {
+    if (failure_) std::rethrow_exception(failure_);
+    RawAnswer answer = finish_raw_mesh(structure_, run_.get());
+    merge_shared_elements(answer.mesh);
+    const std::vector<std::string> doubts = doubts_of(structure_, answer);
+    const std::vector<DividedLines> divided = divide_beams(structure_, answer.mesh);
+    MeshFiles files{files_beside(structure_.mesh, answer.mesh.files), answer.landlock};
+    MeshRead read{MeshBuilder(structure_, std::move(answer.mesh)).build(), std::move(files),
+                  divided};
+    read.mesh.doubts.insert(read.mesh.doubts.begin(), doubts.begin(), doubts.end());
+    return read;
+  }
+
+ private:
+  const Structure& structure_;
+  std::unique_ptr<GmshRun> run_;
+  std::exception_ptr failure_;
+};
+
+MeshReader::MeshReader(std::vector<const Structure*> structures, double time_limit)
+    : structures_(std::move(structures)), time_limit_(time_limit) {}
+
+MeshReader::~MeshReader() = default;
+
+std::unique_ptr<MeshReader::Reading> MeshReader::begin(std::size_t s) const {
+  if (s >= structures_.size()) return nullptr;
+  return std::make_unique<Reading>(*structures_[s], time_limit_);
+}
+
+MeshRead MeshReader::next() {
+  const std::unique_ptr<Reading> reading = ahead_ ? std::move(ahead_) : begin(taken_);
+  ahead_ = begin(++taken_);
+  return reading->finish();
 }
 
 }  // namespace pounding

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <memory>
+#include <vector>
+
 #include "mesh/divide_beams.h"
 #include "mesh/global_mesh.h"
 #include "mesh/mesh_files.h"
@@ -14,11 +18,31 @@ struct MeshRead {
   std::vector<DividedLines> divided;
 };
 
-/// Reads a structure's mesh by means of Gmsh, in a process of its own: a .geo file is meshed with
-/// the parameters of `mesh_set`, anything else is opened as a mesh. Keeps the groups of the scene's
-/// regions as elements and every named group as nodes and facets; marks rotations and clamped
-/// nodes. `time_limit`: of Gmsh [s]. To be called on one rank only. Throws UserError (missing file,
-/// unknown group, wrong element kind, element in two regions, no elements).
-MeshRead read_mesh(const Structure& structure, double time_limit);
+/// Meshes of structures, read one after the other by means of Gmsh, in a process of its own for
+/// each: while one mesh is taken, Gmsh is at work on the next. To be used on one rank only.
+class MeshReader {
+ public:
+  /// `structures` in the order in which they are asked for, alive while this object is used;
+  /// `time_limit`: of Gmsh for each [s].
+  MeshReader(std::vector<const Structure*> structures, double time_limit);
+  MeshReader(const MeshReader&) = delete;
+  MeshReader& operator=(const MeshReader&) = delete;
+  ~MeshReader();
+
+  /// The mesh of the next structure: a .geo file is meshed with the parameters of `mesh_set`,
+  /// anything else is opened as a mesh. Keeps the groups of the scene's regions as elements and
+  /// every named group as nodes and facets; marks rotations and clamped nodes. Throws UserError
+  /// (missing file, unknown group, wrong element kind, element in two regions, no elements).
+  MeshRead next();
+
+ private:
+  class Reading;
+  std::unique_ptr<Reading> begin(std::size_t s) const;
+
+  std::vector<const Structure*> structures_;
+  double time_limit_;
+  std::size_t taken_ = 0;
+  std::unique_ptr<Reading> ahead_;  ///< of the structure that is taken next
+};
 
 }  // namespace pounding
