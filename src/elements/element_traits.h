@@ -73,7 +73,7 @@ struct ElementTraits {
   LumpedMassFunction lumped_mass;
   ElementKernel kernel;
   int cost;                    ///< see measured_costs.h
-  bool linear;                 ///< its force is K u
+  bool in_stiffness;           ///< K holds its stiffness
   bool scalable;               ///< mass scaling may add to its mass
   std::string_view caution{};  ///< said whenever a scene uses it
 };
@@ -129,8 +129,8 @@ inline bool has_strains(ElementType type) {
   return has_shape(type) || traits_of(type).kernel == ElementKernel::triangle;
 }
 
-inline bool is_linear(ElementType type) {
-  return traits_of(type).linear;
+inline bool is_in_stiffness(ElementType type) {
+  return traits_of(type).in_stiffness;
 }
 
 /// Springs and dashpots to the ground.

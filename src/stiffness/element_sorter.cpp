@@ -56,7 +56,7 @@ void ElementSorter::sort() {
   for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
     if (has_shape(mesh_.blocks[b].type)) {
       sort_shapes(b);
-    } else if (is_linear(mesh_.blocks[b].type)) {
+    } else if (is_in_stiffness(mesh_.blocks[b].type)) {
       for (std::size_t e = 0; e < mesh_.blocks[b].count(); ++e) {
         if (!add_beam({b, e})) add_general({b, e});
       }

@@ -104,7 +104,7 @@ class Assembly {
           MatSetValues(matrix.get(), n, rows.data(), n, columns.data(), values, ADD_VALUES));
     };
     const Region& region = structure_.regions[block.region];
-    if (matrix_.get() != nullptr && is_linear(block.type)) {
+    if (matrix_.get() != nullptr && is_in_stiffness(block.type)) {
       insert(matrix_, work.stiffness.data());
     }
     add_law_stiffness(region, block.share_of(element), layout, work);

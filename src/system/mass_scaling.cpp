@@ -227,7 +227,7 @@ std::vector<NodeCluster> coupled_nodes(const Structure& structure, const GlobalM
   for (const ElementSet& set : mesh.regions) {
     const std::size_t width = element_layout(set.type).nodes;
     const bool links = width == 2 && interactions::has_links(structure.regions[set.region]);
-    const bool scalable = is_linear(set.type) && may_scale(structure, set.type);
+    const bool scalable = is_in_stiffness(set.type) && may_scale(structure, set.type);
     const bool looked_at = links || scalable;
     for (std::size_t e = 0; looked_at && e < set.tags.size(); ++e) {
       const std::span<const GlobalIndex> nodes(&set.connectivity[e * width], width);

@@ -38,7 +38,7 @@ std::vector<double> support_force(const Structure& structure, const Mesh& mesh,
   std::array<double, max_element_size> moved{};
   const auto is_moved = [&](const ElementBlock& block, std::size_t element) {
     const ElementLayout layout = element_layout(block.type);
-    if (!is_linear(block.type)) return false;
+    if (!is_in_stiffness(block.type)) return false;
     bool any = false;
     const std::size_t size = layout.size();
     const std::size_t width = layout.components;
