@@ -12,8 +12,6 @@
 namespace pounding {
 namespace {
 
-constexpr double longest_silence = 60;  // s
-
 double now() {
   using std::chrono::steady_clock;
   return std::chrono::duration<double>(steady_clock::now().time_since_epoch()).count();

@@ -10,6 +10,9 @@
 
 namespace pounding {
 
+/// Longest time between two lines of progress in a log [s].
+inline constexpr double longest_silence = 60;
+
 /// A phase of the start-up that names itself where it takes long: rank 0 prints a line after one
 /// interval, then after twice as much, at most a minute apart, and a last one at the end. A thread
 /// of its own prints, so that one call that takes minutes, a factorisation, is no silence; it sends

@@ -6,12 +6,11 @@
 #include <cstdio>
 #include <limits>
 
+#include "common/progress.h"
 #include "driver/terminal.h"
 
 namespace pounding {
 namespace {
-
-constexpr double longest_silence = 60;  // s
 
 template <typename... Values>
 std::string formatted(const char* format, Values... values) {
