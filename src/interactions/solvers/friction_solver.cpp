@@ -16,6 +16,8 @@ constexpr double no_coupling = 1e-14;
 /// Residual that is wanted, and how far above the round-off of v it may end.
 constexpr double wanted_residual = 1e-14;
 constexpr double above_noise = 4;
+/// Times the residual that is wanted: within it a round ends the search that does not halve it.
+constexpr double near_wanted = 10;
 constexpr std::size_t most_newton_rounds = 40;
 constexpr int first_sweeps = 10;
 constexpr int most_cheap_sweeps = 500;
@@ -454,7 +456,11 @@ void FrictionSolver::solve_coupled(const FrictionProblem& problem, std::span<dou
       residual = iterate(problem, impulse, residual, result);
     }
     if (residual <= enough) return;
+    // The free rates of points of one rigid body may lie beside the range of H by rounding: no
+    // impulses come closer then.
+    const bool stays = residual <= near_wanted * enough && residual > best / 2;
     keep(residual);
+    if (stays) break;
     ++round;
     sweeps = std::min(2 * sweeps, most_sweeps);
   }
