@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <initializer_list>
 #include <stdexcept>
 
 #include "elements/element_traits.h"
@@ -32,42 +31,30 @@ constexpr Range up_to_1{0, 1, false, false};
 constexpr Range poisson_ratio{-1, 0.5, true, true};
 constexpr Range soil_poisson{0, 0.5, false, true};
 
-constexpr Families families_of(std::initializer_list<ElementFamily> families) {
-  Families all;
-  for (const ElementFamily family : families) all.bits |= 1U << static_cast<unsigned>(family);
-  return all;
-}
 using Family = ElementFamily;
-constexpr Families for_shells = families_of({Family::shell});
-constexpr Families for_beams = families_of({Family::beam});
-constexpr Families for_bars = families_of({Family::bar});
-constexpr Families for_points = families_of({Family::point_mass});
-constexpr Families for_grounded = families_of({Family::grounded_spring});
-constexpr Families for_springs = families_of({Family::grounded_spring, Family::spring});
-constexpr Families for_beams_and_bars = families_of({Family::beam, Family::bar});
-constexpr Families for_beams_and_shells = families_of({Family::beam, Family::shell});
-constexpr Families for_bars_and_springs =
-    families_of({Family::bar, Family::grounded_spring, Family::spring});
-constexpr Families for_extents =
-    families_of({Family::solid, Family::shell, Family::beam, Family::bar});
-constexpr Families for_yielding = families_of(
-    {Family::shell, Family::beam, Family::bar, Family::grounded_spring, Family::spring});
+constexpr Families for_shells{Family::shell};
+constexpr Families for_beams{Family::beam};
+constexpr Families for_bars{Family::bar};
+constexpr Families for_points{Family::point_mass};
+constexpr Families for_grounded{Family::grounded_spring};
+constexpr Families for_springs{Family::grounded_spring, Family::spring};
+constexpr Families for_beams_and_bars{Family::beam, Family::bar};
+constexpr Families for_beams_and_shells{Family::beam, Family::shell};
+constexpr Families for_bars_and_springs{Family::bar, Family::grounded_spring, Family::spring};
+constexpr Families for_extents{Family::solid, Family::shell, Family::beam, Family::bar};
+constexpr Families for_yielding{Family::shell, Family::beam, Family::bar, Family::grounded_spring,
+                                Family::spring};
 
-constexpr Comparisons free_among(std::initializer_list<Comparison> comparisons) {
-  Comparisons all;
-  for (const Comparison one : comparisons) all.bits |= 1U << static_cast<unsigned>(one);
-  return all;
-}
 using enum Comparison;
-constexpr Comparisons free_everywhere = free_among({pieces, scene, ensemble, restart});
-constexpr Comparisons free_but_in_pieces = free_among({scene, ensemble, restart});
-constexpr Comparisons free_but_in_scene = free_among({pieces, ensemble, restart});
-constexpr Comparisons free_but_on_restart = free_among({pieces, scene, ensemble});
-constexpr Comparisons free_of_steps = free_among({pieces, restart});
-constexpr Comparisons free_of_fidelity = free_among({pieces, ensemble});
-constexpr Comparisons free_in_pieces = free_among({pieces});
-constexpr Comparisons free_in_ensemble = free_among({ensemble});
-constexpr Comparisons free_on_restart = free_among({restart});
+constexpr Comparisons free_everywhere{pieces, scene, ensemble, restart};
+constexpr Comparisons free_but_in_pieces{scene, ensemble, restart};
+constexpr Comparisons free_but_in_scene{pieces, ensemble, restart};
+constexpr Comparisons free_but_on_restart{pieces, scene, ensemble};
+constexpr Comparisons free_of_steps{pieces, restart};
+constexpr Comparisons free_of_fidelity{pieces, ensemble};
+constexpr Comparisons free_in_pieces{pieces};
+constexpr Comparisons free_in_ensemble{ensemble};
+constexpr Comparisons free_on_restart{restart};
 
 constexpr Preset required{false, true, "required"};
 constexpr Preset value(std::string_view text) {

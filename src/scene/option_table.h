@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <limits>
 #include <map>
 #include <optional>
@@ -57,14 +58,24 @@ struct Preset {
   std::string_view text;
 };
 
-/// Set of families of elements, a bit each.
-struct Families {
-  unsigned bits = 0;
-
-  constexpr bool contains(ElementFamily family) const {
-    return (bits >> static_cast<unsigned>(family) & 1U) != 0;
+/// Set of values of an enumeration, a bit each.
+template <typename Enumeration>
+class SetOf {
+ public:
+  constexpr SetOf() = default;
+  constexpr SetOf(std::initializer_list<Enumeration> values) {
+    for (const Enumeration value : values) bits_ |= bit(value);
   }
+  constexpr bool empty() const { return bits_ == 0; }
+  constexpr bool contains(Enumeration value) const { return (bits_ & bit(value)) != 0; }
+
+ private:
+  static constexpr unsigned bit(Enumeration value) { return 1U << static_cast<unsigned>(value); }
+
+  unsigned bits_ = 0;
 };
+
+using Families = SetOf<ElementFamily>;
 
 /// Comparison of two runs by their options: of the meshes, contacts, probes and shares that pieces
 /// of meshes were written for; of the physics with that of the scene file; of the numbers of an
@@ -72,14 +83,7 @@ struct Families {
 /// itself is compared, not its options).
 enum class Comparison { pieces, scene, ensemble, restart };
 
-/// Set of comparisons, a bit each.
-struct Comparisons {
-  unsigned bits = 0;
-
-  constexpr bool contains(Comparison comparison) const {
-    return (bits >> static_cast<unsigned>(comparison) & 1U) != 0;
-  }
-};
+using Comparisons = SetOf<Comparison>;
 
 struct OptionRow {
   OptionBlock block;
@@ -93,9 +97,7 @@ struct OptionRow {
   Families families{};  ///< region: elements whose option it is, refused of others; none: all
   Comparisons free{};   ///< run, spectra: in which it may have another value
 
-  bool is_for(ElementFamily family) const {
-    return families.bits == 0 || families.contains(family);
-  }
+  bool is_for(ElementFamily family) const { return families.empty() || families.contains(family); }
 };
 
 /// Every option, in the order of the help.
