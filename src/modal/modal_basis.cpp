@@ -13,11 +13,11 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "modal/block_krylov.h"
-#include "modal/contact_patches.h"
 #include "modal/eigen_solver.h"
 #include "modal/orthonormal_space.h"
 #include "modal/rigid_motions.h"
 #include "modal/shifted_solver.h"
+#include "modal/static_loads.h"
 #include "system/admissible_motions.h"
 #include "system/load_shapes.h"
 #include "system/start_state.h"
@@ -57,8 +57,10 @@ class BasisMaker {
         std::max(wanted, std::min(static_cast<std::size_t>(request_.candidates), independent_)));
     if (request_.candidates > request_.modes) choose_modes(wanted);
     basis.modes = static_cast<int>(space_.size());
-    if (space_.size() < independent_) add_attachment_vectors();
-    solver_.reset();
+    DenseMatrix responses =
+        space_.size() < independent_ ? static_responses() : DenseMatrix(dofs_, 0);
+    solver_.reset();  // before the space grows: no other array is as large as the factor
+    add_attachment_vectors(responses);
     basis.attachment_vectors = static_cast<int>(space_.size()) - basis.modes;
     basis.full_dofs = system_.global_dofs;
     basis.total_mass = system_.total_mass;
@@ -198,28 +200,9 @@ class BasisMaker {
     mode_numbers_ = std::move(numbers);
   }
 
-  /// Owned dof of a point, -1 if it is clamped, does not exist or is another rank's.
-  LocalIndex dof_at(const TracePoint& point) const {
-    const LocalIndex node = mesh_.owned_node(point.node);
-    return node < 0 ? -1 : mesh_.dof(node, point.component);
-  }
-
-  /// Those of the points that are dofs, on whatever rank.
-  std::vector<TracePoint> dofs_of(const std::vector<TracePoint>& points) const {
-    std::vector<std::uint8_t> found;
-    for (const TracePoint& point : points) found.push_back(dof_at(point) >= 0 ? 1 : 0);
-    MPI_Allreduce(MPI_IN_PLACE, found.data(), static_cast<int>(found.size()), MPI_UINT8_T, MPI_MAX,
-                  system_.comm);
-    std::vector<TracePoint> dofs;
-    for (std::size_t p = 0; p < points.size(); ++p) {
-      if (found[p] != 0) dofs.push_back(points[p]);
-    }
-    return dofs;
-  }
-
   /// phi^2 / omega^2 of each mode at a point of this rank, relative to the sum of all phi^2 there.
   void add_shares(const TracePoint& point, std::vector<double>& share) const {
-    const LocalIndex dof = dof_at(point);
+    const LocalIndex dof = owned_dof(mesh_, point);
     double sum = 0;
     for (std::size_t j = 0; dof >= 0 && j < share.size(); ++j) {
       sum += std::pow(space_.column(j)[dof], 2);
@@ -238,82 +221,6 @@ class BasisMaker {
     vectors = std::move(pairs.vectors);
   }
 
-  /// M^-1/2 times the forces that static responses are wanted to, each of length 1.
-  DenseMatrix static_loads() const {
-    DenseMatrix loads(dofs_, 0);
-    if (request_.gravity != Vector3{0, 0, 0}) {
-      std::vector<double> weight(dofs_, 0.0);
-      for (std::size_t i = 0; i < dofs_; ++i) {
-        const int direction = system_.direction[i];
-        if (direction < 0) continue;
-        weight[i] = std::sqrt(system_.lumped_mass[i]) * request_.gravity[direction];
-      }
-      loads.append(weight);
-    }
-    for (std::size_t l = 0; system_.loads && l < system_.loads->loads.size(); ++l) {
-      loads.append(scaled_load(system_.loads->loads[l]));
-    }
-    if (request_.attachment) {
-      add_contact_loads(loads);
-      add_yielding_loads(loads);
-    }
-    space_.normalise(loads);
-    return loads;
-  }
-
-  /// M^-1/2 p of a load.
-  std::vector<double> scaled_load(const LoadShape& shape) const {
-    std::vector<double> load(dofs_, 0.0);
-    for (std::size_t k = 0; k < shape.dofs.size(); ++k) {
-      const LocalIndex dof = shape.dofs[k];
-      load[dof] = std::sqrt(system_.inverse_mass[dof]) * shape.force[k];
-    }
-    return load;
-  }
-
-  /// M^-1/2 times forces on contact points, one alone or those of a patch alike.
-  void add_contact_loads(DenseMatrix& loads) const {
-    const std::vector<TracePoint> points = dofs_of(request_.contact_points);
-    for (const std::vector<std::size_t>& patch : patches_of(points)) {
-      std::vector<double> load(dofs_, 0.0);
-      for (const std::size_t p : patch) {
-        const LocalIndex dof = dof_at(points[p]);
-        if (dof >= 0) load[dof] = patch.size() == 1 ? 1 : std::sqrt(system_.inverse_mass[dof]);
-      }
-      loads.append(load);
-    }
-  }
-
-  /// M^-1/2 times a force on each point of sections that yield.
-  void add_yielding_loads(DenseMatrix& loads) const {
-    for (const TracePoint& point : dofs_of(request_.yielding_points)) {
-      std::vector<double> load(dofs_, 0.0);
-      if (const LocalIndex dof = dof_at(point); dof >= 0) load[dof] = 1;
-      loads.append(load);
-    }
-  }
-
-  /// Contact points whose forces are one load: every one alone, or patches.
-  std::vector<std::vector<std::size_t>> patches_of(const std::vector<TracePoint>& points) const {
-    const auto wanted = static_cast<std::size_t>(request_.patches);
-    if (wanted == 0 || wanted >= points.size()) {
-      std::vector<std::vector<std::size_t>> single;
-      for (std::size_t p = 0; p < points.size(); ++p) single.push_back({p});
-      return single;
-    }
-    std::vector<double> coordinates(3 * points.size(), 0.0);
-    for (std::size_t p = 0; p < points.size(); ++p) {
-      const LocalIndex node = mesh_.owned_node(points[p].node);
-      if (node >= 0) std::ranges::copy(mesh_.position(node), &coordinates[3 * p]);
-    }
-    add_over_ranks(system_.comm, coordinates);
-    std::vector<Vector3> positions;
-    for (std::size_t p = 0; p < points.size(); ++p) {
-      positions.push_back({coordinates[3 * p], coordinates[3 * p + 1], coordinates[3 * p + 2]});
-    }
-    return contact_patches(points, positions, wanted);
-  }
-
   /// Takes out the columns that are nothing but round-off.
   void drop_the_short(DenseMatrix& x) const {
     const std::vector<double> lengths = space_.norms(x);
@@ -322,9 +229,11 @@ class BasisMaker {
     }
   }
 
-  void add_attachment_vectors() {
-    DenseMatrix z = static_loads();
-    if (z.columns == 0) return;
+  /// Static responses to those forces beside the modes, which the space has already.
+  DenseMatrix static_responses() {
+    DenseMatrix z = static_loads(system_, mesh_, request_);
+    space_.normalise(z);
+    if (z.columns == 0) return z;
     change_columns(z, [this](auto& y) { admit(y); });
     space_.project(z);
     drop_the_short(z);
@@ -332,11 +241,16 @@ class BasisMaker {
     change_columns(z, [this](auto& y) { to_coordinates(y); });
     lowest_solver().solve(z);
     change_columns(z, [this](auto& y) { from_coordinates(y); });
-    space_.project(z);
-    space_.normalise(z);
-    space_.project(z);
-    space_.reserve(space_.size() + z.columns);
-    space_.take_in(z, inside_span);
+    return z;
+  }
+
+  /// Uses the responses up.
+  void add_attachment_vectors(DenseMatrix& responses) {
+    space_.project(responses);
+    space_.normalise(responses);
+    space_.project(responses);
+    space_.reserve(space_.size() + responses.columns);
+    space_.take_in(responses, inside_span);
   }
 
   /// Rayleigh-Ritz: the basis is W S with W the space and S^T (W^T A W) S diagonal.
@@ -409,7 +323,7 @@ class BasisMaker {
     basis.support_participation = transposed_product(rotation, space_.parts(scaled)).numbers();
     basis.support_rows.assign(columns * basis.points.size(), 0.0);
     for (std::size_t p = 0; p < basis.points.size(); ++p) {
-      const LocalIndex dof = dof_at(basis.points[p]);
+      const LocalIndex dof = owned_dof(mesh_, basis.points[p]);
       for (std::size_t c = 0; dof >= 0 && c < columns; ++c) {
         const std::vector<double>& shape = supports.shape[c];
         if (!shape.empty()) basis.support_rows[p * columns + c] = shape[dof];
@@ -420,7 +334,7 @@ class BasisMaker {
 
   void add_loads(const DenseMatrix& rotation, ModalBasis& basis) const {
     DenseMatrix scaled(dofs_, 0);
-    for (const LoadShape& shape : system_.loads->loads) scaled.append(scaled_load(shape));
+    for (const LoadShape& shape : system_.loads->loads) scaled.append(scaled_load(system_, shape));
     basis.load_parts = transposed_product(rotation, space_.parts(scaled)).numbers();
   }
 
@@ -439,13 +353,13 @@ class BasisMaker {
     std::set<TracePoint> known;
     for (const auto* points : {&request_.contact_points, &request_.yielding_points,
                                &request_.other_points, &request_.shown_points}) {
-      for (const TracePoint& point : dofs_of(*points)) {
+      for (const TracePoint& point : free_points(system_.comm, mesh_, *points)) {
         if (known.insert(point).second) basis.points.push_back(point);
       }
     }
     DenseMatrix of_space(space_.size(), basis.points.size());
     for (std::size_t p = 0; p < basis.points.size(); ++p) {
-      const LocalIndex dof = dof_at(basis.points[p]);
+      const LocalIndex dof = owned_dof(mesh_, basis.points[p]);
       for (std::size_t j = 0; dof >= 0 && j < space_.size(); ++j) {
         of_space.column(p)[j] = std::sqrt(system_.inverse_mass[dof]) * space_.column(j)[dof];
       }

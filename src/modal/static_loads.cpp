@@ -1,0 +1,104 @@
+#include "modal/static_loads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "modal/contact_patches.h"
+#include "modal/orthonormal_space.h"
+
+namespace pounding {
+namespace {
+
+/// Contact points whose forces are one load: every one alone, or patches.
+std::vector<std::vector<std::size_t>> load_patches(MPI_Comm comm, const Mesh& mesh,
+                                                   const std::vector<TracePoint>& points,
+                                                   std::size_t wanted) {
+  if (wanted == 0 || wanted >= points.size()) {
+    std::vector<std::vector<std::size_t>> single;
+    for (std::size_t p = 0; p < points.size(); ++p) single.push_back({p});
+    return single;
+  }
+  std::vector<double> coordinates(3 * points.size(), 0.0);
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    const LocalIndex node = mesh.owned_node(points[p].node);
+    if (node >= 0) std::ranges::copy(mesh.position(node), &coordinates[3 * p]);
+  }
+  add_over_ranks(comm, coordinates);
+  std::vector<Vector3> positions;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    positions.push_back({coordinates[3 * p], coordinates[3 * p + 1], coordinates[3 * p + 2]});
+  }
+  return contact_patches(points, positions, wanted);
+}
+
+std::vector<double> weight_of(const LinearSystem& system, const Vector3& gravity) {
+  std::vector<double> weight(system.lumped_mass.size(), 0.0);
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    const int direction = system.direction[i];
+    if (direction >= 0) weight[i] = std::sqrt(system.lumped_mass[i]) * gravity[direction];
+  }
+  return weight;
+}
+
+void add_contact_loads(const LinearSystem& system, const Mesh& mesh, const ModalRequest& request,
+                       DenseMatrix& loads) {
+  const std::vector<TracePoint> points = free_points(system.comm, mesh, request.contact_points);
+  for (const std::vector<std::size_t>& patch :
+       load_patches(system.comm, mesh, points, static_cast<std::size_t>(request.patches))) {
+    std::vector<double> load(loads.rows, 0.0);
+    for (const std::size_t p : patch) {
+      const LocalIndex dof = owned_dof(mesh, points[p]);
+      if (dof >= 0) load[dof] = patch.size() == 1 ? 1 : std::sqrt(system.inverse_mass[dof]);
+    }
+    loads.append(load);
+  }
+}
+
+}  // namespace
+
+LocalIndex owned_dof(const Mesh& mesh, const TracePoint& point) {
+  const LocalIndex node = mesh.owned_node(point.node);
+  return node < 0 ? -1 : mesh.dof(node, point.component);
+}
+
+std::vector<TracePoint> free_points(MPI_Comm comm, const Mesh& mesh,
+                                    const std::vector<TracePoint>& points) {
+  std::vector<std::uint8_t> found;
+  for (const TracePoint& point : points) found.push_back(owned_dof(mesh, point) >= 0 ? 1 : 0);
+  MPI_Allreduce(MPI_IN_PLACE, found.data(), static_cast<int>(found.size()), MPI_UINT8_T, MPI_MAX,
+                comm);
+  std::vector<TracePoint> free;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    if (found[p] != 0) free.push_back(points[p]);
+  }
+  return free;
+}
+
+std::vector<double> scaled_load(const LinearSystem& system, const LoadShape& shape) {
+  std::vector<double> load(system.lumped_mass.size(), 0.0);
+  for (std::size_t k = 0; k < shape.dofs.size(); ++k) {
+    const LocalIndex dof = shape.dofs[k];
+    load[dof] = std::sqrt(system.inverse_mass[dof]) * shape.force[k];
+  }
+  return load;
+}
+
+DenseMatrix static_loads(const LinearSystem& system, const Mesh& mesh,
+                         const ModalRequest& request) {
+  DenseMatrix loads(system.lumped_mass.size(), 0);
+  if (request.gravity != Vector3{0, 0, 0}) loads.append(weight_of(system, request.gravity));
+  for (std::size_t l = 0; system.loads && l < system.loads->loads.size(); ++l) {
+    loads.append(scaled_load(system, system.loads->loads[l]));
+  }
+  if (!request.attachment) return loads;
+  add_contact_loads(system, mesh, request, loads);
+  for (const TracePoint& point : free_points(system.comm, mesh, request.yielding_points)) {
+    std::vector<double> load(loads.rows, 0.0);
+    if (const LocalIndex dof = owned_dof(mesh, point); dof >= 0) load[dof] = 1;
+    loads.append(load);
+  }
+  return loads;
+}
+
+}  // namespace pounding
