@@ -1,11 +1,9 @@
 #pragma once
 
 #include <cstddef>
-#include <cstring>
+#include <utility>
 
-#ifdef __AVX__
-#include <immintrin.h>
-#endif
+#include "common/lanes.h"
 
 /// Eight doubles at once, one for each of eight members of an ensemble: one register of AVX-512,
 /// two of AVX, four of SSE2. Every operation is done lane by lane and rounded like that of a single
@@ -16,55 +14,82 @@ namespace pounding {
 /// Members that are stepped together.
 inline constexpr std::size_t octet_size = 8;
 
-struct alignas(64) Octet {
-  using Lanes8 = double __attribute__((vector_size(64)));
-  Lanes8 lanes;
+/// Lanes that one register holds: the compiler keeps vectors wider than that in memory.
+#if defined(__AVX512F__)
+using OctetPart = EightLanes;
+#elif defined(__AVX__)
+using OctetPart = Lanes;
+#else
+using OctetPart = HalfLanes;
+#endif
+using OctetMaskPart = decltype(OctetPart{} < OctetPart{});
 
-  double operator[](std::size_t lane) const { return lanes[lane]; }
-  void set(std::size_t lane, double value) { lanes[lane] = value; }
+inline constexpr std::size_t octet_part_size = sizeof(OctetPart) / sizeof(double);
+inline constexpr std::size_t octet_parts = octet_size / octet_part_size;
+
+struct alignas(64) Octet {
+  OctetPart parts[octet_parts];
+
+  double operator[](std::size_t lane) const {
+    return parts[lane / octet_part_size][lane % octet_part_size];
+  }
+  void set(std::size_t lane, double value) {
+    parts[lane / octet_part_size][lane % octet_part_size] = value;
+  }
+};
+
+/// Lanes for which something is true.
+struct OctetMask {
+  OctetMaskPart parts[octet_parts];
 };
 
 #define POUNDING_OCTET static inline __attribute__((always_inline))
 
+/// Part by part, each written out, so that all stay in registers.
+template <typename Result, typename Operation, typename... Operands>
+POUNDING_OCTET Result by_parts(const Operation& operation, const Operands&... operands) {
+  const auto part = [&](std::size_t p) __attribute__((always_inline)) {
+    return operation(operands.parts[p]...);
+  };
+  return [&]<std::size_t... p>(std::index_sequence<p...>) __attribute__((always_inline)) {
+    return Result{{part(p)...}};
+  }
+  (std::make_index_sequence<octet_parts>());
+}
+
 POUNDING_OCTET Octet all_octet(double value) {
-  return {Octet::Lanes8{} + value};
+  return by_parts<Octet>([value](const auto& zero) { return zero + value; }, Octet{});
 }
 POUNDING_OCTET Octet operator+(const Octet& a, const Octet& b) {
-  return {a.lanes + b.lanes};
+  return by_parts<Octet>([](const auto& x, const auto& y) { return x + y; }, a, b);
 }
 POUNDING_OCTET Octet operator-(const Octet& a, const Octet& b) {
-  return {a.lanes - b.lanes};
+  return by_parts<Octet>([](const auto& x, const auto& y) { return x - y; }, a, b);
 }
 POUNDING_OCTET Octet operator-(const Octet& a) {
-  return {-a.lanes};
+  return by_parts<Octet>([](const auto& x) { return -x; }, a);
 }
 POUNDING_OCTET Octet operator*(const Octet& a, const Octet& b) {
-  return {a.lanes * b.lanes};
+  return by_parts<Octet>([](const auto& x, const auto& y) { return x * y; }, a, b);
 }
 POUNDING_OCTET Octet operator+(const Octet& a, double b) {
-  return {a.lanes + b};
+  return by_parts<Octet>([b](const auto& x) { return x + b; }, a);
+}
+POUNDING_OCTET Octet operator/(const Octet& a, double b) {
+  return by_parts<Octet>([b](const auto& x) { return x / b; }, a);
 }
 POUNDING_OCTET Octet& operator+=(Octet& a, const Octet& b) {
-  a.lanes += b.lanes;
-  return a;
+  return a = a + b;
 }
 
 /// c += a b, rounded once where the machine can: by the source, not by the compiler's choice.
 POUNDING_OCTET void add_product(const Octet& a, const Octet& b, Octet& c) {
-#if defined(__AVX512F__)
-  c.lanes = _mm512_fmadd_pd(a.lanes, b.lanes, c.lanes);
-#elif defined(__FMA__)
-  for (int half = 0; half < 2; ++half) {
-    __m256d x, y, z;
-    std::memcpy(&x, reinterpret_cast<const char*>(&a) + 32 * half, sizeof x);
-    std::memcpy(&y, reinterpret_cast<const char*>(&b) + 32 * half, sizeof y);
-    std::memcpy(&z, reinterpret_cast<const char*>(&c) + 32 * half, sizeof z);
-    z = _mm256_fmadd_pd(x, y, z);
-    std::memcpy(reinterpret_cast<char*>(&c) + 32 * half, &z, sizeof z);
-  }
-#else
-  c.lanes += a.lanes * b.lanes;
-#endif
+  c = by_parts<Octet>(
+      [](const OctetPart& x, const OctetPart& y, OctetPart z) {
+        add_product(x, y, z);
+        return z;
+      },
+      a, b, c);
 }
 
 /// c -= a b, in every lane.
@@ -72,11 +97,37 @@ POUNDING_OCTET void subtract_product(const Octet& a, const Octet& b, Octet& c) {
   add_product(-a, b, c);
 }
 
+POUNDING_OCTET OctetMask operator<(const Octet& a, const Octet& b) {
+  return by_parts<OctetMask>([](const auto& x, const auto& y) { return x < y; }, a, b);
+}
+POUNDING_OCTET OctetMask operator<=(const Octet& a, const Octet& b) {
+  return by_parts<OctetMask>([](const auto& x, const auto& y) { return x <= y; }, a, b);
+}
+POUNDING_OCTET OctetMask operator&(const OctetMask& a, const OctetMask& b) {
+  return by_parts<OctetMask>([](const auto& x, const auto& y) { return x & y; }, a, b);
+}
+POUNDING_OCTET OctetMask operator|(const OctetMask& a, const OctetMask& b) {
+  return by_parts<OctetMask>([](const auto& x, const auto& y) { return x | y; }, a, b);
+}
+POUNDING_OCTET bool any(const OctetMask& mask) {
+  bool found = false;
+  for (const OctetMaskPart& part : mask.parts) {
+    for (std::size_t lane = 0; lane < octet_part_size; ++lane) found = found || part[lane] != 0;
+  }
+  return found;
+}
+
+/// Those of a where the mask is true, else those of b.
+POUNDING_OCTET Octet choose(const OctetMask& mask, const Octet& a, const Octet& b) {
+  return by_parts<Octet>([](const OctetMaskPart& first, const OctetPart& x,
+                            const OctetPart& y) { return first ? x : y; },
+                         mask, a, b);
+}
 POUNDING_OCTET Octet magnitude(const Octet& a) {
-  return {a.lanes < 0 ? -a.lanes : a.lanes};
+  return by_parts<Octet>([](const OctetPart& x) { return x < 0 ? -x : x; }, a);
 }
 POUNDING_OCTET Octet larger(const Octet& a, const Octet& b) {
-  return {a.lanes > b.lanes ? a.lanes : b.lanes};
+  return choose(b < a, a, b);
 }
 
 #undef POUNDING_OCTET

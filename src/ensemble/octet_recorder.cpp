@@ -79,7 +79,7 @@ void OctetRecorder::record(std::span<const OctetStep> octets) {
   multiply(octets, &OctetState::velocity);
   Octet* const out = &block_[blocked_ * channels_];
   for (std::size_t c = 0; c < channels_; ++c) {
-    out[c].lanes = (values_[c].lanes - last_velocity_[c].lanes + ground_[c % 3].lanes) / interval_;
+    out[c] = (values_[c] - last_velocity_[c] + ground_[c % 3]) / interval_;
     last_velocity_[c] = values_[c];
   }
   ground_.fill(Octet{});

@@ -51,23 +51,21 @@ bool StretchBound::may_exceed(const BlockState& start, const BlockState& end,
                               const Stretch& stretch, const OscillatorBlock::Vector& peak) const {
   const Octet load = all_octet(stretch.load), gained = all_octet(steps * stretch.velocity);
   const Octet chord = all_octet(std::min(eighth * stretch.load, steps / 2 * stretch.range));
-  bool any = false;
   for (std::size_t b = 0; b < OscillatorBlock::vectors; ++b) {
     const Octet size = magnitude(start.u[b]);
     const Octet across = magnitude(slope_[b] * start.v[b] + share_[b] * start.u[b]);
     const Octet amplitude = size + across;  // of R, from above
     const Octet by_load = impulse_[b] * load;
-    const Octet response{by_load.lanes < gained.lanes ? by_load.lanes : gained.lanes};
+    const Octet response = choose(by_load < gained, by_load, gained);
     const Octet near = larger(size, magnitude(end.u[b])) + chord + of_amplitude_[b] * amplitude +
                        of_load_[b] * load + of_response_[b] * response;
     const Octet left = peak[b] - response * all_octet(above_round_off);
     const Octet square = (size * size + across * across) * all_octet(above_round_off);
-    const auto closely = near.lanes * above_round_off > peak[b].lanes;
-    const auto widely = (left.lanes <= 0) | (square.lanes > left.lanes * left.lanes);
-    const auto both = closely & widely;
-    for (std::size_t lane = 0; lane < octet_size; ++lane) any = any || both[lane] != 0;
+    const OctetMask closely = peak[b] < near * all_octet(above_round_off);
+    const OctetMask widely = (left <= Octet{}) | (left * left < square);
+    if (any(closely & widely)) return true;
   }
-  return any;
+  return false;
 }
 
 }  // namespace pounding::oscillator
