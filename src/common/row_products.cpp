@@ -1,6 +1,6 @@
 #include "common/row_products.h"
 
-#include <cstring>
+#include <algorithm>
 
 #include "common/lanes.h"
 
@@ -12,7 +12,7 @@ constexpr std::size_t lanes = lane_count;
 /// `count` <= 4 rows: each value of x is read once.
 template <std::size_t count>
 void multiply_together(const double* rows, std::size_t n, const double* x, double* out,
-                       std::size_t stride) {
+                       std::size_t stride = 1) {
   Lanes sums[2][count]{};  // two chains per row hide the latency of the sums
   std::size_t i = 0;
   for (; i + 2 * lanes <= n; i += 2 * lanes) {
@@ -33,33 +33,67 @@ void multiply_together(const double* rows, std::size_t n, const double* x, doubl
   }
 }
 
-/// out[w] = sum over l of entries[across * w + along * l] x[l], `length` products in each of
-/// `width` sums, which stay in registers.
-template <std::size_t width>
-void multiply_together(const double* entries, std::size_t across, std::size_t along,
-                       std::size_t length, const Octet* x, Octet* out) {
-  Octet sums[width]{};
-  for (std::size_t l = 0; l < length; ++l) {
-    for (std::size_t w = 0; w < width; ++w) {
-      add_product(all_octet(entries[across * w + along * l]), x[l], sums[w]);
-    }
+/// Rows whose sums have registers of their own, beside two factors.
+constexpr std::size_t octet_rows = octet_parts == 1 ? 8 : octet_parts == 2 ? 6 : 3;
+
+/// `count` rows; their sums stay in registers.
+template <std::size_t count>
+void multiply_together(const double* rows, std::size_t n, const Octet* x, Octet* out) {
+  Octet sums[count]{};
+  for (std::size_t k = 0; k < n; ++k) {
+    for (std::size_t r = 0; r < count; ++r) add_product(all_octet(rows[r * n + k]), x[k], sums[r]);
   }
-  for (std::size_t w = 0; w < width; ++w) out[w] = sums[w];
+  for (std::size_t r = 0; r < count; ++r) out[r] = sums[r];
 }
 
-/// Eight times `width` elements of the transposed product, eight neighbours in a vector.
-template <std::size_t width>
-void multiply_columns(const double* rows, std::size_t count, std::size_t n, const double* x,
-                      double* out) {
-  Octet sums[width]{};
-  for (std::size_t r = 0; r < count; ++r) {
-    for (std::size_t k = 0; k < width; ++k) {
-      Octet row;
-      std::memcpy(&row, rows + r * n + octet_size * k, sizeof row);
-      add_product(all_octet(x[r]), row, sums[k]);
+/// out[k] += sum over r of parts[r] rows[r * n + k].
+template <std::size_t count>
+void add_rows(const double* rows, std::size_t n, const double* parts, double* out) {
+  std::size_t k = 0;
+  for (; k + lanes <= n; k += lanes) {
+    Lanes sum;
+    load(out + k, sum);
+    for (std::size_t r = 0; r < count; ++r) {
+      Lanes row;
+      load(rows + r * n + k, row);
+      add_product(all_lanes(parts[r]), row, sum);
     }
+    store(out + k, sum);
   }
-  std::memcpy(out, sums, sizeof sums);
+  for (; k < n; ++k) {
+    for (std::size_t r = 0; r < count; ++r) add_product(parts[r], rows[r * n + k], out[k]);
+  }
+}
+
+template <std::size_t count>
+void add_rows(const double* rows, std::size_t n, const Octet* parts, Octet* out) {
+  Octet scale[count];
+  for (std::size_t r = 0; r < count; ++r) scale[r] = parts[r];
+  for (std::size_t k = 0; k < n; ++k) {
+    Octet sum = out[k];
+    for (std::size_t r = 0; r < count; ++r) add_product(all_octet(rows[r * n + k]), scale[r], sum);
+    out[k] = sum;
+  }
+}
+
+template <std::size_t count, typename Value>
+void add_both_ways(const double* rows, const double* weights, std::size_t n, const Value* x,
+                   Value* parts, Value* out) {
+  multiply_together<count>(rows, n, x, parts);
+  for (std::size_t r = 0; r < count; ++r) parts[r] = (Value{} + weights[r]) * parts[r];
+  add_rows<count>(rows, n, parts, out);
+}
+
+/// B^T diag(weights) B x in blocks of `together` rows.
+template <std::size_t together, typename Value>
+void multiply_blocks_both_ways(const double* rows, const double* weights, std::size_t count,
+                               std::size_t n, const Value* x, Value* parts, Value* out) {
+  std::fill_n(out, n, Value{});
+  std::size_t r = 0;
+  for (; r + together <= count; r += together) {
+    add_both_ways<together>(rows + r * n, weights + r, n, x, parts + r, out);
+  }
+  for (; r < count; ++r) add_both_ways<1>(rows + r * n, weights + r, n, x, parts + r, out);
 }
 
 }  // namespace
@@ -74,30 +108,24 @@ void multiply_rows(const double* rows, std::size_t count, std::size_t n, const d
 void multiply_rows(const double* rows, std::size_t count, std::size_t n, const Octet* x,
                    Octet* out) {
   std::size_t r = 0;
-  for (; r + 8 <= count; r += 8) multiply_together<8>(rows + r * n, n, 1, n, x, out + r);
-  for (; r + 3 <= count; r += 3) multiply_together<3>(rows + r * n, n, 1, n, x, out + r);
-  for (; r < count; ++r) multiply_together<1>(rows + r * n, n, 1, n, x, out + r);
+  for (; r + octet_rows <= count; r += octet_rows) {
+    multiply_together<octet_rows>(rows + r * n, n, x, out + r);
+  }
+  if (octet_rows > 3 && r + 3 <= count) {
+    multiply_together<3>(rows + r * n, n, x, out + r);
+    r += 3;
+  }
+  for (; r < count; ++r) multiply_together<1>(rows + r * n, n, x, out + r);
 }
 
-void multiply_transposed_rows(const double* rows, std::size_t count, std::size_t n, const double* x,
-                              double* out) {
-  std::size_t k = 0;
-  for (; k + 4 * octet_size <= n; k += 4 * octet_size) {
-    multiply_columns<4>(rows + k, count, n, x, out + k);
-  }
-  for (; k + octet_size <= n; k += octet_size) multiply_columns<1>(rows + k, count, n, x, out + k);
-  for (; k < n; ++k) {
-    double sum = 0;
-    for (std::size_t r = 0; r < count; ++r) add_product(x[r], rows[r * n + k], sum);
-    out[k] = sum;
-  }
+void multiply_both_ways(const double* rows, const double* weights, std::size_t count, std::size_t n,
+                        const double* x, double* parts, double* out) {
+  multiply_blocks_both_ways<4>(rows, weights, count, n, x, parts, out);
 }
 
-void multiply_transposed_rows(const double* rows, std::size_t count, std::size_t n, const Octet* x,
-                              Octet* out) {
-  std::size_t k = 0;
-  for (; k + 8 <= n; k += 8) multiply_together<8>(rows + k, 1, n, count, x, out + k);
-  for (; k < n; ++k) multiply_together<1>(rows + k, 1, n, count, x, out + k);
+void multiply_both_ways(const double* rows, const double* weights, std::size_t count, std::size_t n,
+                        const Octet* x, Octet* parts, Octet* out) {
+  multiply_blocks_both_ways<octet_parts == 1 ? 8 : 4>(rows, weights, count, n, x, parts, out);
 }
 
 }  // namespace pounding

@@ -15,11 +15,12 @@ void multiply_rows(const double* rows, std::size_t count, std::size_t n, const d
 void multiply_rows(const double* rows, std::size_t count, std::size_t n, const Octet* x,
                    Octet* out);
 
-/// The transposed product out[k] = sum over r of rows[r * n + k] x[r] of the same rows, each sum in
-/// the order of the rows; of single values and in every lane. Local; allocates nothing.
-void multiply_transposed_rows(const double* rows, std::size_t count, std::size_t n, const double* x,
-                              double* out);
-void multiply_transposed_rows(const double* rows, std::size_t count, std::size_t n, const Octet* x,
-                              Octet* out);
+/// parts[r] = weights[r] (b_r . x) and out = sum over r of parts[r] b_r, with b_r the `count` dense
+/// rows of length n that lie one after the other: B^T diag(weights) B x, in which each row is read
+/// once; of single values and in every lane. Local; allocates nothing.
+void multiply_both_ways(const double* rows, const double* weights, std::size_t count, std::size_t n,
+                        const double* x, double* parts, double* out);
+void multiply_both_ways(const double* rows, const double* weights, std::size_t count, std::size_t n,
+                        const Octet* x, Octet* parts, Octet* out);
 
 }  // namespace pounding

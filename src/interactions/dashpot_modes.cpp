@@ -1,5 +1,6 @@
 #include "interactions/dashpot_modes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/dense_matrix.h"
@@ -59,6 +60,34 @@ DashpotModes::DashpotModes(const LinearSystem& system, const DashpotRows& dashpo
     for (std::size_t i = 0; i < size; ++i) {
       rows.push_back(std::sqrt(system.lumped_mass[i]) * vectors.column(j - 1)[i]);
     }
+  }
+}
+
+DashpotMatrix::DashpotMatrix(DashpotModes modes)
+    : modes_(std::move(modes)), weights_(modes_.lambda.size()) {
+  const std::size_t size = modes_.inverse_mass.size();
+  if (2 * weights_.size() > size) full_.resize(size * size);
+}
+
+void DashpotMatrix::set_share(double share) {
+  if (share == share_) return;
+  share_ = share;
+  for (std::size_t j = 0; j < weights_.size(); ++j) {
+    const double braked = share * modes_.time_step / 2 * modes_.lambda[j];
+    weights_[j] = braked / (1 + braked);
+  }
+  if (full_.empty()) return;
+  const std::size_t size = modes_.inverse_mass.size();
+  std::ranges::fill(full_, 0.0);
+  for (std::size_t j = 0; j < weights_.size(); ++j) {
+    const double* const row = &modes_.rows[j * size];
+    for (std::size_t i = 0; i < size; ++i) {
+      const double weighted = weights_[j] * row[i];
+      for (std::size_t k = 0; k <= i; ++k) full_[i * size + k] += weighted * row[k];
+    }
+  }
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t k = 0; k < i; ++k) full_[k * size + i] = full_[i * size + k];
   }
 }
 

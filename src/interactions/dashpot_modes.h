@@ -38,36 +38,66 @@ struct DashpotModes {
   double time_step;                  ///< [s]
 };
 
-/// Dashpots in a step at mid-step, as DashpotLaw has it, a product each way in their modes:
+/// The matrix of those dashpots in a step at mid-step, as DashpotLaw has it:
 ///
-///     w+ = w_free - U diag(g) U^T (w_free + w-),     g = h lambda / (1 + h lambda),     h = dt/2
+///     G = M^1/2 U diag(g) U^T M^1/2,     g = h lambda / (1 + h lambda),     h = dt/2
 ///
-/// (half of that h where forces act for half a step). `Value`: double, or Octet for eight runs of
-/// the structure that share mass and dashpots. Local; nothing allocates after construction.
+/// (half of that h where forces act for half a step). Local; nothing allocates after construction.
+class DashpotMatrix {
+ public:
+  explicit DashpotMatrix(DashpotModes modes);
+
+  /// Makes it the matrix of steps in which forces act for this share of the time step.
+  void set_share(double share);
+
+  /// out = G x. As rows of motions, both ways, or as a full matrix, whichever is less to multiply.
+  template <typename Value>
+  void multiply(std::span<const Value> x, std::span<Value> parts, std::span<Value> out) const {
+    if (full_.empty()) {
+      multiply_both_ways(modes_.rows.data(), weights_.data(), weights_.size(), x.size(), x.data(),
+                         parts.data(), out.data());
+    } else {
+      multiply_rows(full_.data(), x.size(), x.size(), x.data(), out.data());
+    }
+  }
+
+  std::size_t motions() const { return weights_.size(); }
+  double share() const { return share_; }
+  /// Per coordinate.
+  const std::vector<double>& inverse_mass() const { return modes_.inverse_mass; }
+
+ private:
+  DashpotModes modes_;
+  std::vector<double> weights_;  ///< g, per motion
+  std::vector<double> full_;     ///< G, shape (coordinates, coordinates); empty as rows
+  double share_ = 0;
+};
+
+/// The brake of dashpots on velocities in a step, a product in all:
+///
+///     w+ = w_free - U diag(g) U^T (w_free + w-)
+///
+/// `Value`: double, or Octet for eight runs of the structure that share mass and dashpots. Local;
+/// nothing allocates after construction.
 template <typename Value>
 class DashpotBrake {
  public:
   explicit DashpotBrake(DashpotModes modes)
-      : modes_(std::move(modes)),
-        parts_(modes_.lambda.size(), Value{}),
-        pull_(modes_.inverse_mass.size(), Value{}),
-        sums_(modes_.inverse_mass.size(), Value{}) {}
+      : matrix_(std::move(modes)),
+        parts_(matrix_.motions(), Value{}),
+        pull_(matrix_.inverse_mass().size(), Value{}),
+        sums_(pull_) {}
 
   /// `velocity`: v_free of all coordinates, becomes v+; `before`: v-; `share`: of a step, for which
   /// forces act.
   void brake(double share, std::span<const Value> before, std::span<Value> velocity) {
-    const Value zero{};
     const std::size_t size = velocity.size();
-    share_ = share;
+    const std::vector<double>& inverse_mass = matrix_.inverse_mass();
     for (std::size_t i = 0; i < size; ++i) sums_[i] = velocity[i] + before[i];
-    multiply_rows(modes_.rows.data(), parts_.size(), size, sums_.data(), parts_.data());
-    for (std::size_t j = 0; j < parts_.size(); ++j) {
-      const double braked = share * modes_.time_step / 2 * modes_.lambda[j];
-      parts_[j] = (zero + braked / (1 + braked)) * parts_[j];
-    }
-    multiply_transposed_rows(modes_.rows.data(), parts_.size(), size, parts_.data(), pull_.data());
+    matrix_.set_share(share);
+    matrix_.multiply<Value>(sums_, parts_, pull_);
     for (std::size_t i = 0; i < size; ++i) {
-      velocity[i] = velocity[i] - (zero + modes_.inverse_mass[i]) * pull_[i];
+      velocity[i] = velocity[i] - (Value{} + inverse_mass[i]) * pull_[i];
       sums_[i] = velocity[i] + before[i];
     }
   }
@@ -79,17 +109,16 @@ class DashpotBrake {
     return sum;
   }
   /// Its change with v+ of a coordinate after the dashpots [J s/m].
-  Value loss_rate(std::size_t i) const { return (Value{} + 1 / (2 * share_)) * pull_[i]; }
+  Value loss_rate(std::size_t i) const { return (Value{} + 1 / (2 * matrix_.share())) * pull_[i]; }
 
   /// v- + v+ of that step, before contact.
   std::span<const Value> sums() const { return sums_; }
 
  private:
-  DashpotModes modes_;
+  DashpotMatrix matrix_;
   std::vector<Value> parts_;  ///< per motion
   std::vector<Value> pull_;   ///< - M (v+ - v_free), per coordinate [kg m/s]
   std::vector<Value> sums_;   ///< per coordinate
-  double share_ = 1;
 };
 
 }  // namespace pounding::interactions
