@@ -127,7 +127,7 @@ class Instructions(unittest.TestCase):
             self.assertEqual(set(instructions.kinds_of(mnemonic, operands)) - {"instructions"}, kinds, line)
 
     def test_a_small_slab(self):
-        with tempfile.TemporaryDirectory() as folder, mock.patch.dict(instructions.CASES, {"slab": ("slab", (6, 6, 1))}), \
+        with tempfile.TemporaryDirectory() as folder, mock.patch.dict(instructions.CASES, {"slab": instructions.Shape("slab", (6, 6, 1))}), \
                 mock.patch.dict(os.environ, {"POUNDING_BUILD": os.path.abspath(program.BUILD)}):
             place = Path(folder)
             try:

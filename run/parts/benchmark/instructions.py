@@ -10,10 +10,13 @@ from parts.tables import markdown, write_csv
 from pounding.files import write_text
 
 from .machine import Machine
+from .shapes import SHAPES, Shape
 from .workers import COUNTING, MeasuringError, Stepper, block_cells, slab_cells, step_benchmark, with_environment
 
-CASES = {"cube": ("cube of bricks", block_cells(100_000)), "slab": ("slab of bricks, one layer", slab_cells(36_000)),
-         "plate": ("plate of shells", (*slab_cells(36_000)[:2], 0))}
+CASES = {"cube": Shape("cube of bricks", block_cells(100_000)), "slab": Shape("slab of bricks, one layer", slab_cells(36_000)),
+         "plate": Shape("plate of shells", (*slab_cells(36_000)[:2], 0)),
+         **{name: shape for name, shape in SHAPES.items() if not shape.cells}}
+IN_ROWS = ["cube", "slab", "plate"]  # the others take minutes each
 UNITS = {"v4": "avx512f", "v3": "avx2", "v2": "sse4_2"}  # and a flag of processors that have them
 WHOLE = "whole step"
 ARITHMETIC = re.compile(r"v?(f?n?m?(add|sub)\w*|mul|div|sqrt|max|min)\w*[ps]d$")
@@ -93,7 +96,7 @@ def measure(build: Path, scratch: Path, motion: Path, case: str, rounds: int, se
     time of the step."""
     if not COUNTING:
         raise MeasuringError("instructions are counted on x86-64 alone")
-    model = ["-cells", ",".join(str(n) for n in CASES[case][1])]
+    model = CASES[case].model(scratch, motion)
     rows = []
     with Machine(build, [1]) as machine:
         for unit in units_of_machine():
@@ -141,14 +144,14 @@ def write(folder: Path, rows: list) -> str:
     text = markdown("A step on one rank: measured, and the least that its instructions take [ns per dof]",
                     ["", "unit", "dofs", "measured", *(f"{kind}, {most} a cycle" for kind, most in PER_CYCLE.items()),
                      f"{STATE_BYTES} bytes of the state"],
-                    [[CASES[row["case"]][0], row["unit"], row["dofs"], row["nanoseconds"], *bounds(row).values()]
+                    [[CASES[row["case"]].label, row["unit"], row["dofs"], row["nanoseconds"], *bounds(row).values()]
                      for row in whole])
     for case in dict.fromkeys(row["case"] for row in whole):
         mine = [row for row in rows if row["case"] == case]
         best, *others = dict.fromkeys(row["unit"] for row in mine)
         found = {(row["unit"], row["function"]): row for row in mine}
         text += "\n" + markdown(
-            f"{CASES[case][0]}: instructions per dof by {best}", ["", *KINDS, *(f"all by {unit}" for unit in others)],
+            f"{CASES[case].label}: instructions per dof by {best}", ["", *KINDS, *(f"all by {unit}" for unit in others)],
             [[row["function"], *(row[kind] for kind in KINDS),
               *(found.get((unit, row["function"]), {}).get("instructions") for unit in others)]
              for row in [row for row in mine if row["unit"] == best][:SHOWN + 1]])
