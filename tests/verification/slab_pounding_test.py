@@ -15,7 +15,6 @@ import unittest
 
 import numpy
 
-import program
 from recorded import Recorded, reference, write_sine
 
 YOUNG, DENSITY = 30e9, 2400.0
@@ -45,8 +44,6 @@ RUNS = {
     "m1_1": ((1, 1), 0, 0.02, 2, 5e-05, 7, 0.3661, 0.00165,
              2013.802569973177, 31226.266889049566, 0.228220024, 0.595734552),
 }
-SMALL_STEPS = ("m25_20_cfl05", "m25_20_beta10")  # take half of the time
-RUNS = {name: run for name, run in RUNS.items() if program.ALL or name not in SMALL_STEPS}
 
 
 def slab(name, elements, factor):
