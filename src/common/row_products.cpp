@@ -111,10 +111,7 @@ void multiply_rows(const double* rows, std::size_t count, std::size_t n, const O
   for (; r + octet_rows <= count; r += octet_rows) {
     multiply_together<octet_rows>(rows + r * n, n, x, out + r);
   }
-  if (octet_rows > 3 && r + 3 <= count) {
-    multiply_together<3>(rows + r * n, n, x, out + r);
-    r += 3;
-  }
+  for (; r + 3 <= count; r += 3) multiply_together<3>(rows + r * n, n, x, out + r);
   for (; r < count; ++r) multiply_together<1>(rows + r * n, n, x, out + r);
 }
 
@@ -125,7 +122,7 @@ void multiply_both_ways(const double* rows, const double* weights, std::size_t c
 
 void multiply_both_ways(const double* rows, const double* weights, std::size_t count, std::size_t n,
                         const Octet* x, Octet* parts, Octet* out) {
-  multiply_blocks_both_ways<octet_parts == 1 ? 8 : 4>(rows, weights, count, n, x, parts, out);
+  multiply_blocks_both_ways<octet_rows>(rows, weights, count, n, x, parts, out);
 }
 
 }  // namespace pounding

@@ -229,7 +229,7 @@ class BasisMaker {
     }
   }
 
-  /// Static responses to those forces beside the modes, which the space has already.
+  /// Static responses to the forces of `static_loads`, without their part in the modes.
   DenseMatrix static_responses() {
     DenseMatrix z = static_loads(system_, mesh_, request_);
     space_.normalise(z);
