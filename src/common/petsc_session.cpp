@@ -8,7 +8,8 @@
 
 namespace pounding {
 
-PetscSession::PetscSession(const std::map<std::string, std::string>& options) {
+PetscSession::PetscSession(MPI_Comm comm, const std::map<std::string, std::string>& options) {
+  PETSC_COMM_WORLD = comm;
   unsetenv("PETSC_OPTIONS");
   unsetenv("PETSC_OPTIONS_YAML");
   words_ = {"pounding", "-skip_petscrc", "-viewer_binary_skip_info"};

@@ -4,16 +4,18 @@
 #include <string>
 #include <vector>
 
+#include <mpi.h>
+
 namespace pounding {
 
-/// PETSc and SLEPc for as long as this object lives, with the given options and no others: neither
-/// .petscrc nor variables of the environment nor .info files beside matrices are read. An error
-/// inside of them prints nothing; it comes back as the exception of the call. Throws
-/// std::runtime_error. Collective over MPI_COMM_WORLD.
+/// PETSc and SLEPc on a communicator for as long as this object lives, with the given options and
+/// no others: neither .petscrc nor variables of the environment nor .info files beside matrices are
+/// read. An error inside of them prints nothing; it comes back as the exception of the call. Throws
+/// std::runtime_error. Collective over the communicator.
 class PetscSession {
  public:
   /// Names without the dash; "" for a flag.
-  explicit PetscSession(const std::map<std::string, std::string>& options);
+  PetscSession(MPI_Comm comm, const std::map<std::string, std::string>& options);
   PetscSession(const PetscSession&) = delete;
   PetscSession& operator=(const PetscSession&) = delete;
   ~PetscSession();

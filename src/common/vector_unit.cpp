@@ -51,14 +51,18 @@ std::size_t least(MPI_Comm comm, std::size_t value) {
   return smallest;
 }
 
-void use(std::size_t unit) {
+}  // namespace
+
+std::size_t unit_number() {
+  return unit_in_use;
+}
+
+void use_unit_number(std::size_t unit) {
   unit_in_use = unit;
 #ifdef POUNDING_JOINED_UNITS
   std::copy_n(pounding_kernel_tables[unit], pounding_kernel_count, pounding_kernels);
 #endif
 }
-
-}  // namespace
 
 std::vector<std::string> compiled_vector_units() {
   return {std::begin(names), std::end(names)};
@@ -70,10 +74,10 @@ std::string vector_unit() {
 
 void use_vector_unit(MPI_Comm comm, std::string_view name) {
   const std::size_t common = least(comm, best_unit());
-  if (name == "auto") return use(common);
+  if (name == "auto") return use_unit_number(common);
   const auto* const found = std::ranges::find(names, name);
   const auto unit = static_cast<std::size_t>(found - std::begin(names));
-  if (found != std::end(names) && unit <= common) return use(unit);
+  if (found != std::end(names) && unit <= common) return use_unit_number(unit);
   throw UserError("option -vector_unit " + std::string(name) +
                   ": the best that program and machine have is " + names[common]);
 }
@@ -89,5 +93,5 @@ extern "C" [[gnu::constructor(101)]] void pounding_use_best_unit() {
                  pounding::names[0]);
     std::_Exit(1);
   }
-  pounding::use(pounding::best_unit());
+  pounding::use_unit_number(pounding::best_unit());
 }

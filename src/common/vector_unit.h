@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,12 @@ std::vector<std::string> compiled_vector_units();
 /// Name of the unit whose kernels are in use: the best of this machine, unless another is asked
 /// for. Local.
 std::string vector_unit();
+
+/// Place of the unit in use among those compiled. Local.
+std::size_t unit_number();
+
+/// Uses the kernels of the unit at a place among those compiled, which this machine has. Local.
+void use_unit_number(std::size_t unit);
 
 /// Uses the kernels of a unit from now on, before anything is computed; `auto` is the best that the
 /// machines of all ranks have: ranks that solve one contact problem come to the same bits.

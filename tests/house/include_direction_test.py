@@ -42,7 +42,9 @@ MAY_INCLUDE = {
     "ensemble": {"common", "io", "scene", "mesh", "system", "modal", "stability", "motion", "interactions",
                  "interactions/pairing", "dynamics", "output", "driver", "fidelity"},
     "spectra": {"common", "io", "scene", "motion", "output"},
-    "main.cpp": {"common", "io", "scene", "ensemble"},
+    "run_job.h": set(),
+    "run_job.cpp": {"common", "scene", "ensemble", "run_job.h"},
+    "main.cpp": {"common", "io", "run_job.h"},
     "spectra_main.cpp": {"spectra"},
     "mesh_main.cpp": {"mesh"},
 }
