@@ -1,9 +1,13 @@
 """Runs the program as a user does and reads what it leaves; shared by the tests in Python."""
+import atexit
+import functools
 import json
 import os
 import pathlib
+import socket
 import subprocess
 import tempfile
+import time
 import unittest
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -11,7 +15,8 @@ BUILD = os.environ.get("POUNDING_BUILD", os.path.join(SOURCE, "build"))
 PROGRAM = os.path.abspath(os.path.join(BUILD, "pounding"))
 ALL = bool(os.environ.get("POUNDING_ALL"))  # run/test --all: also what takes long and seldom tells more
 long = unittest.skipUnless(ALL, "run/test --all")
-RANKS = int(os.environ.get("POUNDING_RANKS", 2))  # of a run whose test does not ask for another number
+# Of a run whose test does not ask for another number; on any ranks there is one motion (scenes_on_ranks_test.py).
+RANKS = int(os.environ.get("POUNDING_RANKS", 2 if ALL else 1))
 SHARED = os.environ.get("POUNDING_SHARED", os.path.join(os.path.dirname(SOURCE), "shared"))
 # Folders, meshes and records of a test file are in one folder, which goes with its process.
 PLACE = tempfile.TemporaryDirectory(prefix="pounding-test-", ignore_cleanup_errors=True)
@@ -39,9 +44,9 @@ def words(arguments, ranks):
 NOTING = '"$@"; status=$?; echo $status > "$0/${OMPI_COMM_WORLD_RANK:-0}"; [ $status -le 2 ] || exit $status'
 
 
-def run(arguments, ranks=RANKS, timeout=900, folder=SOURCE, environment=None):
-    """Runs `pounding` to its end; the exit status is that of every rank, or it raises AssertionError. One rank does
-    without mpirun, which takes longer to start than many a scene to run."""
+def launch(arguments, ranks=RANKS, timeout=900, folder=SOURCE, environment=None):
+    """`run` in processes of its own, for what a job among others cannot show: signals, crashes, limits of the system,
+    variables that are read before MPI starts, the peak of memory. One rank does without mpirun."""
     line = words(arguments, ranks)
     at = line.index(PROGRAM)
     start = line[:at] if ranks > 1 else []
@@ -53,6 +58,42 @@ def run(arguments, ranks=RANKS, timeout=900, folder=SOURCE, environment=None):
         assert len(noted) == ranks and len(set(noted)) == 1, f"exit statuses {noted}: {result.stderr[-2000:]}"
         result.returncode = noted[0]
     return result
+
+
+@functools.cache
+def jobs_place():
+    """The folder of a dispatcher of jobs (tests/jobs): ctest's, or one that ends with this process."""
+    place = os.environ.get("POUNDING_JOBS", "")
+    if not os.path.exists(os.path.join(place, "jobs")):
+        place = tempfile.mkdtemp(prefix="jobs-")
+        served = subprocess.Popen(["/usr/bin/python3", os.path.join(SOURCE, "tests", "jobs", "dispatcher.py"), place],
+                                  stdin=subprocess.PIPE, env={**os.environ, "POUNDING_BUILD": os.path.abspath(BUILD)})
+        atexit.register(lambda: (served.stdin.close(), served.wait()))
+        while not os.path.exists(os.path.join(place, "jobs")):
+            assert served.poll() is None, "the dispatcher of jobs ended"
+            time.sleep(0.02)
+    return place
+
+
+def run(arguments, ranks=RANKS, timeout=900, folder=SOURCE, environment=None):
+    """Runs `pounding` to its end on ranks that wait for jobs, or in processes of its own (run/test --all). The exit status
+    is that of every rank, or it raises AssertionError."""
+    line = words(arguments, ranks)
+    if ALL or ranks > 3 or not "".join(line).isascii():
+        return launch(arguments, ranks, timeout, folder, environment)
+    variables = {name: value for name, value in (environment or ENVIRONMENT).items() if ENVIRONMENT.get(name) != value}
+    variables.update({name: None for name in ENVIRONMENT if environment and name not in environment})
+    job = {"ranks": ranks, "words": line[line.index(PROGRAM) + 1:], "folder": os.path.abspath(folder), "timeout": timeout,
+           "environment": variables}
+    with socket.socket(socket.AF_UNIX) as asked:
+        asked.connect(os.path.join(jobs_place(), "jobs"))
+        asked.sendall(json.dumps(job).encode() + b"\n")
+        answer = json.loads(asked.makefile("rb").readline())
+    if "late" in answer:
+        raise subprocess.TimeoutExpired(line, timeout)
+    statuses = answer.get("statuses", [134])
+    assert len(set(statuses)) == 1, f"exit statuses {statuses}: {answer['stderr'][-2000:]}"
+    return subprocess.CompletedProcess(line, statuses[0], answer["stdout"], answer["stderr"])
 
 
 def command(name, *words, timeout=900):
