@@ -40,6 +40,10 @@ def frequencies(test, arguments, count, ranks=program.RANKS):
     return [(mode["frequency"], mode["direction"]) for mode in modes]
 
 
+ON_RANKS = {"masses on springs and dashpots": chain(1e-4, 1.4, *point("first", 50.0), *point("second", 1.0), *spring(
+    "support", "grounded_spring", "1e4,2e4,3e4", "90,0,0,0,0,0"))}
+
+
 class DampedMass(unittest.TestCase):
     MASS, OMEGA, RATIO = 50.0, 2 * math.pi * 3, 0.05
 
