@@ -41,8 +41,23 @@ bool crowded_node() {
   return ranks != nullptr && std::strtol(ranks, nullptr, 10) > processors();
 }
 
-void yield_where_crowded() {
-  if (crowded_node()) setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+void yield_while_waiting() {
+  const char* const here = std::getenv(local_size);
+  const char* const all = std::getenv("OMPI_COMM_WORLD_SIZE");
+  const bool one_node = here != nullptr && all != nullptr && std::string(here) == all;
+  if (one_node || crowded_node()) setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+}
+
+bool NodeLoad::is_above_processors() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_look_) return above_;
+  next_look_ = now + std::chrono::milliseconds(20);
+  std::ifstream load("/proc/loadavg");
+  double mean = 0;
+  long running = 0;  // the fourth word begins with it: 3/120
+  load >> mean >> mean >> mean >> running;
+  above_ = load && running > sysconf(_SC_NPROCESSORS_ONLN);
+  return above_;
 }
 
 }  // namespace pounding

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+
 namespace pounding {
 
 /// Whether the launcher started more ranks on this node than there are processors for them to run
@@ -8,10 +10,25 @@ namespace pounding {
 /// collective.
 bool crowded_node();
 
-/// Has ranks that wait for messages give their processor to others, where the node is crowded: one
-/// that waits without end may hold the processor that the awaited rank needs. Before MPI_Init. Open
-/// MPI does so itself only beyond the slots given to it, which may be more than processors. A
-/// choice of the user's (OMPI_MCA_mpi_yield_when_idle) stays.
-void yield_where_crowded();
+/// Has ranks that wait for messages give their processor to others, where the node is crowded or
+/// all ranks are on this one: whoever waits without end may hold the processor that the awaited
+/// rank needs, and on one node other programs have a part of them. Ranks of several nodes wait for
+/// a network, whose messages should be seen at once. Before MPI_Init. Open MPI does so itself only
+/// beyond the slots given to it, which may be more than processors. A choice of the user's
+/// (OMPI_MCA_mpi_yield_when_idle) stays.
+void yield_while_waiting();
+
+/// Whether more threads want to run on this node than it has processors, by what the kernel counts
+/// (/proc/loadavg): a rank that waits should sleep then, since giving its processor away still
+/// leaves it its share. False where the kernel does not tell. Local.
+class NodeLoad {
+ public:
+  /// Looks again after a fiftieth of a second.
+  bool is_above_processors();
+
+ private:
+  std::chrono::steady_clock::time_point next_look_{};
+  bool above_ = false;
+};
 
 }  // namespace pounding

@@ -8,9 +8,9 @@
 #include <string>
 #include <sys/mman.h>
 #include <thread>
+#include <time.h>
 #include <unistd.h>
 
-#include "common/crowded_node.h"
 #include "common/parallel.h"
 
 namespace pounding {
@@ -20,6 +20,7 @@ constexpr std::size_t line = 128;  // [B] a cache line and the one that is fetch
 
 constexpr int least_patience = 100;  // looks
 constexpr int short_wait = 20;       // times the processor was given away
+constexpr timespec nap{0, 20'000};   // the kernel adds 50 microseconds to it
 
 using Turn = std::atomic<std::uint64_t>;
 static_assert(Turn::is_always_lock_free, "turns are read by other processes");
@@ -119,6 +120,14 @@ void SharedExchange::publish() {
   boards_[rank_].turn->store(++turn_, std::memory_order_release);
 }
 
+void SharedExchange::give_way(int n) const {
+  if (n > short_wait && load_.is_above_processors()) {
+    nanosleep(&nap, nullptr);
+  } else {
+    sched_yield();
+  }
+}
+
 const double* SharedExchange::wait_for(int rank) const {
   const Board& board = boards_[rank];
   int looks = 0;
@@ -129,7 +138,7 @@ const double* SharedExchange::wait_for(int rank) const {
       // It may wait for a message that this rank has still to push on.
       int found = 0;
       MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, comm_, &found, MPI_STATUS_IGNORE);
-      sched_yield();
+      give_way(looks - patience_);
     }
   }
   patience_ =

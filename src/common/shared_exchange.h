@@ -8,6 +8,8 @@
 
 #include <mpi.h>
 
+#include "common/crowded_node.h"
+
 namespace pounding {
 
 /// Values that ranks of a communicator show each other through common memory, turn after turn, with
@@ -38,6 +40,9 @@ class SharedExchange {
   const double* wait_for(int rank) const;
 
  private:
+  /// Gives the processor to others for the n-th time in a wait.
+  void give_way(int n) const;
+
   /// Part of the common memory that one rank writes.
   struct Board {
     std::atomic<std::uint64_t>* turn = nullptr;  ///< last one published
@@ -52,6 +57,7 @@ class SharedExchange {
   /// Looks before the processor is given to somebody else: few once that had to be done for long,
   /// more again after waits that were short.
   mutable int patience_ = 0;
+  mutable NodeLoad load_;
   void* memory_ = nullptr;
   std::size_t memory_size_ = 0;
 };

@@ -173,7 +173,7 @@ int main(int count, char** words) {
     return 1;
   }
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  pounding::yield_where_crowded();
+  pounding::yield_while_waiting();
   pounding::prepare_hdf5();
   MPI_Init(&count, &words);
   {

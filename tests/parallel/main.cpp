@@ -6,7 +6,7 @@
 /// Every rank runs every test; the job fails if any rank does.
 int main(int count, char** words) {
   testing::InitGoogleTest(&count, words);
-  pounding::yield_where_crowded();
+  pounding::yield_while_waiting();
   SlepcInitialize(&count, &words, nullptr, nullptr);
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);

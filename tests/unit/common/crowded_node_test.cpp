@@ -41,18 +41,23 @@ class CrowdedNode : public testing::Test {
     std::string choice;  ///< of the variable with which Open MPI yields, "" for none
   };
 
-  /// What a rank on the processors `bound` sees where it is one of `ranks`, "" for another launcher's.
+  /// What a rank on the processors `bound` sees where it is one of `ranks`, "" for another launcher's; one
+  /// more rank is on another node, unless all are on this one.
   static Seen seen_by_a_rank(const std::string& ranks, const cpu_set_t& bound,
-                             const std::string& choice = "") {
+                             const std::string& choice = "", bool on_one_node = false) {
     const pid_t rank = fork();
     if (rank == 0) {
       run_on(bound);
       unsetenv("OMPI_COMM_WORLD_LOCAL_SIZE");
       unsetenv(yields);
-      if (!ranks.empty()) setenv("OMPI_COMM_WORLD_LOCAL_SIZE", ranks.c_str(), 1);
+      if (!ranks.empty()) {
+        const int all = std::stoi(ranks) + (on_one_node ? 0 : 1);
+        setenv("OMPI_COMM_WORLD_LOCAL_SIZE", ranks.c_str(), 1);
+        setenv("OMPI_COMM_WORLD_SIZE", std::to_string(all).c_str(), 1);
+      }
       if (!choice.empty()) setenv(yields, choice.c_str(), 1);
       const bool crowded = crowded_node();
-      yield_where_crowded();
+      yield_while_waiting();
       const char* const value = std::getenv(yields);
       _exit((crowded ? 1 : 0) + (value != nullptr ? 2 * (1 + std::atoi(value)) : 0));
     }
@@ -71,6 +76,12 @@ TEST_F(CrowdedNode, IsNoneUnderAnUnknownLauncher) {
   const Seen seen = seen_by_a_rank("", first_of(all_processors()));
   EXPECT_FALSE(seen.crowded);
   EXPECT_EQ(seen.choice, "");
+}
+
+TEST_F(CrowdedNode, RanksOfOneNodeYieldWhereverTheyAre) {
+  const Seen seen = seen_by_a_rank("1", first_of(all_processors()), "", true);
+  EXPECT_FALSE(seen.crowded);
+  EXPECT_EQ(seen.choice, "1");
 }
 
 TEST_F(CrowdedNode, IsNoneWhereEveryRankHasAProcessor) {
