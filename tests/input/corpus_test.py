@@ -1,6 +1,6 @@
-"""Broken inputs by the hundred, half of them on 1 rank and a sixth on 2 (all on both with POUNDING_ALL): one line
-that names culprit and remedy, exit status 1 on every rank, no results, no hang. The cases are data in
-tests/input/corpus; a table of them is printed.
+"""Broken inputs by the hundred on one rank, and of each kind of reader the first also on three: one line that names
+culprit and remedy, exit status 1 on every rank, no results, no hang. The cases are data in tests/input/corpus; a table of
+them is printed.
 
     PYTHONPATH=tests /usr/bin/python3 tests/input/corpus_test.py Corpus.test_meshes
     ... corpus_test.py --show "a bar of no length"      # what the program says to one case
@@ -22,52 +22,18 @@ CLASSES = {"options": options, "scenes": scenes, "meshes": mesh, "records": reco
            "matrices": matrices, "checkpoints": checkpoints}
 LIMIT = 60       # s a case may take, on a machine as busy as it gets
 AT_ONCE = 2      # cases side by side
-APART = 1 if program.ALL else 2     # every so many a case is tried
-TOGETHER = 1 if program.ALL else 6  # every so many also on 2 ranks
 MAY_BE_THERE = {"resolved.yaml"}  # the options in force, which say nothing of results
 NOISE = re.compile(r"PETSC ERROR|HDF5-DIAG|MPI_ABORT|\*\*\* Process|internal error|Segmentation|terminate called")
 Outcome = collections.namedtuple("Outcome", "case ranks statuses stderr files")
 
 
-def command(words, ranks, statuses):
-    """One rank runs without mpirun. On several, each leaves its exit status in a file of its own, and
-    mpirun lets the others end by themselves."""
-    if ranks == 1:
-        return [program.PROGRAM, *words]
-    line = f'"$@"; echo $? > {statuses}/$OMPI_COMM_WORLD_RANK'
-    return ["mpirun", "-n", str(ranks), "bash", "-c", line, "rank", program.PROGRAM, "-partition", "elements",
-            *words]
-
-
-def start(words, ranks, statuses):
-    """Runs to the end or to the limit; returns exit statuses by rank (None where it did not end) and stderr.
-    Each run has a folder of its own for what MPI keeps, which runs side by side would make at once."""
-    os.makedirs(statuses, exist_ok=True)
-    process = subprocess.Popen(command(words, ranks, statuses), cwd=program.SOURCE,
-                               env={**program.ENVIRONMENT, "TMPDIR": statuses},
-                               stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                               text=True, errors="replace")
+def start(words, ranks):
+    """Runs to the end or to the limit; returns exit statuses by rank (None where it did not end) and stderr."""
     try:
-        _, stderr = process.communicate(timeout=LIMIT)
+        result = program.run(words, ranks, LIMIT)
     except subprocess.TimeoutExpired:
-        process.terminate()
-        try:
-            _, stderr = process.communicate(timeout=10)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            _, stderr = process.communicate()
-        return [None] * ranks, stderr
-    if ranks == 1:
-        return [process.returncode], stderr
-    found = []
-    for rank in range(ranks):
-        path = os.path.join(statuses, str(rank))
-        if os.path.exists(path):
-            with open(path) as file:
-                found.append(int(file.read()))
-        else:
-            found.append(None)
-    return found, stderr
+        return [None] * ranks, ""
+    return [result.returncode] * ranks, result.stderr
 
 
 def run(one, ranks, made):
@@ -78,7 +44,7 @@ def run(one, ranks, made):
         output = os.path.join(folder, "results")
         if "-output" not in words:
             words += ["-output", output]
-        statuses, stderr = start(words, ranks, os.path.join(folder, "statuses"))
+        statuses, stderr = start(words, ranks)
         left = sorted(os.listdir(output)) if os.path.isdir(output) else []
         return Outcome(one, ranks, statuses, stderr.replace(folder, "{folder}").replace(made, "{made}"), left)
     finally:
@@ -112,7 +78,7 @@ def make_sound(made):
                  ["-output", f"{made}/none", "-dry_run", "-export_matrices", f"{made}/matrices"],
                  ["-output", f"{made}/reduced", "-left_model", "modal", "-left_modal_vectors", "4",
                   "-left_modal_basis", f"{made}/basis.h5"]):
-        statuses, stderr = start(words + more, 1, os.path.join(made, "statuses"))
+        statuses, stderr = start(words + more, 1)
         if statuses != [0]:
             raise RuntimeError(f"the sound scene with {more}: {stderr}")
     return made
@@ -135,8 +101,8 @@ class Corpus(unittest.TestCase):
 
     def refuse(self, name):
         cases = CLASSES[name].CASES
-        jobs = [(one, ranks) for at, one in enumerate(cases) if at % APART == 0 for ranks in one.ranks
-                if ranks == 1 or len(one.ranks) == 1 or at % TOGETHER == 0]
+        jobs = [(one, one.ranks[0]) for one in cases]
+        jobs.append((next(one for one in cases if len(one.ranks) > 1), 3))
         with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as pool:
             outcomes = list(pool.map(lambda job: run(*job, self.made), jobs))
         faults = [(outcome, fault(outcome)) for outcome in outcomes]
@@ -150,7 +116,7 @@ class Corpus(unittest.TestCase):
 
     def test_sound_scenes_run(self):
         for scene in ("scene.yaml", "frame.yaml"):
-            for ranks in (1, 2):
+            for ranks in (1, 3):
                 outcome = run(case.Case(scene, [], [], scene=scene), ranks, self.made)
                 self.assertEqual(outcome.statuses, [0] * ranks, outcome.stderr)
                 self.assertEqual(outcome.stderr, "")

@@ -32,7 +32,7 @@ class MeshCase(unittest.TestCase):
     refuse = wrong_input_test.WrongInput.refuse
     with_file = wrong_input_test.WrongInput.with_file
 
-    def connectivity(self, arguments, ranks=2):
+    def connectivity(self, arguments, ranks=1):
         """What the summary says of the mesh, and its doubts but for the one about sudden gravity."""
         _, summary = program.must_run(self, arguments, ranks)
         doubts = [warning for warning in summary["warnings"] if "gravity acts at once" not in warning]
@@ -41,10 +41,9 @@ class MeshCase(unittest.TestCase):
 
 class Pieces(MeshCase):
     def test_sound_table(self):
-        for ranks in (1, 2):
-            found, warnings = self.connectivity(table(0), ranks)
-            self.assertEqual((found["pieces"], found["pieces_not_held"]), (1, 0))
-            self.assertEqual(warnings, [])
+        found, warnings = self.connectivity(table(0))
+        self.assertEqual((found["pieces"], found["pieces_not_held"]), (1, 0))
+        self.assertEqual(warnings, [])
 
     def test_head_that_is_a_node_of_its_own(self):
         self.refuse(table(1), "structure t", "1 pairs of nodes", "(0, 2, 3)", "-t_allow_loose")
@@ -92,10 +91,9 @@ class Joints(MeshCase):
     def test_mechanism(self):
         bars = without(without(table(0), "-t_column_element"), "-t_column_section")
         bars = bars + ["-t_column_element", "bar", "-t_column_area", "1e-2"]
-        for ranks in (1, 2):
-            _, warnings = self.connectivity(bars, ranks)
-            self.assertEqual(len(warnings), 1, warnings)
-            self.assertIn("no stiffness", warnings[0])
+        _, warnings = self.connectivity(bars)
+        self.assertEqual(len(warnings), 1, warnings)
+        self.assertIn("no stiffness", warnings[0])
 
     def test_mesh_in_millimetres(self):
         _, warnings = self.connectivity(TABLE + ["-t_mesh_set", "unit=1000", "-modes", "0"])
@@ -149,10 +147,9 @@ class Uses(MeshCase):
             """, ".geo")
         words = ["-structures", "t", "-t_mesh", mesh, "-t_clamp", "edge", "-t_slab_element", "shell", "-t_slab_material",
                  "C30/37", "-t_slab_thickness", "0.2", "-t_initial_velocity", "0,0,1", "-end_time", "1e-4", "-modes", "0"]
-        for ranks in (1, 2):
-            _, summary = program.must_run(self, words, ranks)
-            structure = summary["structures"]["t"]
-            self.assertEqual((structure["groups"], structure["elements"]), ({"slab": 12}, 12))
+        _, summary = program.must_run(self, words)
+        structure = summary["structures"]["t"]
+        self.assertEqual((structure["groups"], structure["elements"]), ({"slab": 12}, 12))
         printed = program.run([*words, "-dry_run"]).stdout
         self.assertRegex(printed, r"\n  slab +4 shell4\n  slab +8 shell3\n")
 
@@ -168,11 +165,10 @@ class Groups(MeshCase):
                 f"-t_{body}_material", "C30", "-modes", "3", "-end_time", "1e-4", *more]
 
     def hold(self, arguments):
-        for ranks in (1, 2):
-            _, summary = program.must_run(self, arguments, ranks)
-            structure = summary["structures"]["t"]
-            self.assertAlmostEqual(structure["mass"], 2500, delta=1e-9)
-            self.assertEqual((structure["nodes"], structure["dofs"]), (8, 12))
+        _, summary = program.must_run(self, arguments)
+        structure = summary["structures"]["t"]
+        self.assertAlmostEqual(structure["mass"], 2500, delta=1e-9)
+        self.assertEqual((structure["nodes"], structure["dofs"]), (8, 12))
 
     def msh(self, names, elements):
         """A file of format 2.2: names (dimension, number, name), elements (type, group, entity, nodes)."""
@@ -204,7 +200,7 @@ class Groups(MeshCase):
         """It would be left out, be it that something else names the group."""
         mesh = self.msh(self.NAMES, [self.BRICK, self.BASE, (2, 2, 1, (2, 3, 9))])
         for more in ([], [*probes(top="t:tower")]):
-            self.refuse(self.cube(mesh, "tower", "base", *more), "group 'tower'", "1 element (Triangle 3)", "beside those that become", ranks=(2,))
+            self.refuse(self.cube(mesh, "tower", "base", *more), "group 'tower'", "1 element (Triangle 3)", "beside those that become")
         program.must_run(self, self.cube(mesh, "tower", "base", "-t_ignore", "tower"))
 
     def test_one_name_of_a_face_under_springs_and_the_volume_on_it(self):
@@ -215,7 +211,7 @@ class Groups(MeshCase):
         _, summary = program.must_run(self, arguments)
         self.assertAlmostEqual(summary["structures"]["t"]["mass"], 2500, delta=1e-9)
         mesh = self.msh(names, [self.BRICK, (3, 2, 3, (1, 2, 3, 4)), (4, 3, 4, (2, 3, 9, 6))])
-        self.refuse(self.cube(mesh, "tower", "none", *springs), "group 'bed'", "(Tetrahedron 4)", ranks=(2,))
+        self.refuse(self.cube(mesh, "tower", "none", *springs), "group 'bed'", "(Tetrahedron 4)")
 
     def test_nastran_by_properties(self):
         grid = "".join(f"GRID    {n + 1:8d}{'':8s}{x:8.1f}{y:8.1f}{z:8.1f}\n" for n, (x, y, z) in enumerate(CUBE))
@@ -248,7 +244,7 @@ class Groups(MeshCase):
         feet = [(7, n) for n in range(1, 5)]
         self.hold(self.cube(self.unv([("body", [(8, 1)]), ("feet", feet), ("skin", [(8, 2)])]), "body", "feet"))
         self.hold(self.cube(self.unv([]), "3", "4"))
-        self.refuse(self.cube(self.unv([("body", [(8, 1)])]), "body", "base"), "group 'base'", "which has: body", ranks=(2,))
+        self.refuse(self.cube(self.unv([("body", [(8, 1)])]), "body", "base"), "group 'base'", "which has: body")
 
     def test_universal_file_of_gmsh(self):
         """Its own reader does not survive it."""
@@ -276,7 +272,7 @@ class Gmsh(MeshCase):
 
     def refuse_command(self, text, *words, suffix=".geo"):
         text, path = self.marked(text)
-        self.refuse(TABLE + ["-t_mesh", self.with_file(text + "\n", suffix)], *words, ranks=(2,))
+        self.refuse(TABLE + ["-t_mesh", self.with_file(text + "\n", suffix)], *words)
         self.assertFalse(os.path.exists(path))
 
     def answer(self, text, memory=resource.RLIM_INFINITY):
@@ -318,7 +314,7 @@ class Gmsh(MeshCase):
     def test_last_words_of_a_crash(self):
         self.refuse(self.geometry("Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Line(1) = {1, 2}; Curve Loop(1) = {1};\n"
                                   "Plane Surface(1) = {1}; Transfinite Surface {1} = {1, 2, 1};\n"),
-                    "Gmsh crashed", "(signal 6, Aborted)", "Something wrong in edge loop", ranks=(2,))
+                    "Gmsh crashed", "(signal 6, Aborted)", "Something wrong in edge loop")
 
     def test_loop_without_end(self):
         self.refuse(self.geometry("x = 0;\nFor i In {1:1e15}\n x = x + 1;\nEndFor\n")
@@ -376,10 +372,10 @@ class Gmsh(MeshCase):
 
     def test_numbers_beyond_every_mesh(self):
         for value in ("1e300", "-1e13", "nan", "inf"):
-            self.refuse(TABLE + ["-t_mesh_set", f"unit={value}"], f"unit={value}", "beyond every mesh", ranks=(2,))
+            self.refuse(TABLE + ["-t_mesh_set", f"unit={value}"], f"unit={value}", "beyond every mesh")
 
     def test_a_geometry_that_ends_gmsh(self):
-        self.refuse(self.geometry("Exit;\n"), "-t_mesh", "without an answer", ranks=(2,))
+        self.refuse(self.geometry("Exit;\n"), "-t_mesh", "without an answer")
 
     def without_call(self, number, arguments):
         """The program where the system knows no call of this number."""
@@ -452,8 +448,8 @@ class Gmsh(MeshCase):
 
     def test_quotes_in_parameters(self):
         for value in ('a"; SystemCall "x', "a'b", "a\\b", "a\nb"):
-            self.refuse(TABLE + ["-t_mesh_set", f"slab={value}"], "-t_mesh_set", ranks=(2,))
-        self.refuse(TABLE + ["-t_mesh_set", "slab;x=1"], "-t_mesh_set", ranks=(2,))
+            self.refuse(TABLE + ["-t_mesh_set", f"slab={value}"], "-t_mesh_set")
+        self.refuse(TABLE + ["-t_mesh_set", "slab;x=1"], "-t_mesh_set")
 
 
 if __name__ == "__main__":

@@ -28,9 +28,8 @@ class Motion(unittest.TestCase):
 
     def refuse(self, text, *words, options=()):
         path = self.record(text)
-        for ranks in (1, 2):
-            program.must_refuse(self, scene("-motion_x_record", path, *options, "-dry_run"), *words, ranks=ranks,
-                                timeout=120)
+        program.must_refuse(self, scene("-motion_x_record", path, *options, "-dry_run"), *words,
+                            timeout=120)
 
     def test_several_columns_need_one_to_be_asked_for(self):
         table = "time,acc,vel,disp\n0,1,0,0\n0.02,2,0,0\n0.04,1,0,0\n"
@@ -45,11 +44,10 @@ class Motion(unittest.TestCase):
         table = "".join(f"{i} {0.02 * i:.2f} {i % 3}\n" for i in range(10))
         self.refuse(table, "3 columns", "time in column 2", options=["-motion_x_unit", "m/s2"])
         path = self.record(table)
-        for ranks in (1, 2):
-            _, summary = program.must_run(self, scene("-motion_x_record", path, "-motion_x_unit", "m/s2",
-                                                      "-motion_x_column", 3), ranks)
-            motion = summary["motion"]["x"]
-            self.assertEqual((motion["time_step"], motion["points"], motion["pga"]), (0.02, 10, 2))
+        _, summary = program.must_run(self, scene("-motion_x_record", path, "-motion_x_unit", "m/s2",
+                                                  "-motion_x_column", 3))
+        motion = summary["motion"]["x"]
+        self.assertEqual((motion["time_step"], motion["points"], motion["pga"]), (0.02, 10, 2))
 
     def test_steps_longer_than_those_of_any_record(self):
         table = "".join(f"{20 * i} {i % 3}\n" for i in range(10))  # milliseconds
@@ -89,18 +87,17 @@ class Motion(unittest.TestCase):
         path = self.record("A RECORD IN UNITS OF (G)\nNPTS= 5, DT= .01 SEC\n .1 -.2\n .1 .05\n 0.\n")
         words = scene("-motion_x_record", path, "-motion_x_pga", 2.0, "-motion_z_target",
                       "petsc-options/spectra/alluvial.csv", "-motion_z_pga", 1.0, "-motion_z_duration", 20)
-        for ranks in (1, 2):
-            for more in ([], ["-dry_run"]):
-                with tempfile.TemporaryDirectory() as folder:
-                    result = program.run([*words, *more, "-output", folder], ranks)
-                self.assertEqual(result.returncode, 0, result.stderr)
-                for line in (f"motion x: {path}",
-                             "  rows of 2 values that follow one another, in g (header), 5 points every 0.01 s, "
-                             "0.04 s, peak 1.961 m/s2 (0.2 g)",
-                             "  scaled: to pga 2 m/s2; pga 2 m/s2 (0.2039 g)",
-                             "motion z: petsc-options/spectra/alluvial.csv"):
-                    self.assertIn("\n" + line, result.stdout)
-                self.assertEqual(result.stdout.count("synthetic, seed 1, "), 1)
+        for more in ([], ["-dry_run"]):
+            with tempfile.TemporaryDirectory() as folder:
+                result = program.run([*words, *more, "-output", folder])
+            self.assertEqual(result.returncode, 0, result.stderr)
+            for line in (f"motion x: {path}",
+                         "  rows of 2 values that follow one another, in g (header), 5 points every 0.01 s, "
+                         "0.04 s, peak 1.961 m/s2 (0.2 g)",
+                         "  scaled: to pga 2 m/s2; pga 2 m/s2 (0.2039 g)",
+                         "motion z: petsc-options/spectra/alluvial.csv"):
+                self.assertIn("\n" + line, result.stdout)
+            self.assertEqual(result.stdout.count("synthetic, seed 1, "), 1)
         _, summary = program.must_run(self, words)
         motion = summary["motion"]
         self.assertIsNone(motion["y"])
@@ -120,16 +117,15 @@ class Motion(unittest.TestCase):
         paths = [self.record("COMP. N10E\nt [s], a (g)\n" + "".join(f"{first + 0.02 * i:.2f},{0.1 * (i % 3)}\n" for i in range(9)))
                  for first in (20, 23.2)]
         words = scene("-motion_x_record", paths[0], "-motion_y_record", paths[1])
-        for ranks in (1, 2):
-            folder, summary = program.must_run(self, [*words, "-end_time", 4, "-output_interval", 0.02], ranks)
-            self.assertAlmostEqual(summary["motion"]["y"]["sets_in_at"], 3.2)
-            self.assertAlmostEqual(summary["motion"]["x"]["sets_in_at"], 0)
-            self.assertEqual(summary["motion"]["y"]["component"], "N10E")
-            with h5py.File(os.path.join(folder, "history.h5")) as file:
-                time, ground = file["time"][:], file["ground_acceleration"][:]
-            self.assertTrue((ground[time < 3.1, 1] == 0).all())
-            self.assertGreater(abs(ground[(time > 3.2) & (time < 3.4), 1]).max(), 1)
-            self.assertGreater(abs(ground[time < 0.2, 0]).max(), 1)
+        folder, summary = program.must_run(self, [*words, "-end_time", 4, "-output_interval", 0.02])
+        self.assertAlmostEqual(summary["motion"]["y"]["sets_in_at"], 3.2)
+        self.assertAlmostEqual(summary["motion"]["x"]["sets_in_at"], 0)
+        self.assertEqual(summary["motion"]["y"]["component"], "N10E")
+        with h5py.File(os.path.join(folder, "history.h5")) as file:
+            time, ground = file["time"][:], file["ground_acceleration"][:]
+        self.assertTrue((ground[time < 3.1, 1] == 0).all())
+        self.assertGreater(abs(ground[(time > 3.2) & (time < 3.4), 1]).max(), 1)
+        self.assertGreater(abs(ground[time < 0.2, 0]).max(), 1)
         result = program.run([*words, "-dry_run"], 1)
         self.assertIn("sets in at 3.2 s: its times begin at 23.2 s, t = 0 is 20 s of them", result.stdout)
         self.assertIn(", component N10E", result.stdout)

@@ -24,19 +24,11 @@ class Options(unittest.TestCase):
         return path
 
     def refuse(self, arguments, *words):
-        """One line on 1 and on 2 ranks, the same one, that holds the words; status 1; nothing left behind."""
-        lines = set()
-        for ranks in (1, 2):
-            output = os.path.join(self.folder, "results")
-            result = program.run([*arguments, "-output", output], ranks, timeout=60)
-            self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
-            self.assertFalse(os.path.exists(output))
-            self.assertNotIn("PETSC", result.stderr)
-            self.assertEqual(len(program.error_lines(result)), 1, result.stderr)
-            lines.update(program.error_lines(result))
-        (line,) = lines
-        for word in words:
-            self.assertIn(word, line)
+        """One line that holds the words; status 1; nothing left behind."""
+        output = os.path.join(self.folder, "results")
+        line = program.must_refuse(self, [*arguments, "-output", output], *words, timeout=60)
+        self.assertFalse(os.path.exists(output))
+        self.assertNotIn("PETSC", line)
 
 
 class Files(Options):
@@ -144,13 +136,12 @@ class Libraries(Options):
         words = ["-options_file", scene, *program.COARSE_PAIR[2:], "-output", os.path.join(self.folder, "results")]
         for name in ("petsc-options", "meshes"):
             os.symlink(os.path.join(program.SOURCE, name), os.path.join(self.folder, name))
-        for ranks in (1, 2):
-            result = program.must_end(self, words, ranks, timeout=120, folder=self.folder, environment=environment)
-            summary = program.summary(os.path.join(self.folder, "results"))
-            self.assertEqual(summary["end_time"], 1e-4)
-            (doubt,) = [line for line in summary["warnings"] if "PETSC_OPTIONS" in line]
-            self.assertIn("is not read", doubt)
-            self.assertIn("warning: " + doubt, result.stdout)
+        result = program.must_end(self, words, timeout=120, folder=self.folder, environment=environment)
+        summary = program.summary(os.path.join(self.folder, "results"))
+        self.assertEqual(summary["end_time"], 1e-4)
+        (doubt,) = [line for line in summary["warnings"] if "PETSC_OPTIONS" in line]
+        self.assertIn("is not read", doubt)
+        self.assertIn("warning: " + doubt, result.stdout)
         self.assertEqual(sorted(os.listdir(self.folder)),
                          [".petscrc", "case.yaml", "home", "meshes", "petsc-options", "results"])
 
@@ -170,14 +161,12 @@ class Libraries(Options):
         os.remove(os.path.join(folder, "stiffness.mtx"))
         with open(os.path.join(folder, "stiffness.petsc.info"), "w") as file:
             file.write("-lowest_eps_type nope\n-lowest_eps_tol nope\n")
-        for ranks in (1, 2):
-            result = program.must_end(self, [*scene, "-m_matrices", folder], ranks, timeout=60)
+        result = program.must_end(self, [*scene, "-m_matrices", folder], timeout=60)
 
     def test_no_option_of_the_scene_is_called_unused(self):
-        for ranks in (1, 2):
-            result = program.run([*CASE, "-dry_run", "-options_left", "-output", self.folder], ranks, timeout=120)
-            self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertIn("There are no unused options", result.stdout)
+        result = program.run([*CASE, "-dry_run", "-options_left", "-output", self.folder], timeout=120)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("There are no unused options", result.stdout)
 
 
 if __name__ == "__main__":

@@ -18,19 +18,18 @@ class RelativePaths(unittest.TestCase):
         self.here.mkdir()
         shutil.copytree(two_buildings.FOLDER, self.scene)
 
-    def run_scene(self, file, *words, ranks=2):
+    def run_scene(self, file, *words, ranks=1):
         return program.run(["-options_file", file, *SHORT, "-output", "out", *words], ranks, folder=self.here)
 
-    def in_force(self, file, *words, ranks=2):
+    def in_force(self, file, *words, ranks=1):
         result = self.run_scene(file, *words, ranks=ranks)
         self.assertEqual(result.returncode, 0, result.stdout[-500:] + result.stderr)
         return program.summary(self.here / "out")
 
     def test_files_beside_the_scene_are_found_from_another_folder(self):
-        for ranks in (1, 2):
-            summary = self.in_force("../scene/two-buildings.yaml", ranks=ranks)
-            self.assertEqual(summary["options"]["left_mesh"], "../scene/building.geo")
-            self.assertEqual(summary["options"]["motion_x_target"], "../scene/ground.csv")
+        summary = self.in_force("../scene/two-buildings.yaml")
+        self.assertEqual(summary["options"]["left_mesh"], "../scene/building.geo")
+        self.assertEqual(summary["options"]["motion_x_target"], "../scene/ground.csv")
         self.assertTrue((self.here / "out" / "summary.json").is_file(), "results go where the program runs")
 
     def test_the_scene_s_folder_comes_before_that_of_the_run(self):
@@ -55,21 +54,19 @@ class RelativePaths(unittest.TestCase):
         self.assertEqual(summary["options"]["left_mesh"], "../scene/building.geo")
         (self.here / "mine" / "a.yaml").write_text("include: b.yaml\n")
         (self.here / "mine" / "b.yaml").write_text("include: a.yaml\n")
-        for ranks in (1, 2):
-            result = self.run_scene("./mine/a.yaml", ranks=ranks)
-            self.assertEqual(result.returncode, 1)
-            self.assertIn("read already", program.error_lines(result)[0])
+        result = self.run_scene("./mine/a.yaml")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("read already", program.error_lines(result)[0])
 
     def test_what_is_nowhere_is_one_line(self):
         (self.here / "case.yaml").write_text("include: nowhere.yaml\n")
         os.remove(self.scene / "building.geo")
         for file, part in (("case.yaml", "nowhere.yaml: no such file"),
                            ("../scene/two-buildings.yaml", "building.geo: no such file")):
-            for ranks in (1, 2):
-                result = self.run_scene(file, ranks=ranks)
-                self.assertEqual(result.returncode, 1)
-                line, = program.error_lines(result)
-                self.assertIn(part, line)
+            result = self.run_scene(file)
+            self.assertEqual(result.returncode, 1)
+            line, = program.error_lines(result)
+            self.assertIn(part, line)
 
     def test_resolved_options_run_again(self):
         self.in_force("../scene/two-buildings.yaml")

@@ -11,6 +11,8 @@ import unittest
 import h5py
 
 import program
+
+PROCESSORS = 2  # runs beside each other, and killed ones
 from decks import box_of, material, probes
 
 BAR = ["-structures", "bar", *box_of("bar", "lz=4,nz=4", "soft", "hex8_full"), *material("soft", 900, 0.2, 1),

@@ -11,6 +11,8 @@ import h5py
 
 import program
 
+PROCESSORS = 2  # on a terminal, of two ranks as well
+
 # Two masses in a row on springs, 0.1 s of free vibration: nothing to doubt.
 CHAIN = ["-structures", "m", "-m_mesh", "tests/meshes/chain.geo", "-m_mesh_set", "links=3", "-m_clamp", "ground",
          "-modes", "0", "-m_initial_velocity", "1,0,0", "-end_time", "0.1", "-time_step", "1e-4", "-output_interval", "1e-3"]
@@ -27,24 +29,17 @@ class Run(unittest.TestCase):
         self.output = os.path.join(self.folder, "results")
 
     def refuse(self, words, *expected):
-        for ranks in (1, 2):
-            program.must_refuse(self, ["-output", self.output, *words], *expected, ranks=ranks, timeout=120)
-            self.assertFalse(os.path.exists(self.output))
+        program.must_refuse(self, ["-output", self.output, *words], *expected, timeout=120)
+        self.assertFalse(os.path.exists(self.output))
 
     def doubts(self, words, again=False):
-        """Lines of doubt, the same in the summary, on the terminal, and on 1 and 2 ranks."""
-        found = []
-        for ranks in (1, 2):
-            if not again:
-                shutil.rmtree(self.output, ignore_errors=True)
-            result = program.must_end(self, ["-output", self.output, *words], ranks, timeout=120)
-            printed = [line[9:] for line in result.stdout.splitlines() if line.startswith("warning: ")]
-            self.assertEqual(program.summary(self.output)["warnings"], printed)
-            found.append(printed)
-            if again:
-                break
-        self.assertEqual(found[0], found[-1])
-        return found[0]
+        """Lines of doubt, the same in the summary and on the terminal."""
+        if not again:
+            shutil.rmtree(self.output, ignore_errors=True)
+        result = program.must_end(self, ["-output", self.output, *words], timeout=120)
+        printed = [line[9:] for line in result.stdout.splitlines() if line.startswith("warning: ")]
+        self.assertEqual(program.summary(self.output)["warnings"], printed)
+        return printed
 
     def doubt(self, words, *expected):
         (line,) = self.doubts(words)
@@ -155,9 +150,7 @@ class Folder(Run):
         open(file, "w").close()
         for words in (["-output", "/proc/nowhere/results"], ["-output", file], ["-output", os.path.join(file, "results")],
                       ["-output", self.output, "-export_matrices", file]):
-            for ranks in (1, 2):
-                program.must_refuse(self, [*CHAIN, "-m_mesh", "none.geo", *words], " ".join(words[-2:]), ranks=ranks,
-                                    timeout=60)
+            program.must_refuse(self, [*CHAIN, "-m_mesh", "none.geo", *words], " ".join(words[-2:]), timeout=60)
         self.assertEqual(os.listdir(self.folder), ["file"])
 
     def test_left_as_it_was_when_the_scene_is_wrong(self):
@@ -176,27 +169,21 @@ class Folder(Run):
         self.assertEqual(self.doubts([*CHAIN, *record], again=True), [])
 
     def test_dry_run_writes_modes_where_asked(self):
-        for ranks in (1, 2):
-            words = [*CHAIN, "-modes", "2", "-dry_run", "-output", self.output]
-            self.assertEqual(program.run(words, ranks, timeout=60).returncode, 0)
-            self.assertFalse(os.path.exists(self.output))
-            result = program.must_end(self, [*words, "-write_modes"], ranks, timeout=60)
-            self.assertEqual(sorted(os.listdir(self.output)), ["modes.h5", "modes.xdmf"])
-            shutil.rmtree(self.output)
+        words = [*CHAIN, "-modes", "2", "-dry_run", "-output", self.output]
+        self.assertEqual(program.run(words, timeout=60).returncode, 0)
+        self.assertFalse(os.path.exists(self.output))
+        result = program.must_end(self, [*words, "-write_modes"], timeout=60)
+        self.assertEqual(sorted(os.listdir(self.output)), ["modes.h5", "modes.xdmf"])
+        shutil.rmtree(self.output)
 
 
 class Progress(Run):
     def test_only_where_somebody_sees_it(self):
         words = [*CHAIN, "-output", self.output, "-progress_interval", 1000]  # a busy machine is no reason
         for ranks in (1, 2):
-            self.assertNotIn("per simulated", program.run(words, ranks, timeout=60).stdout)
-            with open(os.path.join(self.folder, "log"), "w+") as log:
-                subprocess.run(program.words(words, ranks), cwd=program.SOURCE, env=program.ENVIRONMENT, stdout=log,
-                               check=True, timeout=60)
-                log.seek(0)
-                text = log.read()
-            self.assertIn("results in", text)
-            self.assertNotIn("per simulated", text)
+            result = program.launch(words, ranks, timeout=60)
+            self.assertIn("results in", result.stdout)
+            self.assertNotIn("per simulated", result.stdout)
             self.assertIn("per simulated", self.on_a_terminal(program.words(words, ranks)))
 
     def on_a_terminal(self, command):

@@ -19,9 +19,8 @@ class Units(unittest.TestCase):
         return warnings
 
     def test_none_about_the_shipped_pair(self):
-        for ranks in (1, 2):
-            of_units = ("material", "section", "structure", "motion")
-            self.assertEqual([line for line in self.doubts(ranks=ranks) if line.startswith(of_units)], [])
+        of_units = ("material", "section", "structure", "motion")
+        self.assertEqual([line for line in self.doubts() if line.startswith(of_units)], [])
 
     def test_each_wrong_unit_is_one_line(self):
         usual = self.doubts()
@@ -44,9 +43,8 @@ class Units(unittest.TestCase):
             file.write("0\n0.34\n-0.2\n0\n" * 20)
         words = ["-motion_x_record", path, "-motion_x_time_step", 0.01, "-motion_x_pga", 0]
         for unit, scale, what in (("m/s2", 1, "in g?"), ("g", 10, "above 3 g")):
-            for ranks in (1, 2):
-                new = self.doubts(*words, "-motion_x_unit", unit, "-motion_x_scale", scale, ranks=ranks)
-                self.assertEqual(len([line for line in new if what in line]), 1, new)
+            new = self.doubts(*words, "-motion_x_unit", unit, "-motion_x_scale", scale)
+            self.assertEqual(len([line for line in new if what in line]), 1, new)
         new = self.doubts(*words, "-motion_x_unit", "g")
         self.assertEqual([line for line in new if "motion" in line and "has its peak" not in line], [])  # the run is short
 

@@ -10,13 +10,12 @@ CASE = program.COARSE_PAIR + ["-end_time", "0.001"]
 
 
 class WrongInput(unittest.TestCase):
-    def refuse(self, arguments, *words, ranks=(1, 2)):
+    def refuse(self, arguments, *words, ranks=1):
         """The program refuses the arguments with one line that holds all the words."""
-        for count in ranks:
-            with tempfile.TemporaryDirectory() as folder:
-                output = os.path.join(folder, "results")
-                program.must_refuse(self, list(arguments) + ["-output", output], *words, ranks=count, timeout=120)
-                self.assertFalse(os.path.exists(os.path.join(output, "summary.json")))
+        with tempfile.TemporaryDirectory() as folder:
+            output = os.path.join(folder, "results")
+            program.must_refuse(self, list(arguments) + ["-output", output], *words, ranks=ranks, timeout=120)
+            self.assertFalse(os.path.exists(os.path.join(output, "summary.json")))
 
     def with_file(self, text, suffix=".txt"):
         handle, path = tempfile.mkstemp(suffix=suffix)
@@ -165,7 +164,7 @@ class WrongInput(unittest.TestCase):
 
     def test_output_that_cannot_be_written(self):
         path = self.with_file("a file, not a folder")
-        program.must_refuse(self, CASE + ["-output", path], path, ranks=2, timeout=120)
+        program.must_refuse(self, CASE + ["-output", path], path, timeout=120)
 
 
 if __name__ == "__main__":
