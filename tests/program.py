@@ -64,7 +64,7 @@ def launch(arguments, ranks=RANKS, timeout=900, folder=SOURCE, environment=None)
 def jobs_place():
     """The folder of a dispatcher of jobs (tests/jobs): ctest's, or one that ends with this process."""
     place = os.environ.get("POUNDING_JOBS", "")
-    if not os.path.exists(os.path.join(place, "jobs")):
+    if not place or not os.path.exists(os.path.join(place, "jobs")):
         place = tempfile.mkdtemp(prefix="jobs-")
         served = subprocess.Popen(["/usr/bin/python3", os.path.join(SOURCE, "tests", "jobs", "dispatcher.py"), place],
                                   stdin=subprocess.PIPE, env={**os.environ, "POUNDING_BUILD": os.path.abspath(BUILD)})

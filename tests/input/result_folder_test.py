@@ -11,9 +11,9 @@ import unittest
 import h5py
 
 import program
+from decks import box_of, material, probes
 
 PROCESSORS = 2  # runs beside each other, and killed ones
-from decks import box_of, material, probes
 
 BAR = ["-structures", "bar", *box_of("bar", "lz=4,nz=4", "soft", "hex8_full"), *material("soft", 900, 0.2, 1),
        "-bar_gravity", "0,0,-10", "-bar_clamp", "z_min", "-output_interval", 0.05, *probes(top="bar:z_max"),

@@ -12,6 +12,8 @@ import unittest
 
 import program
 
+PROCESSORS = 2  # words while ranks run, on a terminal
+
 CASE = ["-options_file", "petsc-options/plant/frames.yaml", "-end_time", "0.02", "-modes", 1, "-dry_run",
         "-a_mesh_set", "size=2,bays_x=4", "-b_mesh_set", "size=2,bays_x=3,x_offset=24.05,face_at_end=0"]
 PHASES = ("a: mesh", "b: mesh", "a: lowest modes", "a: largest frequency and stable time step",

@@ -50,13 +50,12 @@ probes: post
 
     def test_every_input_has_the_hash_of_its_content(self):
         names = ("case.yaml", "parts.yaml", "stick.geo", "points.geo", "record.txt")
-        for ranks in (1, 2):
-            inputs = self.run_case(ranks=ranks)["inputs"]
-            self.assertEqual(sorted(os.path.basename(one["file"]) for one in inputs), sorted(names))
-            for one in inputs:
-                with open(one["file"], "rb") as file:
-                    content = file.read()
-                self.assertEqual((one["bytes"], one["sha256"]), (len(content), hashlib.sha256(content).hexdigest()))
+        inputs = self.run_case()["inputs"]
+        self.assertEqual(sorted(os.path.basename(one["file"]) for one in inputs), sorted(names))
+        for one in inputs:
+            with open(one["file"], "rb") as file:
+                content = file.read()
+            self.assertEqual((one["bytes"], one["sha256"]), (len(content), hashlib.sha256(content).hexdigest()))
         before = {one["file"]: one["sha256"] for one in inputs}
         self.write("points.geo", "Point(1) = {0, 0, 0};\nPoint(2) = {1.0, 0, 0};\n")
         after = {one["file"]: one["sha256"] for one in self.run_case()["inputs"]}
@@ -67,10 +66,9 @@ probes: post
         self.write("more.pos", 'View "size" {SP(0, 0, 0){1};};\n')
         with open(os.path.join(self.folder, "stick.geo"), "a") as file:
             file.write('n = "more";\nMerge StrCat(n, ".pos");\nMerge Str("more.pos");\nx = FileExists("none.geo");\n')
-        for ranks in (1, 2):
-            inputs = self.run_case(ranks=ranks)["inputs"]
-            told = [os.path.basename(one["file"]) for one in inputs if one["option"] == "included"]
-            self.assertEqual(told, ["points.geo", "more.pos"])
+        inputs = self.run_case()["inputs"]
+        told = [os.path.basename(one["file"]) for one in inputs if one["option"] == "included"]
+        self.assertEqual(told, ["points.geo", "more.pos"])
 
     def test_a_file_is_told_for_every_option_that_names_it(self):
         record = os.path.join(self.folder, "record.txt")
@@ -104,11 +102,10 @@ probes: post
 
     def test_a_kept_basis_has_the_hash_of_what_was_used(self):
         """Of the run that writes it as of one that takes it up."""
-        for ranks in (1, 2):
-            inputs = self.reduced(ranks=ranks)[1]["inputs"]
-            with open(os.path.join(self.folder, "basis.h5"), "rb") as file:
-                expected = hashlib.sha256(file.read()).hexdigest()
-            self.assertEqual([one["sha256"] for one in inputs if one["option"] == "stick_modal_basis"], [expected])
+        inputs = self.reduced()[1]["inputs"]
+        with open(os.path.join(self.folder, "basis.h5"), "rb") as file:
+            expected = hashlib.sha256(file.read()).hexdigest()
+        self.assertEqual([one["sha256"] for one in inputs if one["option"] == "stick_modal_basis"], [expected])
 
     def test_a_run_that_did_not_end_has_the_hashes(self):
         """They are there before the first step, as sha256sum reads them; the file still repeats the run."""
@@ -157,10 +154,9 @@ probes: post
         self.assertEqual(self.run_case()["overrides"], {})
         folder = os.path.join(self.folder, "results")
         words = ["-options_file", self.scene, "-motion_x_pga", 2.5, "-end_time", 0.05, "-output", folder]
-        for ranks in (1, 2):
-            result = program.must_end(self, words, ranks)
-            self.assertIn("\nA post, 1 m\n  with end_time 0.05, motion_x_pga 2.5\n", result.stdout)
-            self.assertEqual(program.summary(folder)["overrides"], {"end_time": "0.05", "motion_x_pga": "2.5"})
+        result = program.must_end(self, words)
+        self.assertIn("\nA post, 1 m\n  with end_time 0.05, motion_x_pga 2.5\n", result.stdout)
+        self.assertEqual(program.summary(folder)["overrides"], {"end_time": "0.05", "motion_x_pga": "2.5"})
 
     def test_the_record_as_it_was_understood(self):
         motion = self.run_case()["motion"]["x"]

@@ -131,15 +131,14 @@ class Slides(unittest.TestCase):
     def test_faces_that_slid_past_each_other_are_named(self):
         # They touch after 0.1 s, 0.8 m beside where they began, or never; both are seen.
         for velocity, touches in (("1,8,0", True), ("-1,0,8", False)):
-            for ranks in (1, 2):
-                run = History(self, flight(velocity), ranks)
-                self.assertEqual(run.summary["impacts"]["episodes"] > 0, touches)
-                contact = run.summary["contacts"]["joint"]
-                self.assertAlmostEqual(contact["largest_slide"], 0.96, delta=1e-9)
-                self.assertAlmostEqual(contact["slide_facet_size"], 0.3, delta=1e-12)
-                (warning,) = doubts(run)
-                # Half of the facet is 0.15 m.
-                self.assertIn("from t = 0.019 s on", warning)
+            run = History(self, flight(velocity))
+            self.assertEqual(run.summary["impacts"]["episodes"] > 0, touches)
+            contact = run.summary["contacts"]["joint"]
+            self.assertAlmostEqual(contact["largest_slide"], 0.96, delta=1e-9)
+            self.assertAlmostEqual(contact["slide_facet_size"], 0.3, delta=1e-12)
+            (warning,) = doubts(run)
+            # Half of the facet is 0.15 m.
+            self.assertIn("from t = 0.019 s on", warning)
 
     def test_motion_of_both_sides_together_and_along_the_normal_is_no_slide(self):
         run = History(self, [*flight("1,8,0", gap=0.15), "-two_initial_velocity", "0,8,0"])
@@ -199,16 +198,14 @@ class Doubts(unittest.TestCase):
 
     def doubt(self, words, *expected):
         """One warning about a contact that holds all the words."""
-        for ranks in (1, 2):
-            run = History(self, words, ranks)
-            self.assertEqual(len(doubts(run)), 1, run.summary["warnings"])
-            for word in expected:
-                self.assertIn(word, doubts(run)[0])
+        run = History(self, words)
+        self.assertEqual(len(doubts(run)), 1, run.summary["warnings"])
+        for word in expected:
+            self.assertIn(word, doubts(run)[0])
         return run
 
     def refuse(self, words, *expected):
-        for ranks in (1, 2):
-            refused(self, words, *expected, ranks=ranks)
+        refused(self, words, *expected)
 
     def test_a_gap_in_metres_that_may_be_in_millimetres(self):
         self.doubt(self.scene(joint_gap=50), "contact joint", "gap given", "50 m", "metres")
