@@ -187,7 +187,7 @@ class Members(unittest.TestCase):
         program.must_refuse(self, [*self.scene, "-ensemble", table(ROWS[:9]), "-output", self.folder],
                             "holds another ensemble", "member 10", "give another -output", ranks=1)
         program.must_refuse(self, [*self.words, "-end_time", "1.1", "-output", self.folder],
-                            "holds another ensemble", "end_time", ranks=2)
+                            "holds another ensemble", "end_time", ranks=3)
 
     def test_another_file_within_a_geometry_is_refused(self):
         with open(self.inner) as file:
@@ -318,8 +318,7 @@ class Kinds(unittest.TestCase):
 class Refusals(unittest.TestCase):
     def refuse(self, words, *parts, rows=("1",), columns="motion_x_seed"):
         output = tempfile.mkdtemp(prefix="pounding-ensemble-")
-        program.must_refuse(self, [*SCENE, *words, "-ensemble", table(rows, columns), "-output", output], *parts,
-                            ranks=2)
+        program.must_refuse(self, [*SCENE, *words, "-ensemble", table(rows, columns), "-output", output], *parts)
 
     def test_what_it_cannot_do(self):
         self.refuse([], "structure left is not reduced", "-left_model modal")

@@ -51,7 +51,7 @@ class Restart(RestartCase):
         arguments = arguments[:arguments.index("modal")] + arguments[arguments.index("modal") + 2:]
         arguments += full + ["-time_step", 2e-5]
         whole = self.complete(arguments + END, 2)
-        cut = self.cut(arguments, 17575, 2e-5)
+        cut = self.cut(arguments, 17575, 2e-5, 2)
         self.assert_same_results(whole, self.complete(arguments + END + ["-restart", checkpoint(cut)], 2))
 
     def test_with_another_basis_is_refused(self):
@@ -115,9 +115,7 @@ class Basis(unittest.TestCase):
                 h5py.File(self.files["s1"], "w").close()
             with open(self.files["s1"], "rb") as file:
                 before = file.read()
-            for ranks in (1, 2):
-                program.must_refuse(self, self.case + ["-output", self.folder], "-s1_modal_basis " + self.files["s1"],
-                                    ranks=ranks)
+            program.must_refuse(self, self.case + ["-output", self.folder], "-s1_modal_basis " + self.files["s1"])
             with open(self.files["s1"], "rb") as file:
                 self.assertEqual(file.read(), before)
 
@@ -125,9 +123,8 @@ class Basis(unittest.TestCase):
         self.run_case()
 
         def refuse(word):
-            for ranks in (1, 2):
-                program.must_refuse(self, self.case + ["-output", self.folder], "-s1_modal_basis " + self.files["s1"],
-                                    word, ranks=ranks)
+            program.must_refuse(self, self.case + ["-output", self.folder], "-s1_modal_basis " + self.files["s1"],
+                                word)
 
         with h5py.File(self.files["s1"], "r+") as file:
             file["squared_frequency"][1] = float("nan")
