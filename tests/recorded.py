@@ -156,8 +156,9 @@ def assert_follows(test, found, reference, tolerance, label):
 
 def assert_continues(test, arguments, stop, checkpoint, ranks=program.RANKS):
     """A run that stops at a time, with its last checkpoint at a step, and is continued from there leaves what the
-    uninterrupted one leaves: every field of the history to the last bit, impacts and the end of the ledger."""
-    folder, _ = program.must_run(test, arguments, ranks)
+    uninterrupted one leaves: every field of the history to the last bit, impacts and the end of the ledger. Returns the
+    summaries of both."""
+    folder, whole_summary = program.must_run(test, arguments, ranks)
     test.addCleanup(shutil.rmtree, folder)
     with tempfile.TemporaryDirectory() as cut:
         for more in (["-end_time", stop, "-checkpoint_steps", checkpoint],
@@ -176,3 +177,4 @@ def assert_continues(test, arguments, stop, checkpoint, ranks=program.RANKS):
                     lines[place, name] = [line for line in file if not line.startswith("#")]
         test.assertEqual(lines[folder, "impacts.csv"], lines[cut, "impacts.csv"])
         test.assertEqual(lines[folder, "energy.csv"][-3:], lines[cut, "energy.csv"][-3:])
+        return whole_summary, program.summary(cut)
