@@ -25,61 +25,65 @@ def scene(cells, level, elements, *more, y0=-0.5, gap=0.0):
             *more]
 
 
-class AtRest(unittest.TestCase):
-    PUSH = 50.0  # m/s2 along x
+PUSH = 50.0  # m/s2 along x
 
-    def deflection(self, cells, elements, ranks, **place):
+
+def pushed(cells, elements):
+    return scene(cells, HEIGHT / 2, elements, "-s_gravity", f"{PUSH},0,0", "-preload", "static", *clock(1e-6, 2e-6))
+
+
+class AtRest(unittest.TestCase):
+    def deflection(self, cells, elements):
         """Of the column's middle over that of beam theory."""
-        run = Recorded(self, scene(cells, HEIGHT / 2, elements, "-s_gravity", f"{self.PUSH},0,0", "-preload", "static",
-                                   *clock(1e-6, 2e-6), **place), ranks, identity=1e-9)
-        weight = DENSITY * THICKNESS * self.PUSH
+        run = Recorded(self, pushed(cells, elements), identity=1e-9)
+        weight = DENSITY * THICKNESS * PUSH
         force = run.force("joint")[run.time > 0]
         self.assertLess(abs(force / weight - 1).max(), 1e-6)
         return run.displacement("mid.x")[0] / (weight * HEIGHT**3 / (192 * YOUNG * INERTIA)), run
 
     def test_column_is_bent_as_by_a_force(self):
-        for cells, ranks in ((3, 1), (4, 2), (3, 2), (3, 3)):  # mid-edge, and a node of both
-            share, run = self.deflection(cells, 4, ranks)
+        for cells in (3, 4):  # mid-edge, and a node of both
+            share, run = self.deflection(cells, 4)
             self.assertAlmostEqual(share, 1, delta=1e-6)
             self.assertEqual(run.summary["impacts"]["joint"]["episodes"], 1)
 
     def test_between_nodes_of_the_column(self):
         """Half of the force at each of the two nodes around: what beam theory says of two forces."""
-        _, run = self.deflection(3, 5, 2)
+        _, run = self.deflection(3, 5)
         a, b = 0.4 * HEIGHT, 0.6 * HEIGHT
         under = a**3 * b**3 / 3 + a**4 * (3 * b * HEIGHT - a * (3 * b + a)) / 6
-        expected = DENSITY * THICKNESS * self.PUSH / 2 * under / (YOUNG * INERTIA * HEIGHT**3)
+        expected = DENSITY * THICKNESS * PUSH / 2 * under / (YOUNG * INERTIA * HEIGHT**3)
         self.assertAlmostEqual(run.displacement("mid.x")[0] / expected, 1, delta=1e-6)
 
 
+SPEED = 1.0
+
+
+def thrown(cells, elements, *more, **place):
+    return scene(cells, HEIGHT / 2, elements, "-s_initial_velocity", f"{SPEED},0,0", "-time_step", 1e-5, "-output_interval",
+                 1e-5, *more, **place)
+
+
+# Off the middle, where it slides.
+OFF = thrown(3, 7, "-end_time", 0.02, "-joint_friction", 0.3, y0=-0.37, gap=1e-3)
+
+
 class Impacts(unittest.TestCase):
-    SPEED = 1.0
-
-    def impact(self, cells, elements, ranks, *more, **place):
-        return Recorded(self, scene(cells, HEIGHT / 2, elements, "-s_initial_velocity", f"{self.SPEED},0,0",
-                                    "-time_step", 1e-5, "-output_interval", 1e-5, *more, **place), ranks,
-                        identity=1e-11)
-
     def test_first_step_stops_the_places_that_meet(self):
         """Nodes of the edge carry h^2 t rho / 2, those of the column the mass of an element."""
         for cells, elements, edge, column in ((3, 4, (0.5, 0.5), (1,)), (4, 4, (1,), (1,)), (3, 5, (0.5, 0.5), (0.5, 0.5)),
                                               (4, 5, (1,), (0.5, 0.5))):
-            run = self.impact(cells, elements, 2, *clock(1e-9, 1e-9))
+            run = Recorded(self, thrown(cells, elements, *clock(1e-9, 1e-9)), identity=1e-11)
             node = DENSITY * THICKNESS / cells**2 / 2
             bit = DENSITY * AREA * HEIGHT / elements
             compliance = sum(w**2 for w in edge) / node + sum(w**2 for w in column) / bit
-            self.assertAlmostEqual(run.column("impulse")[0] * compliance / self.SPEED, 1, delta=1e-7)
+            self.assertAlmostEqual(run.column("impulse")[0] * compliance / SPEED, 1, delta=1e-7)
             self.assertEqual(run.column("points")[0], 1)
 
-    def test_off_the_middle_and_on_any_number_of_ranks(self):
-        runs = [self.impact(3, 7, ranks, "-end_time", 0.02, "-joint_friction", 0.3, y0=-0.37, gap=1e-3)
-                for ranks in (1, 2, 3)]
-        for run in runs[1:]:
-            for channel in ("mid.x", "mid.y", "mid.z", "edge.x"):
-                scale = abs(runs[0].displacement("mid.x")).max()
-                self.assertLess(abs(run.displacement(channel) - runs[0].displacement(channel)).max(), 1e-9 * scale)
-        self.assertGreater(runs[0].column("impulse").sum(), 100)
-        self.assertLess(max(runs[0].column("max_penetration")), 1.1 * self.SPEED * 1e-5)
+    def test_off_the_middle(self):
+        run = Recorded(self, OFF, identity=1e-11)
+        self.assertGreater(run.column("impulse").sum(), 100)
+        self.assertLess(max(run.column("max_penetration")), 1.1 * SPEED * 1e-5)
 
     def bricks(self, secondary, primary):
         return ["-structures", "b,c", *box_of("b", "x0=0.1,y0=-0.5,z0=0.9,lz=2.2,nz=2", "concrete"),
@@ -90,10 +94,9 @@ class Impacts(unittest.TestCase):
     def test_column_before_a_face_of_bricks(self):
         """Its nodes are kept out of the face, those that face it: between 1 and 3 m there are five of nine."""
         program.must_refuse(self, self.bricks("b:x_min", "c:stem"), "swap the two")
-        for ranks in (1, 2):
-            run = Recorded(self, self.bricks("c:stem", "b:x_min"), ranks, identity=1e-10)
-            self.assertEqual(run.column("points").max(), 5)
-            self.assertGreater(run.column("impulse").sum(), 100)
+        run = Recorded(self, self.bricks("c:stem", "b:x_min"), identity=1e-10)
+        self.assertEqual(run.column("points").max(), 5)
+        self.assertGreater(run.column("impulse").sum(), 100)
 
     def test_girder_before_a_column(self):
         words = ["-structures", "g,c", "-g_mesh", "tests/meshes/cantilever.geo", "-g_mesh_set",
@@ -104,7 +107,7 @@ class Impacts(unittest.TestCase):
                  "-joint_secondary", "g:stem", "-joint_primary", "c:stem", "-joint_gap", 0.002, "-time_step", 1e-5,
                  "-output_interval", 1e-5, "-end_time", 0.02, "-probes", "mid", "-mid_structure", "c", "-mid_at",
                  f"0,0,{HEIGHT * 3 / 7!r}"]
-        run = Recorded(self, words, 2, identity=1e-11)
+        run = Recorded(self, words, identity=1e-11)
         self.assertEqual(run.column("points").max(), 1)
         self.assertGreater(run.displacement("mid.x").max(), 1e-4)
 
@@ -117,8 +120,15 @@ class Refused(unittest.TestCase):
                  (["-s_mesh_set", "z=2,n=3,x0=-1.05,y0=0.5"], "face"),
                  (["-s_mesh_set", "z=5,n=3,x0=-1.05,y0=-0.5"], "face"))
         for words, text in cases:
-            for ranks in (1, 2):
-                program.must_refuse(self, [*good, *words], text, ranks=ranks)
+            program.must_refuse(self, [*good, *words], text)
+
+
+# Accelerations are differences of velocities over a step of 1e-5 s.
+ROUGH = {"tolerance": 1e-11}
+ON_RANKS = {"a slab that strikes a column between its nodes": (OFF, ROUGH),
+            "a slab that rests on a column and is torn off": (
+                [*pushed(3, 5), *clock(1e-5, 2e-3), "-c_initial_velocity", "2,0,0"], ROUGH),
+            "a column before a face of bricks": (Impacts().bricks("c:stem", "b:x_min"), ROUGH)}
 
 
 if __name__ == "__main__":
