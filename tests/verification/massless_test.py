@@ -35,10 +35,9 @@ class BetweenSprings(unittest.TestCase):
         self.assertLess(abs(run.displacement("one.x") - part * exact)[1:].max(), 2 * tolerance * abs(exact).max())
 
     def test_history(self):
-        for ranks in (1, 2, 3):
-            run = Recorded(self, scene(1e-4, 1, scaling=1e-4), ranks)
-            self.check(run, 1e-4)
-            self.assertEqual(run.summary["structures"]["chain"]["condensed_dofs"], 6)
+        run = Recorded(self, scene(1e-4, 1, scaling=1e-4))
+        self.check(run, 1e-4)
+        self.assertEqual(run.summary["structures"]["chain"]["condensed_dofs"], 6)
 
     def test_second_order(self):
         errors = []
@@ -55,13 +54,13 @@ class BetweenSprings(unittest.TestCase):
         self.assertLess(reached, 1.1)
 
     def test_in_modes(self):
-        run = Recorded(self, scene(1e-4, 1, "-chain_model", "modal", "-chain_modal_vectors", 3, "-chain_mass_scaling", 0), 2)
+        run = Recorded(self, scene(1e-4, 1, "-chain_model", "modal", "-chain_modal_vectors", 3, "-chain_mass_scaling", 0))
         self.check(run, 1e-4)
         found = run.summary["structures"]["chain"]["frequencies"][0]["frequency"]
         self.assertAlmostEqual(found * 2 * math.pi / self.OMEGA, 1, delta=1e-6)
 
     def test_a_continued_run_is_the_uninterrupted_one(self):
-        assert_continues(self, scene(1e-4, .2, scaling=1e-4), .1, 300)
+        assert_continues(self, scene(1e-4, .2, scaling=1e-4), .1, 300, 2)
 
     def test_by_name_without_scaled_mass(self):
         program.must_refuse(self, scene(1e-4, .2, scaling=0), "(1, 0, 0)", "no mass along x", "link1, link2",
@@ -110,7 +109,7 @@ class Stick(unittest.TestCase):
                                 "-s_floors_rotary_inertia", "-s_mass_scaling")
             errors = []
             for step in (1e-3, 5e-4):
-                run = Recorded(self, self.scene(path, "-s_mass_scaling", step, "-time_step", step), 2)
+                run = Recorded(self, self.scene(path, "-s_mass_scaling", step, "-time_step", step))
                 omega, exact = self.reference(run.time)
                 errors.append(abs(run.displacement("top.y") - exact).max() / abs(exact).max())
                 self.assertEqual(run.summary["structures"]["s"]["condensed_dofs"], 9)
@@ -131,9 +130,12 @@ class ZenerByNodes(unittest.TestCase):
                       *spring("link2", "spring", "120,120,120"), *spring("support", "grounded_spring", "10,10,10", "1.7,0,0"),
                       "-chain_support_dashpot_stiffness", "60,0,0", "-chain_mass_scaling", step, "-motion_x_record", jump,
                       "-motion_x_unit", "m/s2", "-output_interval", 2e-4)
-        run = Recorded(self, words, 1, identity=1e-7)
+        run = Recorded(self, words, identity=1e-7)
         position = numpy.interp([t + 1.5 * step for t in (.5, 1, 1.5, 2)], run.time, run.displacement("two.x")) + .1
         self.assertLess(abs(position - [.114023, .151027, .096798, .075906]).max(), 2e-6)
+
+
+ON_RANKS = {"a node without mass between springs": scene(1e-4, .5, scaling=1e-4)}
 
 
 if __name__ == "__main__":
