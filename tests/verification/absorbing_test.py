@@ -76,9 +76,9 @@ class WithPulse(unittest.TestCase):
 
 
 class OneMaterial(WithPulse):
-    def run_column(self, cells, ranks, *more, axes="x"):
-        return Recorded(self, column(HEIGHT / 2, HEIGHT / 2, cells // 2, cells // 2, *self.pulse.along(*axes),
-                                     "-end_time", 1.7, "-output_interval", 1e-3, *more), ranks)
+    def run_column(self, cells):
+        return Recorded(self, column(HEIGHT / 2, HEIGHT / 2, cells // 2, cells // 2, *self.pulse.along(*"xyz"),
+                                     "-end_time", 1.7, "-output_interval", 1e-3))
 
     def error(self, run, axis):
         """Largest error of the surface's motion over the largest of 2 u_in."""
@@ -88,8 +88,8 @@ class OneMaterial(WithPulse):
     def test_the_surface_moves_twice_as_the_incident_wave(self):
         """All three directions at once, each with its own speed; second order in the mesh."""
         errors = {}
-        for cells, ranks in ((20, 1), (40, 2), (80, 3)):
-            run = self.run_column(cells, ranks, axes="xyz")
+        for cells in (40, 80):
+            run = self.run_column(cells)
             errors[cells] = {axis: self.error(run, axis) for axis in "xyz"}
             self.assertEqual(run.summary["structures"]["site"]["absorbing"]["nodes"], 4)
         for axis in "xyz":
@@ -99,9 +99,9 @@ class OneMaterial(WithPulse):
     def test_nothing_comes_back(self):
         """Once the wave has passed twice, what is left of the motion and of the energy was reflected."""
         for axis in "xz":
-            folder, summary = program.must_run(
+            folder, _ = program.must_run(
                 self, column(HEIGHT / 2, HEIGHT / 2, 40, 40, *self.pulse.along(axis), "-end_time", 1.7,
-                             "-output_interval", 1e-3), 2)
+                             "-output_interval", 1e-3))
             columns = program.read_csv(os.path.join(folder, "energy.csv"))
             time = numpy.array([float(t) for t in columns["time"]])
             energy = sum(numpy.array([float(e) for e in columns[name]]) for name in ("kinetic", "strain"))
@@ -119,7 +119,7 @@ class TwoLayers(unittest.TestCase):
         pulse = Pulse(0.02)
         soil, rock = 20.0, 8.0
         run = Recorded(self, column(rock, soil, 16, 100, *pulse.along("x"), *clock(self.STEP / 4, 6, self.STEP),
-                                    rock=self.ROCK, soil=self.SOIL), 2)
+                                    rock=self.ROCK, soil=self.SOIL))
         times = run.time
         ratio = self.SOIL[0] * self.SOIL[1] / (self.ROCK[0] * self.ROCK[1])
         for frequency in (0.5, 1.0, 1.875, 3.0, 3.75, 5.625, 8.0):
@@ -137,22 +137,21 @@ class FreeField(WithPulse):
     def test_a_wide_block_moves_as_a_column(self):
         """Its sides tied by height: every node of the surface moves as the free field does."""
         words = column(10, 10, 5, 5, *self.pulse.along("x", "z"), *clock(1e-3, 1.3, 5e-3), soil=(150.0, 1800.0))
-        free = Recorded(self, words, 1)
+        free = Recorded(self, words)
         wide = list(words)
         wide[wide.index("-site_levels") + 1] = "sides"
         wide[wide.index("-site_mesh_set") + 1] += ",lx=9,ly=6,nx=3,ny=2"
-        for ranks in (1, 2):
-            run = Recorded(self, wide + ["-top_average", "false"], ranks)
-            for _, name in zip(*run.nodes("top")):
-                for axis in "xz":
-                    field = free.displacement(f"top.{axis}")
-                    self.assertLess(abs(run.displacement(f"{name}.{axis}") - field).max(), 1e-9 * abs(field).max())
+        run = Recorded(self, wide + ["-top_average", "false"])
+        for _, name in zip(*run.nodes("top")):
+            for axis in "xz":
+                field = free.displacement(f"top.{axis}")
+                self.assertLess(abs(run.displacement(f"{name}.{axis}") - field).max(), 1e-9 * abs(field).max())
 
     def test_outputs_are_absolute(self):
         """Accelerations of the surface are 2 a_in, those of the ground none."""
         folder, _ = program.must_run(
             self, column(8, 8, 16, 16, *self.pulse.along("z"), "-end_time", 1, "-output_interval", 1e-3,
-                         "-spectra_frequencies", "10,400", "-spectra_damping", 0.05), 2)
+                         "-spectra_frequencies", "10,400", "-spectra_damping", 0.05))
         with h5py.File(os.path.join(folder, "history.h5")) as file:
             self.assertEqual(abs(file["ground_acceleration"][()]).max(), 0)
             names = [name.decode() for name in file["channels"]]
@@ -167,21 +166,14 @@ class FreeField(WithPulse):
         self.assertAlmostEqual(stiff[0] / abs(exact).max(), 1, delta=1e-2)
 
 
+def two_soils(pulse, end):
+    """All directions at once, through two materials."""
+    return column(10, 10, 8, 8, *pulse.along("x", "y", "z"), *clock(5e-4, end, 1e-3), soil=(150.0, 1800.0))
+
+
 class SameRun(WithPulse):
-    def words(self, *more):
-        return column(10, 10, 8, 8, *self.pulse.along("x", "y", "z"), *clock(5e-4, 1.2, 1e-3), *more,
-                      soil=(150.0, 1800.0))
-
-    def test_on_any_ranks(self):
-        runs = [Recorded(self, self.words(), ranks) for ranks in (1, 2, 3)]
-        for run in runs[1:]:
-            for axis in "xyz":
-                u = runs[0].displacement(f"top.{axis}")
-                self.assertLess(abs(run.displacement(f"top.{axis}") - u).max(), 1e-11 * abs(u).max())
-
     def test_a_continued_run_is_the_uninterrupted_one(self):
-        assert_continues(self, self.words(), 0.6, 700)
-
+        assert_continues(self, two_soils(self.pulse, 1.2), 0.6, 700, 2)
 
 
 SLOPE = 0.4
@@ -227,9 +219,9 @@ class SkewFaces(unittest.TestCase):
                             result[row, column_] += block[i, j]
         return result
 
-    def check(self, ranks, *more):
+    def check(self, *more):
         with tempfile.TemporaryDirectory() as folder:
-            program.must_run(self, self.words("-export_matrices", folder, "-end_time", 1e-3, *more), 1)
+            program.must_run(self, self.words("-export_matrices", folder, "-end_time", 1e-3, *more))
             where = os.path.join(folder, "site")
             with open(os.path.join(where, "dofs.csv")) as file:
                 rows = [line.strip().split(",") for line in file if line[0] not in "#x"]
@@ -237,7 +229,7 @@ class SkewFaces(unittest.TestCase):
             stiffness = scipy.io.mmread(os.path.join(where, "stiffness.mtx")).toarray()
             mass = numpy.diag(scipy.io.mmread(os.path.join(where, "mass.mtx")).toarray().ravel())
         absorbing = ["-site_absorbing", "x_min,bottom", *clock(2e-4, 0.05), "-energy_interval", 1]
-        run = Recorded(self, self.words(*absorbing, *more), ranks)
+        run = Recorded(self, self.words(*absorbing, *more))
         dashpots, dt = self.dashpots(dofs), 2e-4
         v = numpy.array([{"ux": 1.0, "uy": 2.0, "uz": 3.0}[dof[3]] for dof in dofs])
         u = numpy.zeros(len(dofs))
@@ -251,16 +243,13 @@ class SkewFaces(unittest.TestCase):
             v = numpy.linalg.solve(mass + h / 2 * dashpots, (mass - h / 2 * dashpots) @ v - h * stiffness @ u)
             u = u + dt * v
         self.assertGreater(run.energy["devices"], 0.3 * run.energy["kinetic"])
-        return run
 
     def test_against_dense_steps(self):
-        for ranks in (1, 2):
-            self.check(ranks)
+        self.check()
 
     def test_partly_clamped(self):
         """The clamped components drop out of dashpots that lie across them."""
-        for ranks in (1, 3):
-            self.check(ranks, "-site_clamp", "bottom:z")
+        self.check("-site_clamp", "bottom:z")
 
 
 class Limit(unittest.TestCase):
@@ -273,7 +262,7 @@ class Limit(unittest.TestCase):
     FACES = ["-cube_absorbing", "x_min,x_max,y_min,z_min"]
 
     def limit(self, *more):
-        _, summary = program.must_run(self, self.words(2000, "-end_time", 1e-3, *more), 2)
+        _, summary = program.must_run(self, self.words(2000, "-end_time", 1e-3, *more))
         return summary["structures"]["cube"]["stable_time_step"]
 
     def test_is_that_without_them(self):
@@ -284,21 +273,23 @@ class Limit(unittest.TestCase):
         limit = self.limit()
         start = ["-cube_clamp", "z_max:x+y+z", "-cube_initial_velocity", "1,2,3"]
         held = self.limit(*start)
-        for ranks, faces in ((1, self.FACES), (2, self.FACES)):
-            step = 0.9999 * held
-            folder, summary = program.must_run(
-                self, self.words(2000, "-time_step", repr(step), "-end_time", repr(3000 * step), *faces, *start), ranks)
-            columns = program.read_csv(os.path.join(folder, "energy.csv"))
-            energy = [float(a) + float(b) for a, b in zip(columns["kinetic"], columns["strain"])]
-            self.assertLess(energy[-1], energy[0])
-            self.assertLessEqual(max(energy), energy[0] * (1 + 1e-9))
-            self.assertLess(summary["energy"]["relative_residual"], 1e-12)
+        step = 0.9999 * held
+        folder, summary = program.must_run(
+            self, self.words(2000, "-time_step", repr(step), "-end_time", repr(3000 * step), *self.FACES, *start))
+        columns = program.read_csv(os.path.join(folder, "energy.csv"))
+        energy = [float(a) + float(b) for a, b in zip(columns["kinetic"], columns["strain"])]
+        self.assertLess(energy[-1], energy[0])
+        self.assertLessEqual(max(energy), energy[0] * (1 + 1e-9))
+        self.assertLess(summary["energy"]["relative_residual"], 1e-12)
         self.assertGreaterEqual(held, limit * (1 - 1e-6))
         step = 1.01 * held
         result = program.run(self.words(2000, "-time_step", repr(step), "-end_time", repr(20000 * step),
-                                        "-allow_unstable", "true", *start, "-cube_absorbing", "x_min"), 2)
+                                        "-allow_unstable", "true", *start, "-cube_absorbing", "x_min"))
         self.assertNotEqual(result.returncode, 0)
         self.assertIn("diverged", result.stderr)
+
+
+RESTING = ["-gravity", 9.81, "-preload", "static", "-site_clamp", "bottom:z"]
 
 
 class AtRest(WithPulse):
@@ -308,41 +299,44 @@ class AtRest(WithPulse):
         return column(10, 10, 8, 8, *self.pulse.along("x"), "-end_time", 1.2, "-output_interval", 1e-3, *more)
 
     def test_weight_and_wave(self):
-        resting = ["-gravity", 9.81, "-preload", "static", "-site_clamp", "bottom:z"]
-        plain = Recorded(self, self.words("-site_clamp", "bottom:z"), 1)
-        for ranks in (1, 2):
-            run = Recorded(self, self.words(*resting), ranks, identity=1e-11)
-            settlement = run.displacement("top.z")
-            exact = -9.81 * 20**2 / (2 * PRESSURE**2)
-            self.assertAlmostEqual(settlement[0] / exact, 1, delta=1e-9)
-            self.assertLess(abs(settlement - settlement[0]).max(), 1e-9 * abs(exact))
-            u = plain.displacement("top.x")
-            self.assertLess(abs(run.displacement("top.x") - u).max(), 1e-9 * abs(u).max())
+        plain = Recorded(self, self.words("-site_clamp", "bottom:z"))
+        run = Recorded(self, self.words(*RESTING), identity=1e-11)
+        settlement = run.displacement("top.z")
+        exact = -9.81 * 20**2 / (2 * PRESSURE**2)
+        self.assertAlmostEqual(settlement[0] / exact, 1, delta=1e-9)
+        self.assertLess(abs(settlement - settlement[0]).max(), 1e-9 * abs(exact))
+        u = plain.displacement("top.x")
+        self.assertLess(abs(run.displacement("top.x") - u).max(), 1e-9 * abs(u).max())
+
+
+def two_columns(pulse, *more):
+    """Two columns of unlike soil beside each other, moved by one wave, hit each other."""
+    words = column(6, 6, 6, 6, *pulse.along("x"), "-end_time", 1.2, "-time_step", 5e-4, "-gap_interval", 0.01)
+    left = [word.replace("site", "left") if isinstance(word, str) else word for word in words]
+    left[left.index("-structures") + 1] = "left,right"
+    right = []
+    for option, value in zip(left[::2], left[1::2]):
+        if option.startswith("-left_"):
+            right += [option.replace("left", "right"), value]
+    right[right.index("-right_mesh_set") + 1] += ",x0=1"
+    right[right.index("-right_soil_material") + 1] = "soft"
+    return left + right + [*material("soft", repr(young(80.0, 1500.0)), POISSON, 1500),
+                           *contacts(joint=("left:x_max", "right:x_min", 0.002)), *more]
 
 
 class Pounding(WithPulse):
-    """Two columns of unlike soil beside each other, moved by one wave, hit each other."""
-
-    def words(self, *more):
-        words = column(6, 6, 6, 6, *self.pulse.along("x"), "-end_time", 1.2, "-time_step", 5e-4, "-gap_interval", 0.01)
-        left = [word.replace("site", "left") if isinstance(word, str) else word for word in words]
-        left[left.index("-structures") + 1] = "left,right"
-        right = []
-        for option, value in zip(left[::2], left[1::2]):
-            if option.startswith("-left_"):
-                right += [option.replace("left", "right"), value]
-        right[right.index("-right_mesh_set") + 1] += ",x0=1"
-        right[right.index("-right_soil_material") + 1] = "soft"
-        return left + right + [*material("soft", repr(young(80.0, 1500.0)), POISSON, 1500),
-                               *contacts(joint=("left:x_max", "right:x_min", 0.002)), *more]
-
     def test_no_impact_is_missed(self):
-        runs = [Recorded(self, self.words(*more), ranks)
-                for ranks, more in ((1, ()), (2, ()), (2, ("-gap_interval", 5e-4)))]
-        self.assertGreater(len(runs[0].impacts["contact"]), 3)
-        for run in runs[1:]:
-            self.assertEqual(len(run.impacts["contact"]), len(runs[0].impacts["contact"]))
-        self.assertEqual(runs[1].impacts, runs[2].impacts)
+        seldom, always = (Recorded(self, two_columns(self.pulse, *more)) for more in ((), ("-gap_interval", 5e-4)))
+        self.assertGreater(len(seldom.impacts["contact"]), 3)
+        self.assertEqual(seldom.impacts, always.impacts)
+
+
+ON_RANKS = {
+    "a site moved from below": lambda: two_soils(Pulse(0.02), 0.5),
+    "dashpots of skew faces, partly clamped": SkewFaces().words(
+        "-site_absorbing", "x_min,bottom", "-site_clamp", "bottom:z", *clock(2e-4, 0.05)),
+    "a site at rest that a wave moves": lambda: column(10, 10, 8, 8, *Pulse(0.02).along("x"), *clock(1e-3, 0.4), *RESTING),
+    "two sites that pound": lambda: two_columns(Pulse())}
 
 
 if __name__ == "__main__":
