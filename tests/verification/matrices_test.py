@@ -24,50 +24,49 @@ PAIR = ONE_DAMPING + ["-s1_slab_damping_beta", 2e-5, "-s1_slab_damping_alpha", 0
 IDENTITY = 1e-11  # with a region's own damping; measured: 2e-12
 
 
+def written(place, ranks=program.RANKS):
+    """A folder with the matrices of both buildings."""
+    result = program.run(PAIR + ["-dry_run", "-export_matrices", place], ranks)
+    assert result.returncode == 0, result.stderr
+    return place
+
+
+def from_files(place):
+    return ONE_DAMPING + ["-s1_matrices", f"{place}/s1", "-s2_matrices", f"{place}/s2"]
+
+
 class Matrices(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.mkdtemp(prefix="pounding-matrices-")
+        cls.own = Recorded(cls(), PAIR + ["-stiffness", "assembled"], identity=IDENTITY)
 
     @classmethod
     def tearDownClass(cls):
         shutil.rmtree(cls.folder)
 
-    def export(self, ranks):
+    def export(self, ranks=1):
         place = os.path.join(self.folder, f"of-{ranks}")
-        if not os.path.exists(place):
-            result = program.run(PAIR + ["-dry_run", "-export_matrices", place], ranks)
-            self.assertEqual(result.returncode, 0, result.stderr)
-        return place
-
-    def from_files(self, place):
-        return ONE_DAMPING + ["-s1_matrices", f"{place}/s1",
-                       "-s2_matrices", f"{place}/s2"]
+        return place if os.path.exists(place) else written(place, ranks)
 
     def matrix(self, place, name):
         return scipy.sparse.csr_matrix(scipy.io.mmread(os.path.join(place, name)))
 
     def test_histories_from_the_files(self):
-        place = self.export(1)
-        own = Recorded(self, PAIR + ["-stiffness", "assembled"], identity=IDENTITY)
+        own = self.own
         without = Recorded(self, PAIR, identity=IDENTITY)
         assert_follows(self, without.displacement("s2_floor2.x"), own.displacement("s2_floor2.x"),
                        1e-10, "without a matrix")
         self.assertGreater(own.summary["impacts"]["episodes"], 0)
-        for ranks in (1, 2, 3):
-            with self.subTest(ranks=ranks):
-                read = Recorded(self, self.from_files(place), ranks, IDENTITY)
-                self.assertEqual(read.time_step, own.time_step)
-                self.assertEqual(read.summary["impacts"]["episodes"],
-                                 own.summary["impacts"]["episodes"])
-                for channel in ("s1_floor2.x", "s2_floor2.x", "s2_floor1.x"):
-                    assert_follows(self, read.displacement(channel), own.displacement(channel),
-                                   1e-12, channel)
-                    assert_follows(self, read.velocity(channel), own.velocity(channel), 1e-11,
-                                   channel)
+        read = Recorded(self, from_files(self.export()), identity=IDENTITY)
+        self.assertEqual(read.time_step, own.time_step)
+        self.assertEqual(read.summary["impacts"]["episodes"], own.summary["impacts"]["episodes"])
+        for channel in ("s1_floor2.x", "s2_floor2.x", "s2_floor1.x"):
+            assert_follows(self, read.displacement(channel), own.displacement(channel), 1e-12, channel)
+            assert_follows(self, read.velocity(channel), own.velocity(channel), 1e-11, channel)
 
     def test_files_do_not_depend_on_the_ranks(self):
-        one, three = self.export(1), self.export(3)
+        one, three = self.export(), self.export(3)
         for name in ("s1/dofs.csv", "s2/contact.mtx", "s2/gaps.csv", "s1/probes.mtx"):
             with open(os.path.join(one, name)) as a, open(os.path.join(three, name)) as b:
                 self.assertEqual(a.read(), b.read(), name)
@@ -77,14 +76,12 @@ class Matrices(unittest.TestCase):
 
     def test_a_run_is_continued_with_the_same_matrices_only(self):
         place, results = os.path.join(self.folder, "changed"), os.path.join(self.folder, "stopped")
-        shutil.copytree(self.export(1), place)
-        words = self.from_files(place) + ["-end_time", 2e-4, "-checkpoint_steps", 10]
-        first = program.run([*words, "-output", results], 1)
-        self.assertEqual(first.returncode, 0, first.stderr)
+        shutil.copytree(self.export(), place)
+        words = from_files(place) + ["-end_time", 2e-4, "-checkpoint_steps", 10]
+        program.must_end(self, [*words, "-output", results])
         restart = ["-restart", os.path.join(results, "checkpoint.h5"), "-end_time", 3e-4, "-output",
                    os.path.join(self.folder, "continued")]
-        again = program.run([*words, *restart], 1)
-        self.assertEqual(again.returncode, 0, again.stderr)
+        program.must_end(self, [*words, *restart])
         path = os.path.join(place, "s2", "stiffness.mtx")
         with open(path) as file:
             *lines, last = file.read().splitlines()
@@ -104,8 +101,8 @@ class Matrices(unittest.TestCase):
         return numpy.array([line.split() for line in result.stdout.splitlines()], dtype=float)
 
     def test_the_scripts_of_the_docs_find_the_modes(self):
-        place = self.export(1)
-        _, own = program.must_run(self, [*PAIR, "-modes", 6, "-end_time", 1e-4], 1)
+        place = self.export()
+        _, own = program.must_run(self, [*PAIR, "-modes", 6, "-end_time", 1e-4])
         octave = shutil.which("octave-cli")
         for language, interpreter in (("python", ["/usr/bin/python3", "-c"]),
                                       ("matlab", [octave, "--no-gui", "--no-init-file", "-q", "--eval"])):
@@ -120,7 +117,7 @@ class Matrices(unittest.TestCase):
     def test_labels_of_nodes_go_out_and_in(self):
         """An export has the numbers of the mesh file, one of imported matrices the labels that they came with."""
         place, again = os.path.join(self.folder, "labelled"), os.path.join(self.folder, "again")
-        shutil.copytree(self.export(1), place)
+        shutil.copytree(self.export(), place)
         path = os.path.join(place, "s1", "dofs.csv")
         with open(path) as file:
             head, names, *rows = file.read().splitlines()
@@ -134,14 +131,13 @@ class Matrices(unittest.TestCase):
         with open(path, "w") as file:
             file.write("\n".join([head, names, *(f"{row.rsplit(',', 1)[0]},pier A {row.rsplit(',', 1)[1]}"
                                                   for row in rows)]) + "\n")
-        result = program.run([*self.from_files(place), "-dry_run", "-export_matrices", again], 2)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        program.must_end(self, [*from_files(place), "-dry_run", "-export_matrices", again], 2)
         with open(path) as before, open(os.path.join(again, "s1", "dofs.csv")) as after:
             self.assertEqual(before.read(), after.read())
 
     def test_a_rigid_motion_needs_no_force(self):
         """Beside the clamped feet: K times a translation is zero at every dof that no foot holds."""
-        place = self.export(1)
+        place = self.export()
         stiffness = self.matrix(place, "s2/stiffness.mtx")
         influence = self.matrix(place, "s2/influence.mtx")
         with open(os.path.join(place, "s2/dofs.csv")) as file:
@@ -173,7 +169,7 @@ class Matrices(unittest.TestCase):
 
     def test_gaps_are_those_of_the_rows(self):
         """One for each row of L, as given: linear across the face between its two numbers."""
-        place = self.export(1)
+        place = self.export()
         contact = self.matrix(place, "s1/contact.mtx")
         table = program.read_csv(os.path.join(place, "s1/gaps.csv"))
         gaps = numpy.array([float(gap) for gap in table["initial_gap"]])
@@ -185,28 +181,21 @@ class Matrices(unittest.TestCase):
 
     def test_a_consistent_mass_is_lumped(self):
         place = os.path.join(self.folder, "consistent")
-        shutil.copytree(self.export(1), place)
+        shutil.copytree(self.export(), place)
         for name in ("s1", "s2"):
             path = os.path.join(place, name, "mass.mtx")
             lumped = numpy.asarray(scipy.io.mmread(path).todense()).ravel()
             scipy.io.mmwrite(path, scipy.sparse.diags(lumped), symmetry="symmetric", precision=17)
-        own = Recorded(self, PAIR + ["-end_time", 0.02, "-stiffness", "assembled"], identity=IDENTITY)
-        read = Recorded(self, self.from_files(place) + ["-end_time", 0.02], identity=IDENTITY)
-        assert_follows(self, read.displacement("s2_floor2.x"), own.displacement("s2_floor2.x"),
-                       1e-12, "s2_floor2.x")
+        read = Recorded(self, from_files(place) + ["-end_time", 0.02], identity=IDENTITY)
+        assert_follows(self, self.own.displacement("s2_floor2.x"), read.displacement("s2_floor2.x"), 1e-12, "s2_floor2.x")
 
-    def refused(self, change, words=()):
+    def refused(self, change, ranks=1):
         """What the program says of files that `change` spoiled."""
         place = tempfile.mkdtemp(prefix="spoiled-", dir=self.folder)
         shutil.rmtree(place)
-        shutil.copytree(self.export(1), place)
+        shutil.copytree(self.export(), place)
         change(os.path.join(place, "s2"))
-        for ranks in (1, 2):
-            result = program.run(self.from_files(place) + list(words) + ["-output", place], ranks)
-            self.assertEqual(result.returncode, 1)
-            lines = program.error_lines(result)
-            self.assertEqual(len(lines), 1, result.stderr)
-        return lines[0]
+        return program.must_refuse(self, from_files(place) + ["-output", place], ranks=ranks)
 
     def test_spoiled_files_are_refused(self):
         def rewritten(name, change):
@@ -269,6 +258,8 @@ class Matrices(unittest.TestCase):
         for change, expected in cases:
             with self.subTest(expected):
                 self.assertIn(expected, self.refused(change))
+        early = cases[5]
+        self.assertIn(early[1], self.refused(early[0], ranks=3))
 
     def test_options_that_do_not_go_together(self):
         for words, expected in (
@@ -279,15 +270,15 @@ class Matrices(unittest.TestCase):
                 (["-s1_matrices", "x", "-s1_here_element", "grounded_spring",
                   "-s1_here_stiffness", "0,0,0,0,0,0", "-s1_here_dashpot", "1e4,0,0,0,0,0"],
                  "option -s1_here_dashpot 1e4,0,0,0,0,0: would be lost beside -s1_matrices"),
-                (["-s1_matrices", f"{self.export(1)}/s1", "-s1_model", "modal",
+                (["-s1_matrices", f"{self.export()}/s1", "-s1_model", "modal",
                   "-s1_modal_vectors", 10], "damping.mtx would be lost with -s1_model modal"),
                 (["-s1_matrices", "x", "-s1_brace1_tension_only", "true"],
                  "tension_only")):
             with self.subTest(expected):
-                result = program.run(ONE_DAMPING + words + ["-output", self.folder], 2)
-                self.assertEqual(result.returncode, 1)
-                self.assertEqual(len(program.error_lines(result)), 1, result.stderr)
-                self.assertIn(expected, program.error_lines(result)[0])
+                program.must_refuse(self, ONE_DAMPING + words + ["-output", self.folder], expected)
+
+
+ON_RANKS = {"matrices that are read": lambda: [*from_files(written(tempfile.mkdtemp())), "-end_time", 0.02]}
 
 
 if __name__ == "__main__":
