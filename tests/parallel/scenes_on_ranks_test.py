@@ -14,6 +14,7 @@ import program
 
 TESTS = pathlib.Path(program.SOURCE, "tests")
 TOLERANCE = 1e-12  # of the largest value of a record
+LEDGER = 1e-10  # of the largest term of the ledger at the end, which sums all steps
 CHEAP = ["-modes", 1, "-spectra_frequencies", 10]
 
 
@@ -38,15 +39,16 @@ def scenes():
 
 class Alike:
     """How closely runs of a scene agree: `until` a time [s] where contact chatters behind it, whose closures then hang on
-    round-off, with a `tolerance` of its own where round-off grows for a reason that the entry says, on `ranks`."""
+    round-off, with a `tolerance` of its own where round-off grows for a reason that the entry says, on `ranks`.
+    Where they agree to the end, so do the ledger and the number of impacts."""
 
     def __init__(self, until=numpy.inf, tolerance=TOLERANCE, ranks=(1, 2, 3)):
         self.until, self.tolerance, self.ranks = until, tolerance, ranks
 
     def check(self, test, words):
-        runs = {}
+        runs, summaries = {}, {}
         for ranks in self.ranks:
-            folder, _ = program.must_run(test, [*CHEAP, *words], ranks)
+            folder, summaries[ranks] = program.must_run(test, [*CHEAP, *words], ranks)
             with h5py.File(pathlib.Path(folder, "history.h5")) as file:
                 count = len(file["time"])
                 runs[ranks] = {name: numpy.nan_to_num(file[name][()]) for name in file
@@ -62,6 +64,15 @@ class Alike:
                 apart = abs(records[name][rows] - values[rows]).max()
                 scale = abs(values[rows]).max()
                 test.assertLessEqual(apart, self.tolerance * scale, f"{name} on {ranks} ranks, of {scale:.3g}")
+            if rows.all():
+                self.check_end(test, summaries[self.ranks[0]], summaries[ranks])
+
+    def check_end(self, test, one, other):
+        terms = {name: value for name, value in one["energy"].items() if name != "relative_residual"}
+        largest = max(map(abs, terms.values()))
+        for name, value in terms.items():
+            test.assertLessEqual(abs(other["energy"][name] - value), max(LEDGER, self.tolerance) * largest, f"{name} of the ledger")
+        test.assertEqual(other["impacts"].get("episodes"), one["impacts"].get("episodes"))
 
 
 class OnRanks(unittest.TestCase):
