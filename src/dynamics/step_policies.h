@@ -10,7 +10,7 @@
 #include "system/linear_system.h"
 
 /// Policies by which vectors of dofs are brought one step on: the place of their masses, the effect
-/// of the ground, and whether uniform damping filters their forces. See StructureStep.
+/// of the ground, and other actions on them. See StructureStep.
 namespace pounding {
 
 /// Dofs in which directions repeat, three vectors of them.
@@ -188,63 +188,64 @@ class InfluenceGround {
   WideLanes* momentum_;
 };
 
-/// The ground's part as `Ground` gives it, and that of supports which move on their own and of
-/// loads, dof by dof: h ( sum_c iota_c r_c'' - M^-1 sum_l f_l p_l ).
-template <typename Ground>
-class LoadedGround {
- public:
-  /// `work` gains the sum of these times M s.
-  LoadedGround(Ground& ground, const double* known_step, WideLanes& work)
-      : ground_(ground), known_step_(known_step), work_(work) {}
-
-  template <int vector, typename Count>
-  WideLanes step(std::size_t i, Count count) const {
-    WideLanes known;
-    load_first(known_step_ + i, count, known);
-    return ground_.template step<vector>(i, count) + known;
-  }
-  template <int vector, typename Count>
-  void add(std::size_t i, Count count, const WideLanes& momentum) {
-    WideLanes known;
-    load_first(known_step_ + i, count, known);
-    add_product(known, momentum, work_);
-    ground_.template add<vector>(i, count, momentum);
-  }
-
- private:
-  Ground& ground_;
-  const double* known_step_;
-  WideLanes& work_;
-};
-
-/// Where nothing filters the force.
-struct Unfiltered {
-  static constexpr bool acts = false;
+/// Where nothing but stiffness and ground acts.
+struct NothingElse {
   template <typename Count>
   WideLanes resisting(std::size_t, Count, const WideLanes& q) const {
     return q;
   }
   template <typename Count>
-  WideLanes force(std::size_t, Count, const WideLanes& q) const {
+  WideLanes filtered(std::size_t, Count, const WideLanes& q) const {
     return q;
   }
+  template <typename Count>
+  void add_known_step(std::size_t, Count, WideLanes&) const {}
+  void add_filtered_work(const WideLanes&, const WideLanes&, const WideLanes&) {}
+  template <typename Count>
+  void add_known_work(std::size_t, Count, const WideLanes&) {}
 };
 
-/// The filters of uniform damping, with their memories of all dofs.
-class Filtered {
+/// Other actions on a range, each where there is one: forces g of inelastic elements beside
+/// q = K u, filters of uniform damping with their memories, and the known steps of supports which
+/// move on their own and of loads, h ( sum_c iota_c r_c'' - M^-1 sum_l f_l p_l ). Branches, which a
+/// processor foresees: a type for each of their combinations takes nearly three times as long to
+/// compile.
+class OtherActions {
  public:
-  static constexpr bool acts = true;
-  Filtered(const Filters<double>& filters, std::vector<std::vector<double>>& memories)
-      : filters_(in_lanes<WideLanes>(filters)) {
-    for (std::size_t k = 0; k < filters.count; ++k) memory_[k] = memories[k].data();
+  /// Pointers to values of all dofs; null for an action that is not there. The works gain the sums
+  /// over these dofs of (f - q - g) (v+ + v-), and of known steps times M s.
+  struct Parts {
+    const double* inelastic_force = nullptr;
+    const Filters<double>* filters = nullptr;
+    std::vector<std::vector<double>>* memories = nullptr;  ///< with filters
+    const double* known_step = nullptr;
+    WideLanes* filtered_work = nullptr;
+    WideLanes* known_work = nullptr;
+  };
+
+  explicit OtherActions(const Parts& parts)
+      : parts_(parts), filtered_work_(*parts.filtered_work), known_work_(*parts.known_work) {
+    if (parts.filters == nullptr) return;
+    filters_ = in_lanes<WideLanes>(*parts.filters);
+    for (std::size_t k = 0; k < filters_.count; ++k) memory_[k] = (*parts.memories)[k].data();
   }
+  ~OtherActions() {
+    *parts_.filtered_work = filtered_work_;
+    *parts_.known_work = known_work_;
+  }
+  OtherActions(const OtherActions&) = delete;
+  OtherActions& operator=(const OtherActions&) = delete;
 
   template <typename Count>
-  WideLanes resisting(std::size_t, Count, const WideLanes& q) const {
-    return q;
+  WideLanes resisting(std::size_t i, Count count, const WideLanes& q) const {
+    if (parts_.inelastic_force == nullptr) return q;
+    WideLanes force;
+    load_first(parts_.inelastic_force + i, count, force);
+    return q + force;
   }
   template <typename Count>
-  WideLanes force(std::size_t i, Count count, const WideLanes& q) const {
+  WideLanes filtered(std::size_t i, Count count, const WideLanes& q) const {
+    if (parts_.filters == nullptr) return q;
     WideLanes force = filters_.passing * q;
     for (std::size_t k = 0; k < filters_.count; ++k) {
       WideLanes memory;
@@ -254,28 +255,30 @@ class Filtered {
     }
     return force;
   }
-
- private:
-  Filters<WideLanes> filters_;
-  std::array<double*, max_filters> memory_{};
-};
-
-/// One of the above, with the forces g of inelastic elements beside q = K u, of all dofs.
-template <typename Damping>
-class WithInelastic : public Damping {
- public:
-  WithInelastic(const Damping& damping, const double* inelastic_force)
-      : Damping(damping), inelastic_force_(inelastic_force) {}
-
   template <typename Count>
-  WideLanes resisting(std::size_t i, Count count, const WideLanes& q) const {
-    WideLanes force;
-    load_first(inelastic_force_ + i, count, force);
-    return q + force;
+  void add_known_step(std::size_t i, Count count, WideLanes& step) const {
+    if (parts_.known_step == nullptr) return;
+    WideLanes known;
+    load_first(parts_.known_step + i, count, known);
+    step += known;
+  }
+  void add_filtered_work(const WideLanes& f, const WideLanes& resisting, const WideLanes& sum) {
+    if (parts_.filters != nullptr) filtered_work_ += (f - resisting) * sum;
+  }
+  template <typename Count>
+  void add_known_work(std::size_t i, Count count, const WideLanes& momentum) {
+    if (parts_.known_step == nullptr) return;
+    WideLanes known;
+    load_first(parts_.known_step + i, count, known);
+    add_product(known, momentum, known_work_);
   }
 
  private:
-  const double* inelastic_force_;
+  const Parts parts_;
+  Filters<WideLanes> filters_{};
+  std::array<double*, max_filters> memory_{};
+  WideLanes filtered_work_;
+  WideLanes known_work_;
 };
 
 }  // namespace pounding

@@ -29,7 +29,8 @@ bool directions_are(const LinearSystem& system, std::size_t dof, std::array<int,
 struct StructureStep::VectorParts {
   static constexpr std::size_t count = 3;  ///< vectors of a pattern
 
-  WideLanes known_work{};  ///< sum of known_step_ times M s
+  WideLanes known_work{};     ///< sum of known_step_ times M s
+  WideLanes filtered_work{};  ///< sum of (f - q) (v+ + v-)
   /// Patterns of nodes without and with rotations: h (a_g - g) iota, and the sums of M s.
   WideLanes ground[2][count]{};
   WideLanes momentum[2][count]{};
@@ -243,26 +244,31 @@ void StructureStep::receive(LocalIndex begin, LocalIndex end, const double* forc
   for (LocalIndex dof = begin; dof < end; ++segment) {
     const LocalIndex stop = std::min(end, segment->end);
     const double* const from = force + (dof - begin);
-    const auto advance_with = [&](const auto& damping) {
-      stiffness_velocity_ != nullptr ? advance<true>(*segment, dof, stop, from, damping)
-                                     : advance<false>(*segment, dof, stop, from, damping);
-    };
-    const auto advance_yielding = [&](const auto& damping) {
-      segment->yields ? advance_with(WithInelastic(damping, state_.inelastic_force.data()))
-                      : advance_with(damping);
-    };
-    if (system_.uniform_damping) {
-      advance_yielding(Filtered(filters_, state_.filtered));
-    } else {
-      advance_yielding(Unfiltered());
-    }
+    advance(*segment, dof, stop, from);
     dof = stop;
   }
 }
 
-template <bool with_energies, typename Damping, typename Masses, typename Ground>
+void StructureStep::add_energies_before(std::size_t first, std::size_t end, const double* force) {
+  const StepTerms<WideLanes> terms = in_lanes<WideLanes>(terms_);
+  const auto add_vector = [&](std::size_t i, const double* from, auto count) {
+    WideLanes q, mass, rate;
+    DofState<WideLanes> dof;
+    load_first(from, count, q);
+    load_first(&system_.lumped_mass[i], count, mass);
+    load_first(stiffness_velocity_ + i, count, rate);
+    load_first(&state_.displacement[i], count, dof.displacement);
+    load_first(&state_.velocity[i], count, dof.velocity);
+    add_energies(terms, mass, q, rate, dof, vectors_->energies);
+  };
+  std::size_t i = first;
+  for (; i + lanes <= end; i += lanes, force += lanes) add_vector(i, force, AllLanes());
+  if (i < end) add_vector(i, force, end - i);
+}
+
+template <typename Others, typename Masses, typename Ground>
 void StructureStep::advance_vectors(std::size_t first, std::size_t end, const double* force,
-                                    const Damping& damping, Masses masses, Ground& ground) {
+                                    Others& others, Masses masses, Ground& ground) {
   double* const displacement = state_.displacement.data();
   double* const velocity = state_.velocity.data();
   const StepTerms<WideLanes> terms = in_lanes<WideLanes>(terms_);
@@ -275,18 +281,16 @@ void StructureStep::advance_vectors(std::size_t first, std::size_t end, const do
     load_first(displacement + i, count, dof.displacement);
     load_first(velocity + i, count, dof.velocity);
     masses.template at<k>(count, mass, inverse_mass);
-    if constexpr (with_energies) {
-      WideLanes rate;
-      load_first(stiffness_velocity_ + i, count, rate);
-      add_energies(terms, mass, q, rate, dof, vectors_->energies);
-    }
     const WideLanes before = dof.velocity;
-    const WideLanes resisting = damping.resisting(i, count, q);
-    const WideLanes f = damping.force(i, count, resisting);
-    const WideLanes free =
-        free_velocity(terms, before, f, inverse_mass, ground.template step<k>(i, count));
-    if constexpr (Damping::acts) sums.filtered += (f - resisting) * (free + before);
-    ground.template add<k>(i, count, settle(terms, q, free, mass, dof, sums));
+    const WideLanes resisting = others.resisting(i, count, q);
+    const WideLanes f = others.filtered(i, count, resisting);
+    WideLanes step = ground.template step<k>(i, count);
+    others.add_known_step(i, count, step);
+    const WideLanes free = free_velocity(terms, before, f, inverse_mass, step);
+    others.add_filtered_work(f, resisting, free + before);
+    const WideLanes momentum = settle(terms, q, free, mass, dof, sums);
+    others.add_known_work(i, count, momentum);
+    ground.template add<k>(i, count, momentum);
     store_first(dof.velocity, count, velocity + i);
     store_first(dof.displacement, count, displacement + i);
   };
@@ -313,24 +317,12 @@ void StructureStep::advance_vectors(std::size_t first, std::size_t end, const do
   vectors_->sums = sums;
 }
 
-template <bool with_energies, typename Damping, typename Masses, typename Ground>
-void StructureStep::advance_with_known(std::size_t first, std::size_t end, const double* force,
-                                       const Damping& damping, Masses masses, Ground& ground) {
-  if (known_step_.empty()) {
-    advance_vectors<with_energies>(first, end, force, damping, masses, ground);
-    return;
-  }
-  LoadedGround<Ground> supported(ground, known_step_.data(), vectors_->known_work);
-  advance_vectors<with_energies>(first, end, force, damping, masses, supported);
-}
-
-template <bool with_energies>
 void StructureStep::advance_dofs(std::size_t first, std::size_t end, const double* force) {
   for (std::size_t i = first; i < end; ++i, ++force) {
     DofState<double> dof{state_.displacement[i], state_.velocity[i]};
     const double mass = system_.lumped_mass[i];
     const double before = dof.velocity;
-    if constexpr (with_energies) {
+    if (stiffness_velocity_ != nullptr) {
       add_energies(terms_, mass, *force, stiffness_velocity_[i], dof, dof_energies_);
     }
     const double q = state_.inelastic_force.empty() ? *force : *force + state_.inelastic_force[i];
@@ -353,37 +345,50 @@ void StructureStep::advance_dofs(std::size_t first, std::size_t end, const doubl
   }
 }
 
-template <bool with_energies, typename Damping>
 void StructureStep::advance(const Segment& segment, LocalIndex begin, LocalIndex end,
-                            const double* force, const Damping& damping) {
+                            const double* force) {
+  const auto offset = static_cast<std::size_t>(begin - segment.begin);
+  if (segment.order == Order::coupled) {
+    coupled_->keep(segment.first_coupled + offset, static_cast<std::size_t>(end - begin), force);
+    return;
+  }
+  if (segment.order == Order::none) {
+    advance_dofs(static_cast<std::size_t>(begin), static_cast<std::size_t>(end), force);
+    return;
+  }
+  if (stiffness_velocity_ != nullptr) {
+    add_energies_before(static_cast<std::size_t>(begin), static_cast<std::size_t>(end), force);
+  }
+  if (segment.yields || system_.uniform_damping || !known_step_.empty()) {
+    OtherActions others({segment.yields ? state_.inelastic_force.data() : nullptr,
+                         system_.uniform_damping ? &filters_ : nullptr, &state_.filtered,
+                         known_step_.empty() ? nullptr : known_step_.data(),
+                         &vectors_->filtered_work, &vectors_->known_work});
+    advance_in_order(segment, begin, end, force, others);
+  } else {
+    NothingElse others;
+    advance_in_order(segment, begin, end, force, others);
+  }
+}
+
+template <typename Others>
+void StructureStep::advance_in_order(const Segment& segment, LocalIndex begin, LocalIndex end,
+                                     const double* force, Others& others) {
   const std::size_t first = begin;
   const std::size_t stop = end;
-  const auto offset = first - static_cast<std::size_t>(segment.begin);
   const DofMasses dof_masses(&system_.lumped_mass[first], &system_.inverse_mass[first]);
-  switch (segment.order) {
-    case Order::coupled:
-      coupled_->keep(segment.first_coupled + offset, stop - first, force);
-      break;
-    case Order::translations: {
-      const std::size_t node = segment.first_node + offset / 3;
-      PatternGround ground(vectors_->ground[0], vectors_->momentum[0]);
-      advance_with_known<with_energies>(first, stop, force, damping,
-                                        NodeMasses(&node_mass_[node], &node_inverse_mass_[node]),
-                                        ground);
-      break;
-    }
-    case Order::nodes_of_six: {
-      PatternGround ground(vectors_->ground[1], vectors_->momentum[1]);
-      advance_with_known<with_energies>(first, stop, force, damping, dof_masses, ground);
-      break;
-    }
-    case Order::generalised: {
-      InfluenceGround ground(*system_.generalised, ground_step_, vectors_->influenced_momentum);
-      advance_with_known<with_energies>(first, stop, force, damping, dof_masses, ground);
-      break;
-    }
-    case Order::none:
-      advance_dofs<with_energies>(first, stop, force);
+  if (segment.order == Order::translations) {
+    const std::size_t node =
+        segment.first_node + (first - static_cast<std::size_t>(segment.begin)) / 3;
+    PatternGround ground(vectors_->ground[0], vectors_->momentum[0]);
+    advance_vectors(first, stop, force, others,
+                    NodeMasses(&node_mass_[node], &node_inverse_mass_[node]), ground);
+  } else if (segment.order == Order::nodes_of_six) {
+    PatternGround ground(vectors_->ground[1], vectors_->momentum[1]);
+    advance_vectors(first, stop, force, others, dof_masses, ground);
+  } else {
+    InfluenceGround ground(*system_.generalised, ground_step_, vectors_->influenced_momentum);
+    advance_vectors(first, stop, force, others, dof_masses, ground);
   }
 }
 
@@ -437,6 +442,7 @@ StepSums StructureStep::sums() const {
   StepSums total = sums_;
   add_to(dof_sums_, total);
   add_to(vectors_->sums, total);
+  total.filtered += add_up(vectors_->filtered_work);
   add_to(dof_energies_, total);
   add_to(vectors_->energies, total);
   for (std::size_t l = 0; l < pattern; ++l) {

@@ -87,20 +87,19 @@ class StructureStep final : public stiffness::ForceReceiver, public interactions
   bool is_inelastic(std::size_t dof, std::size_t count) const;
   Order order_at(std::size_t dof, const std::vector<char>& acted_on) const;
   std::size_t length_at(std::size_t dof, Order order) const;
-  template <bool with_energies, typename Damping>
-  void advance(const Segment& segment, LocalIndex begin, LocalIndex end, const double* force,
-               const Damping& damping);
-  /// Dofs by vectors: policies give their masses, the effect of the ground, and whether the force
-  /// is filtered.
-  template <bool with_energies, typename Damping, typename Masses, typename Ground>
-  void advance_vectors(std::size_t first, std::size_t end, const double* force,
-                       const Damping& damping, Masses masses, Ground& ground);
-  /// Dofs by vectors, with loads, and with supports where they move on their own.
-  template <bool with_energies, typename Damping, typename Masses, typename Ground>
-  void advance_with_known(std::size_t first, std::size_t end, const double* force,
-                          const Damping& damping, Masses masses, Ground& ground);
+  /// Brings dofs of one segment on, or keeps their forces where their mass is coupled.
+  void advance(const Segment& segment, LocalIndex begin, LocalIndex end, const double* force);
+  /// Dofs of an order other than coupled and none; `others`: OtherActions or NothingElse.
+  template <typename Others>
+  void advance_in_order(const Segment& segment, LocalIndex begin, LocalIndex end,
+                        const double* force, Others& others);
+  /// Dofs by vectors: policies give their masses, the effect of the ground, and other actions.
+  template <typename Others, typename Masses, typename Ground>
+  void advance_vectors(std::size_t first, std::size_t end, const double* force, Others& others,
+                       Masses masses, Ground& ground);
+  /// Adds the energies before the step, by vectors.
+  void add_energies_before(std::size_t first, std::size_t end, const double* force);
   /// Dofs one by one.
-  template <bool with_energies>
   void advance_dofs(std::size_t first, std::size_t end, const double* force);
   /// h ((a_g - g) iota + sum_c iota_c r_c'' - M^-1 sum_l f_l p_l) of a dof.
   double ground_step_at(std::size_t dof) const;
