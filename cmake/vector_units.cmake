@@ -1,14 +1,20 @@
 # Kernels: what takes the time of a step, compiled once for each vector unit and joined in one program, which chooses at
 # its start (src/common/vector_unit.h). Everything else is compiled for the first unit. docs/install.md has the words.
+include(${CMAKE_CURRENT_LIST_DIR}/best_unit.cmake)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
   set(units v2 v3 v4)
   set(POUNDING_BASE -march=x86-64-v2)
+  find_best_unit(best)
 else()
   set(units generic)
+  set(best generic)
   set(POUNDING_BASE)
 endif()
-set(POUNDING_VECTOR_UNITS ${units} CACHE STRING
-  "Vector units that kernels are compiled for: v2 (SSE4.2), v3 (AVX2 and FMA), v4 (AVX-512)")
+set(POUNDING_VECTOR_UNITS ${best} CACHE STRING
+  "Vector units that kernels are compiled for: v2 (SSE4.2), v3 (AVX2 and FMA), v4 (AVX-512), or all of them")
+if(POUNDING_VECTOR_UNITS STREQUAL all)
+  set_property(CACHE POUNDING_VECTOR_UNITS PROPERTY VALUE ${units})
+endif()
 list(SORT POUNDING_VECTOR_UNITS)  # the least first
 if(POUNDING_SANITIZE)  # checked once
   list(GET POUNDING_VECTOR_UNITS 0 POUNDING_VECTOR_UNITS)

@@ -44,6 +44,13 @@ std::size_t best_unit() {
 
 std::size_t unit_in_use = 0;
 
+/// Names of the units in one text.
+std::string compiled() {
+  std::string text;
+  for (const char* name : names) text += (text.empty() ? "" : ", ") + std::string(name);
+  return text;
+}
+
 /// The smallest value of all ranks. Collective.
 std::size_t least(MPI_Comm comm, std::size_t value) {
   std::uint64_t smallest = value;
@@ -77,7 +84,11 @@ void use_vector_unit(MPI_Comm comm, std::string_view name) {
   if (name == "auto") return use_unit_number(common);
   const auto* const found = std::ranges::find(names, name);
   const auto unit = static_cast<std::size_t>(found - std::begin(names));
-  if (found != std::end(names) && unit <= common) return use_unit_number(unit);
+  if (found == std::end(names)) {
+    throw UserError("option -vector_unit " + std::string(name) + ": the program was built for " +
+                    compiled() + "; -DPOUNDING_VECTOR_UNITS=all builds it for all units");
+  }
+  if (unit <= common) return use_unit_number(unit);
   throw UserError("option -vector_unit " + std::string(name) +
                   ": the best that program and machine have is " + names[common]);
 }

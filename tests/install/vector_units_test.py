@@ -1,4 +1,5 @@
-"""The kernels of every vector unit in one program: no instruction of a higher unit is elsewhere, and all answer alike."""
+"""The kernels of the vector units that the program was built for, one or all: no instruction of a higher unit is elsewhere,
+and all answer alike."""
 
 import json
 import os
@@ -44,7 +45,10 @@ def instructions(file):
         raise RuntimeError(f"objdump cannot read {file}")
 
 
-@unittest.skipUnless(build_option("POUNDING_VECTOR_UNITS") == "v2;v3;v4", "built for other vector units")
+UNITS = build_option("POUNDING_VECTOR_UNITS").split(";")
+
+
+@unittest.skipUnless(UNITS == ["v2", "v3", "v4"], "not built for all vector units (-DPOUNDING_VECTOR_UNITS=all)")
 class Instructions(unittest.TestCase):
     def test_above_the_unit_are_nowhere(self):
         for name in ("pounding", "pounding-spectra"):
@@ -65,6 +69,28 @@ class Instructions(unittest.TestCase):
             counts[section] = counts.get(section, 0) + (wide.get(section, "?") in operands)
         self.assertGreater(counts["text_v3"], 5000)
         self.assertGreater(counts["text_v4"], 5000)
+
+
+@unittest.skipUnless(UNITS in (["v2"], ["v3"], ["v4"]), "built for several vector units, or another processor")
+class OfOneUnit(unittest.TestCase):
+    """Kernels of one unit are linked as they are, among all else."""
+
+    def test_wide_instructions_are_those_of_the_unit(self):
+        wide, above = {"v2": ("%xmm", BEYOND_V2), "v3": ("%ymm", BEYOND_V3), "v4": ("%zmm", None)}[UNITS[0]]
+        found, strange = 0, []
+        for section, function, mnemonic, operands in instructions(Path(program.BUILD, "pounding")):
+            found += wide in operands
+            if above and above.search(mnemonic if UNITS[0] == "v2" else operands):
+                strange.append(f"{section} {function}: {mnemonic} {operands}")
+        self.assertEqual(strange[:5], [])
+        self.assertGreater(found, 5000)
+
+    def test_the_check_at_the_start_needs_none_of_them(self):
+        """On a machine without the unit the program must come as far as the line that says so."""
+        check = [mnemonic for _, function, mnemonic, _ in instructions(Path(program.BUILD, "pounding"))
+                 if function == "pounding_use_best_unit"]
+        self.assertGreater(len(check), 5)
+        self.assertEqual([mnemonic for mnemonic in check if BEYOND_V2.match(mnemonic)], [])
 
 
 def best_unit(folder):
@@ -91,9 +117,8 @@ class Runs(unittest.TestCase):
     def test_answer_alike(self):
         best = self.run_with("auto", "auto")
         reference = self.history(best)
-        compiled = build_option("POUNDING_VECTOR_UNITS").split(";")
-        self.assertIn(best_unit(best), compiled)
-        for unit in compiled[:compiled.index(best_unit(best)) + 1]:
+        self.assertIn(best_unit(best), UNITS)
+        for unit in UNITS[:UNITS.index(best_unit(best)) + 1]:
             folder = self.run_with(unit, unit)
             self.assertEqual(best_unit(folder), unit)
             found = self.history(folder)
@@ -105,6 +130,12 @@ class Runs(unittest.TestCase):
     def test_another_is_refused(self):
         program.must_refuse(self, ["-options_file", str(two_buildings.SCENE), "-vector_unit", "v9"], "-vector_unit", "v9",
                             "auto v2 v3 v4")
+
+    @unittest.skipUnless(len(UNITS) == 1, "built for several vector units")
+    def test_one_that_was_not_built_is_refused(self):
+        other = "v3" if UNITS == ["v2"] else "v2"
+        program.must_refuse(self, ["-options_file", str(two_buildings.SCENE), "-vector_unit", other], "-vector_unit", other,
+                            "-DPOUNDING_VECTOR_UNITS=all")
 
 
 if __name__ == "__main__":

@@ -99,7 +99,7 @@ def measure(build: Path, scratch: Path, motion: Path, case: str, rounds: int, se
     model = CASES[case].model(scratch, motion)
     rows = []
     with Machine(build, [1]) as machine:
-        for unit in units_of_machine():
+        for unit in units_of(build):
             command = step_benchmark(build, 1, motion, model, ["element"], "-vector_unit", unit)
             counted = scratch / f"{case}-{unit}.counts"
             done = subprocess.run(with_environment([build / "tests" / "count_instructions", counted, *command[3:]]), text=True,
@@ -122,11 +122,12 @@ def measure(build: Path, scratch: Path, motion: Path, case: str, rounds: int, se
     return rows
 
 
-def units_of_machine() -> list:
-    """The two best vector units that the processor has, of those of UNITS."""
+def units_of(build: Path) -> list:
+    """The two best vector units that the processor has, of those that the build has kernels for."""
+    built = re.search(r"^POUNDING_VECTOR_UNITS:STRING=(.*)$", (build / "CMakeCache.txt").read_text(), re.MULTILINE)[1].split(";")
     flags = set(re.findall(r"\w+", next((line for line in Path("/proc/cpuinfo").read_text().splitlines()
                                          if line.startswith("flags")), "")))
-    return [unit for unit, flag in UNITS.items() if flag in flags][:2]
+    return [unit for unit, flag in UNITS.items() if flag in flags and unit in built][:2]
 
 
 def bounds(row: dict) -> dict:

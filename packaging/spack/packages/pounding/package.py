@@ -44,7 +44,7 @@ class Pounding(CMakePackage):
     requires("%gcc@12:", msg="kernels are written with vectors of g++ 12 or later")
 
     def cmake_args(self):
-        return [self.define("POUNDING_TESTS", False),
+        return [self.define("POUNDING_TESTS", False), self.define("POUNDING_VECTOR_UNITS", "all"),
                 self.define("PETSC_DIR", self.spec["petsc"].prefix), self.define("SLEPC_DIR", self.spec["slepc"].prefix),
                 self.define("PETSC_ARCH", "")]
 
