@@ -12,21 +12,21 @@ namespace {
 
 constexpr std::size_t widest = 16;  // values in a row, which zeros may fill up
 
-struct Component {
+struct BhrcComponent {
   std::string name;
   std::size_t begin = 0, end = 0;  ///< lines of numbers
   int line = 0;
   std::optional<double> count, duration;
 };
 
-bool is_title_line(const std::string& text) {
+bool is_bhrc_title(const std::string& text) {
   return text.starts_with("* VOL1") || text.starts_with("*VOL1");
 }
 
-std::vector<Component> components_of(std::span<const TextLine> lines) {
+std::vector<BhrcComponent> bhrc_components(std::span<const TextLine> lines) {
   static const std::regex sampling(R"(NO\. OF POINTS\s*=\s*(\d+)\s+DURATION\s*=\s*([\d.]+))");
-  std::vector<Component> components;
-  Component next;
+  std::vector<BhrcComponent> components;
+  BhrcComponent next;
   std::smatch match;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::string& text = lines[i].text;
@@ -75,14 +75,14 @@ void take_pairs(const std::string& file, std::span<const TextLine> lines, Format
 }  // namespace
 
 bool is_bhrc(std::span<const TextLine> lines) {
-  return !lines.empty() && is_title_line(lines[0].text) && !components_of(lines).empty();
+  return !lines.empty() && is_bhrc_title(lines[0].text) && !bhrc_components(lines).empty();
 }
 
 FormatRecord read_bhrc(const RecordedMotion& motion, std::span<const TextLine> lines) {
-  const std::vector<Component> components = components_of(lines);
+  const std::vector<BhrcComponent> components = bhrc_components(lines);
   std::vector<std::string> names;
-  for (const Component& one : components) names.push_back(one.name);
-  const Component& one = components[choose_component(motion, names)];
+  for (const BhrcComponent& one : components) names.push_back(one.name);
+  const BhrcComponent& one = components[choose_component(motion, names)];
   if (!one.count || !one.duration) {
     throw UserError(motion.file + ": no number of points and duration of component " + one.name);
   }

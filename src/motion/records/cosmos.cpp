@@ -13,7 +13,7 @@ namespace {
 
 constexpr double unknown = -999;
 
-struct Channel {
+struct CosmosChannel {
   std::string name, quantity, unit;
   std::size_t real_numbers = 0;  ///< their first line; 0: none
   std::size_t begin = 0;         ///< the first line of values
@@ -21,13 +21,13 @@ struct Channel {
   double count = 0, seconds = 0;
 };
 
-bool is_title_line(const std::string& text) {
+bool is_cosmos_title(const std::string& text) {
   static const std::regex pattern(R"(\(Format v[\d.]+ with\s+\d+ text lines\))", std::regex::icase);
   return text.find("(Format v") != std::string::npos && std::regex_search(text, pattern);
 }
 
 /// 7500 acceleration pts, approx 75 secs, units=cm/sec2 (04), Format=(8F10.5)
-bool take_announcement(const TextLine& line, Channel& channel) {
+bool take_announcement(const TextLine& line, CosmosChannel& channel) {
   static const std::regex pattern(
       R"(^\s*(\d+)\s+(.*?)\s*pts,\s*approx\s*([\d.]+)\s*secs?,\s*units\s*=\s*(.*?),\s*Format)",
       std::regex::icase);
@@ -44,16 +44,16 @@ bool take_announcement(const TextLine& line, Channel& channel) {
   return true;
 }
 
-std::vector<Channel> channels_of(std::span<const TextLine> lines) {
+std::vector<CosmosChannel> cosmos_channels(std::span<const TextLine> lines) {
   static const std::regex name(R"(^Sta Chan\s*(\d+)\s*:\s*(.*?)\s*(?:\(|Location|$))",
                                std::regex::icase);
-  std::vector<Channel> channels;
-  Channel next;
+  std::vector<CosmosChannel> channels;
+  CosmosChannel next;
   std::smatch match;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::string& text = lines[i].text;
     if (text.empty() || text.find_first_not_of("0123456789+-. eE") == std::string::npos) continue;
-    if (is_title_line(text)) next = {};
+    if (is_cosmos_title(text)) next = {};
     const std::string head = text.substr(0, 120);
     if (head.starts_with("Sta Chan") && std::regex_search(head, match, name)) {
       next.name = "Chan " + match[1].str() + ": " + match[2].str();
@@ -69,7 +69,8 @@ std::vector<Channel> channels_of(std::span<const TextLine> lines) {
 }
 
 /// Time step: a real number of the header, in milliseconds, which the duration in words confirms.
-double step_of(const std::string& file, std::span<const TextLine> lines, const Channel& channel) {
+double step_of(const std::string& file, std::span<const TextLine> lines,
+               const CosmosChannel& channel) {
   constexpr std::size_t most = 100, milliseconds = 61, seconds = 33;
   if (channel.real_numbers == 0) {
     throw UserError(at_line(file, channel.line) + "no real numbers of a header above");
@@ -89,17 +90,17 @@ double step_of(const std::string& file, std::span<const TextLine> lines, const C
 }  // namespace
 
 bool is_cosmos(std::span<const TextLine> lines) {
-  return !lines.empty() && is_title_line(lines[0].text);
+  return !lines.empty() && is_cosmos_title(lines[0].text);
 }
 
 FormatRecord read_cosmos(const RecordedMotion& motion, std::span<const TextLine> lines) {
-  const std::vector<Channel> channels = channels_of(lines);
+  const std::vector<CosmosChannel> channels = cosmos_channels(lines);
   if (channels.empty()) {
     throw UserError(motion.file + ": COSMOS without a block of acceleration; give a volume 1 or 2");
   }
   std::vector<std::string> names;
-  for (const Channel& one : channels) names.push_back(one.name);
-  const Channel& one = channels[choose_component(motion, names)];
+  for (const CosmosChannel& one : channels) names.push_back(one.name);
+  const CosmosChannel& one = channels[choose_component(motion, names)];
   const auto units = units_in("(" + stripped(one.unit.substr(0, one.unit.find('('))) + ")");
   if (units.size() != 1) {
     throw UserError(at_line(motion.file, one.line) + "values in '" + one.unit +

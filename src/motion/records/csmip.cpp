@@ -11,7 +11,7 @@ namespace pounding {
 
 namespace {
 
-struct Channel {
+struct CsmipChannel {
   std::string name;
   std::size_t begin = 0;  ///< the first line of values
   int line = 0, peak_line = 0;
@@ -28,13 +28,13 @@ bool announces(const std::string& text, std::smatch& match) {
 }
 
 /// Acceleration blocks of a file, with the statements of the words above each.
-std::vector<Channel> channels_of(std::span<const TextLine> lines, std::size_t most) {
+std::vector<CsmipChannel> csmip_channels(std::span<const TextLine> lines, std::size_t most) {
   static const std::regex name(R"(\bchan(?:nel)?\s*(\d+)\s*:\s*(.*?)(?:\s{2,}|$))",
                                std::regex::icase);
   static const std::regex peak(R"(peak\s+acceleration\s*=\s*([-+\d.]+)\s*(\S*))",
                                std::regex::icase);
-  std::vector<Channel> channels;
-  Channel next;
+  std::vector<CsmipChannel> channels;
+  CsmipChannel next;
   std::smatch match;
   for (std::size_t i = 0; i < std::min(lines.size(), most); ++i) {
     if (lines[i].text.find_first_of("cCpP") == std::string::npos) continue;  // rows of numbers
@@ -64,14 +64,14 @@ std::vector<Channel> channels_of(std::span<const TextLine> lines, std::size_t mo
 bool is_csmip(std::span<const TextLine> lines) {
   const bool titled = !lines.empty() &&
                       lower(lines[0].text.substr(0, 60)).find("accelerogram") != std::string::npos;
-  return titled && !channels_of(lines, head_lines).empty();
+  return titled && !csmip_channels(lines, head_lines).empty();
 }
 
 FormatRecord read_csmip(const RecordedMotion& motion, std::span<const TextLine> lines) {
-  const std::vector<Channel> channels = channels_of(lines, lines.size());
+  const std::vector<CsmipChannel> channels = csmip_channels(lines, lines.size());
   std::vector<std::string> names;
-  for (const Channel& one : channels) names.push_back(one.name);
-  const Channel& one = channels[choose_component(motion, names)];
+  for (const CsmipChannel& one : channels) names.push_back(one.name);
+  const CsmipChannel& one = channels[choose_component(motion, names)];
   if (one.unit.empty()) {
     throw UserError(at_line(motion.file, one.line) + "no unit, or several, behind the time step");
   }

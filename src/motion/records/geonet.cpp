@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t most_words = 24;  // lines of words of a component
 constexpr std::size_t whole_rows = 4, real_rows = 6, row_size = 10;
 
-struct Component {
+struct GeonetComponent {
   std::string name;
   bool corrected = false;
   std::size_t begin = 0;  ///< the first row about the record
@@ -21,20 +21,20 @@ struct Component {
   std::optional<double> count, step, peak;
 };
 
-bool is_title_line(const std::string& text) {
+bool is_geonet_title(const std::string& text) {
   const std::string small = lower(text.substr(0, 30));
   return small.starts_with("corrected accelerogram") ||
          small.starts_with("uncorrected accelerogram");
 }
 
 /// The lines of words of a component that begins at line `at`.
-Component read_words(std::span<const TextLine> lines, std::size_t at) {
+GeonetComponent read_words(std::span<const TextLine> lines, std::size_t at) {
   static const std::regex count(R"(^\s*Number of points\s+(\d+))", std::regex::icase);
   static const std::regex step(R"(\bat\s+([\d.]+)\s*sec\s+intervals)", std::regex::icase);
   static const std::regex peak(R"(^\s*Acceleration:?\s+peak\s+([-+\d.]+)\s*mm/s/s)",
                                std::regex::icase);
   static const std::regex name(R"(^\s*Component\s+(\S+))", std::regex::icase);
-  Component one;
+  GeonetComponent one;
   one.corrected = lower(lines[at].text).starts_with("corrected");
   one.title_line = lines[at].number;
   std::smatch match;
@@ -57,10 +57,10 @@ Component read_words(std::span<const TextLine> lines, std::size_t at) {
   return one;
 }
 
-std::vector<Component> components_of(std::span<const TextLine> lines) {
-  std::vector<Component> components;
+std::vector<GeonetComponent> geonet_components(std::span<const TextLine> lines) {
+  std::vector<GeonetComponent> components;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (!is_title_line(lines[i].text)) continue;
+    if (!is_geonet_title(lines[i].text)) continue;
     components.push_back(read_words(lines, i));
     if (components.back().name.empty()) components.back().name = "unnamed";
   }
@@ -73,7 +73,7 @@ struct Stated {
 };
 
 Stated read_numbers(const std::string& file, std::span<const TextLine> lines,
-                    const Component& one) {
+                    const GeonetComponent& one) {
   const NumberBlock whole = read_block(file, lines, one.begin, whole_rows * row_size);
   const NumberBlock real = read_block(file, lines, whole.end, real_rows * row_size);
   // of the record as it was taken, and as it was corrected
@@ -98,7 +98,7 @@ void require_rest(const std::string& file, std::span<const TextLine> lines, std:
   std::size_t end = begin;
   while (end < lines.size() && parse_row(lines[end])) ++end;
   const bool closed =
-      end == lines.size() || lines[end].text.empty() || is_title_line(lines[end].text);
+      end == lines.size() || lines[end].text.empty() || is_geonet_title(lines[end].text);
   const std::size_t found = end - begin;
   if (closed && (found == 0 || found == rows || found == 2 * rows)) return;
   throw UserError(at_line(file, lines[std::min(end, lines.size() - 1)].number) +
@@ -110,16 +110,16 @@ void require_rest(const std::string& file, std::span<const TextLine> lines, std:
 }  // namespace
 
 bool is_geonet(std::span<const TextLine> lines) {
-  if (lines.empty() || !is_title_line(lines[0].text)) return false;
-  const Component first = read_words(lines, 0);
+  if (lines.empty() || !is_geonet_title(lines[0].text)) return false;
+  const GeonetComponent first = read_words(lines, 0);
   return first.count && (first.peak || !first.corrected) && first.begin < lines.size();
 }
 
 FormatRecord read_geonet(const RecordedMotion& motion, std::span<const TextLine> lines) {
-  const std::vector<Component> components = components_of(lines);
+  const std::vector<GeonetComponent> components = geonet_components(lines);
   std::vector<std::string> names;
-  for (const Component& one : components) names.push_back(one.name);
-  const Component& one = components[choose_component(motion, names)];
+  for (const GeonetComponent& one : components) names.push_back(one.name);
+  const GeonetComponent& one = components[choose_component(motion, names)];
   if (!one.count || one.begin == lines.size()) {
     throw UserError(at_line(motion.file, one.title_line) +
                     "no number of points, or no rows of numbers, below this title");

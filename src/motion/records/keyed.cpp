@@ -19,7 +19,7 @@ struct KeyedHeader {
   std::size_t end = 0;  ///< the first line of values
 };
 
-KeyedHeader read_header(std::span<const TextLine> lines) {
+KeyedHeader read_keyed_header(std::span<const TextLine> lines) {
   KeyedHeader header;
   for (; header.end < lines.size() && header.end < head_lines; ++header.end) {
     const std::string& text = lines[header.end].text;
@@ -50,12 +50,12 @@ std::string text_of_key(const KeyedHeader& header, const std::string& name) {
 }  // namespace
 
 bool is_keyed(std::span<const TextLine> lines) {
-  const KeyedHeader header = read_header(lines);
+  const KeyedHeader header = read_keyed_header(lines);
   return header.keys.contains("SAMPLING_INTERVAL_S") && header.keys.contains("NDATA");
 }
 
 FormatRecord read_keyed(const RecordedMotion& motion, std::span<const TextLine> lines) {
-  const KeyedHeader header = read_header(lines);
+  const KeyedHeader header = read_keyed_header(lines);
   const std::string type = lower(text_of_key(header, "DATA_TYPE"));
   if (!type.empty() && type != "acceleration") {
     throw UserError(at_line(motion.file, header.keys.at("DATA_TYPE").line) + "holds '" + type +

@@ -26,7 +26,7 @@ std::string direction_of(const std::string& text) {
   return number ? numbered[text[0] - '1'] : text;
 }
 
-KnetHeader read_header(std::span<const TextLine> lines) {
+KnetHeader read_knet_header(std::span<const TextLine> lines) {
   static const std::regex scale(R"(^Scale Factor\s+([\d.]+)\s*\(gal\)\s*/\s*([\d.]+))");
   KnetHeader header;
   std::smatch match;
@@ -88,12 +88,12 @@ double offset_of(const std::vector<double>& counts, double stated_peak) {
 }  // namespace
 
 bool is_knet(std::span<const TextLine> lines) {
-  const KnetHeader header = read_header(lines);
+  const KnetHeader header = read_knet_header(lines);
   return header.rate_line > 0 && header.scale_line > 0 && header.end > 0;
 }
 
 FormatRecord read_knet(const RecordedMotion& motion, std::span<const TextLine> lines) {
-  const KnetHeader header = read_header(lines);
+  const KnetHeader header = read_knet_header(lines);
   if (!header.rate || !(*header.rate > 0)) {
     throw UserError(at_line(motion.file, header.rate_line) + "no sampling frequency");
   }

@@ -10,7 +10,7 @@ namespace pounding {
 
 namespace {
 
-constexpr auto flags = std::regex::ECMAScript | std::regex::icase;
+constexpr auto pattern_flags = std::regex::ECMAScript | std::regex::icase;
 
 const std::string number = R"(([-+]?(?:\d+\.?\d*|\.\d+)(?:[ED][-+]?\d+)?))";
 const std::string gap = R"([\s"',:=]*)";
@@ -21,11 +21,12 @@ const std::string spanish = R"([^:=]*[:=]\s*/?\s*)";
 // NPTS= 4000 | "Total No. of Points :",2000 | NDATA: 64 | NUM. TOTAL DE MUESTRAS, C1 : /1234
 // and 3000 points of accel data
 const std::array count_patterns{
-    std::regex("\\bNPTS" + gap + number, flags),
-    std::regex("\\bN(?:O|UM|UMBER)?\\.?\\s*OF\\s*(?:DATA\\s*)?POINTS" + gap + number, flags),
-    std::regex("\\b(?:NDATA|NUMBER[ _]+OF[ _]+(?:DATA|SAMPLES))" + gap + number, flags),
-    std::regex("\\bNUM(?:ERO)?\\.?\\s+TOTAL\\s+DE\\s+MUESTRAS" + spanish + number, flags),
-    std::regex(R"((\d+)\s+POINTS\s+(?:OF|AT)\b)", flags)};
+    std::regex("\\bNPTS" + gap + number, pattern_flags),
+    std::regex("\\bN(?:O|UM|UMBER)?\\.?\\s*OF\\s*(?:DATA\\s*)?POINTS" + gap + number,
+               pattern_flags),
+    std::regex("\\b(?:NDATA|NUMBER[ _]+OF[ _]+(?:DATA|SAMPLES))" + gap + number, pattern_flags),
+    std::regex("\\bNUM(?:ERO)?\\.?\\s+TOTAL\\s+DE\\s+MUESTRAS" + spanish + number, pattern_flags),
+    std::regex(R"((\d+)\s+POINTS\s+(?:OF|AT)\b)", pattern_flags)};
 
 // DT= .01 SEC | equally spaced at .02 sec | equally spaced intervals of: 0.005 SEC | DT: 20 msec
 const std::array step_patterns{
@@ -33,29 +34,29 @@ const std::array step_patterns{
         R"((?:\bDT|\bSPACED\s+AT|\bSPACING\s+OF|\bSPACED\s+INTERVALS\s+OF|\bTIME[ _]STEP|\bDELTA[ _-]?T\b)"
         R"(|\bSAMPL(?:E|ING)[ _](?:INTERVAL|PERIOD|STEP)(?:_S)?))" +
             in_brackets + gap + number + behind,
-        flags),
-    std::regex("\\bINTERVALO\\s+DE\\s+MUESTREO()" + spanish + number + behind, flags),
-    std::regex("\\bAT()\\s+" + number + R"(\s*(S(?:EC)?)\s+INTERVALS)", flags)};
+        pattern_flags),
+    std::regex("\\bINTERVALO\\s+DE\\s+MUESTREO()" + spanish + number + behind, pattern_flags),
+    std::regex("\\bAT()\\s+" + number + R"(\s*(S(?:EC)?)\s+INTERVALS)", pattern_flags)};
 
 // Sampling Freq(Hz) 100Hz | VEL. DE MUESTREO, C1 (muestras/s) : /50 | 50 sps, 200 samples/sec
 const std::array rate_patterns{
     std::regex("\\bSAMPL(?:E|ES|ING)[ _]*(?:FREQ(?:UENCY)?|RATE)\\.?" + in_brackets + gap + number +
                    behind,
-               flags),
+               pattern_flags),
     std::regex("\\b(?:VEL(?:OCIDAD)?\\.?|FREC(?:UENCIA)?\\.?|TASA)\\s+DE\\s+MUESTREO()" + spanish +
                    number + "()",
-               flags),
+               pattern_flags),
     std::regex(
         "()" + number + R"(\s*()(?:SPS\b|SAMPLES?\s*/\s*S(?:EC(?:OND)?)?\b|SAMPLES\s+PER\s+SEC))",
-        flags)};
+        pattern_flags)};
 
 // 4096    0.0100    NPTS, DT
-const std::regex trailing_names(R"(^\s*(\d+)\s+)" + number + R"(\s+NPTS\s*,?\s*DT)", flags);
+const std::regex trailing_names(R"(^\s*(\d+)\s+)" + number + R"(\s+NPTS\s*,?\s*DT)", pattern_flags);
 // %   2990    5.00000E-03  0  0  0.
 const std::regex numbers_in_comment(R"(^\s*[%#;!]\s*(\d+)\s+)" + number + R"(\s+[-+0-9.ED\s]*$)",
-                                    flags);
+                                    pattern_flags);
 // NPTS= ****
-const std::regex no_number(R"(\b(NPTS|DT)\s*[=:]\s*(?![-+.\d\s"',]))", flags);
+const std::regex no_number(R"(\b(NPTS|DT)\s*[=:]\s*(?![-+.\d\s"',]))", pattern_flags);
 
 double value(const std::string& text) {
   return parse_number(text).value_or(0);

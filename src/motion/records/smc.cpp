@@ -15,7 +15,7 @@ constexpr std::size_t words = 11, whole_lines = 6, real_lines = 10;
 constexpr double no_whole = -32768;
 constexpr double largest_real = 1e38;  // unknown values are above it
 
-bool is_title(const std::string& text) {
+bool is_smc_title(const std::string& text) {
   static const std::regex pattern(
       R"(^\s*[0-6] (UNKNOWN|(UN)?CORRECTED ACCELEROGRAM|VELOCITY|DISPLACEMENT|RESPONSE SPECTRA|FOURIER AMPLITUDE.*)\s*$)");
   return std::regex_search(text.substr(0, 120), pattern);
@@ -35,7 +35,7 @@ std::string component_of(std::span<const TextLine> lines, const std::vector<doub
 }  // namespace
 
 bool is_smc(std::span<const TextLine> lines) {
-  return lines.size() > 1 && is_title(lines[0].text) && lines[1].text.starts_with("*");
+  return lines.size() > 1 && is_smc_title(lines[0].text) && lines[1].text.starts_with("*");
 }
 
 FormatRecord read_smc(const RecordedMotion& motion, std::span<const TextLine> lines) {
