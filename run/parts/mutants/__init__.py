@@ -1,0 +1,1 @@
+"""Parts of run/mutants: the patches, and their trial."""
