@@ -58,7 +58,7 @@ void answer_no_memory() {
 }
 
 /// Answers the deed at which the file was stopped, and ends.
-void answer_denied(const std::string& deed) {
+void answer_denied(const char* deed) {
   pounding::RawAnswer answer;
   answer.denied = deed;
   pounding::write_answer(answer, send);

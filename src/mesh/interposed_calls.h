@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-/// Calls to the C library that pounding-mesh answers itself: the symbols of a program come before
-/// those of its libraries, so that Gmsh's calls, and those of its parts, arrive here. Part of the
-/// program pounding-mesh only.
+/// Calls to the C library that pounding-mesh answers itself, to know which files Gmsh reads: no
+/// guard tells that. The symbols of a program come before those of its libraries, so that the calls
+/// of Gmsh and of its parts arrive here. Part of the program pounding-mesh only.
 namespace pounding {
 
 /// Begins to note regular files that are opened for reading.

@@ -60,7 +60,7 @@ struct RawMesh {
 struct RawAnswer {
   RawMesh mesh;
   std::string error;     ///< empty or a line of Gmsh's
-  std::string denied;    ///< empty or the deed at which the file was stopped: "write to '/tmp/x'"
+  std::string denied;    ///< empty or the deed at which the file was stopped: "start a program"
   bool landlock = true;  ///< Landlock guarded the process as well
 };
 

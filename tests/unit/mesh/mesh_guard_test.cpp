@@ -1,13 +1,22 @@
 #include "mesh/mesh_guard.h"
 
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <fcntl.h>
 #include <functional>
+#include <sched.h>
+#include <seccomp.h>
 #include <spawn.h>
 #include <string>
+#include <sys/mount.h>
+#include <sys/prctl.h>
+#include <sys/ptrace.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/uio.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -19,19 +28,29 @@ namespace mesh_guard_test {
 
 int answer = -1;
 
-void tell(const std::string& deed) {
-  [[maybe_unused]] const ssize_t written = write(answer, deed.data(), deed.size());
+void tell(const char* deed) {
+  [[maybe_unused]] const ssize_t written = write(answer, deed, std::strlen(deed));
   _exit(1);
 }
 
+/// From here on a kernel without Landlock, for this process.
+bool forget_landlock() {
+  const scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ALLOW);
+  return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+         seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOSYS), SYS_landlock_create_ruleset, 0) == 0 &&
+         seccomp_load(filter) == 0;
+}
+
 /// What the guard says of a deed; "killed" where it could say nothing, "done" where it let it be.
-std::string attempt(const std::function<void()>& deed) {
+std::string attempt(const std::function<void()>& deed, bool landlock) {
   int ends[2];
   if (pipe(ends) != 0) return "no pipe";
   const pid_t child = fork();
   if (child == 0) {
     answer = ends[1];
-    if (guard_process(tell) != Guard::none) deed();
+    if (!landlock && (!forget_landlock() || restrict_files())) abort();
+    const Guard guard = guard_process(tell);
+    if (landlock ? guard != Guard::none : guard == Guard::seccomp) deed();
     _exit(0);
   }
   close(ends[1]);
@@ -45,59 +64,115 @@ std::string attempt(const std::function<void()>& deed) {
   return WEXITSTATUS(status) == 0 ? "done" : told;
 }
 
-TEST(MeshGuard, DeniesWhatAMeshNeedsNot) {
-  char folder[] = "/tmp/pounding-guard-XXXXXX";
-  ASSERT_NE(mkdtemp(folder), nullptr);
-  const std::string old = std::string(folder) + "/old";
-  const std::string made = std::string(folder) + "/made";
-  close(open(old.c_str(), O_CREAT | O_WRONLY, 0600));
-  const std::string of_old = " '" + old + "'";
-  const std::string of_made = " '" + made + "'";
+/// A folder with a file, gone at the end.
+class MeshGuard : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_NE(mkdtemp(folder_), nullptr);
+    old_ = std::string(folder_) + "/old";
+    made_ = std::string(folder_) + "/made";
+    close(open(old_.c_str(), O_CREAT | O_WRONLY, 0600));
+  }
+  void TearDown() override {
+    EXPECT_EQ(access(made_.c_str(), F_OK), -1);
+    unlink(old_.c_str());
+    EXPECT_EQ(rmdir(folder_), 0);
+  }
+
+  char folder_[40] = "/tmp/pounding-guard-XXXXXX";
+  std::string old_;
+  std::string made_;
+};
+
+TEST_F(MeshGuard, DeniesWhatAMeshNeedsNot) {
+  const char* old = old_.c_str();
+  const char* made = made_.c_str();
   const pid_t parent = getpid();
   char* const words[] = {const_cast<char*>("/bin/true"), nullptr};
+  const std::string start = "start a program";
+  const std::string change = "write to a file or change it";
+  const std::string connect = "open a network connection";
+  const std::string other = "meddle with another process";
+  const std::string kernel = "meddle with the system";
   const std::pair<std::string, std::function<void()>> deeds[] = {
-      {"start the program '/bin/true'", [&] { execv(words[0], words); }},
-      {"write to" + of_old, [&] { open(old.c_str(), O_WRONLY); }},
-      {"write to" + of_old, [&] { open(old.c_str(), O_RDWR | O_CLOEXEC); }},
-      {"write to" + of_old, [&] { open(old.c_str(), O_RDONLY | O_TRUNC); }},
-      {"write to" + of_made, [&] { creat(made.c_str(), 0600); }},
-      {"cut" + of_old, [&] { [[maybe_unused]] const int done = truncate(old.c_str(), 0); }},
-      {"remove" + of_old, [&] { unlink(old.c_str()); }},
-      {"remove '" + std::string(folder) + "'", [&] { rmdir(folder); }},
-      {"rename" + of_old, [&] { rename(old.c_str(), made.c_str()); }},
-      {"link" + of_old, [&] { [[maybe_unused]] const int done = link(old.c_str(), made.c_str()); }},
-      {"link" + of_made,
-       [&] { [[maybe_unused]] const int done = symlink(old.c_str(), made.c_str()); }},
-      {"make the folder" + of_made, [&] { mkdir(made.c_str(), 0700); }},
-      {"make" + of_made, [&] { mkfifo(made.c_str(), 0600); }},
-      {"change the rights of" + of_old, [&] { chmod(old.c_str(), 0666); }},
-      {"open a network connection", [&] { socket(AF_UNIX, SOCK_STREAM, 0); }},
-      {"open a network connection", [&] { socket(AF_INET, SOCK_DGRAM, 0); }},
-      {"send a signal to another process", [&] { kill(parent, 0); }},
-      {"send a signal to another process", [&] { kill(-1, 0); }},
+      {start, [&] { execv(words[0], words); }},
+      {change, [&] { open(old, O_WRONLY); }},
+      {change, [&] { open(old, O_RDWR | O_CLOEXEC); }},
+      {change, [&] { open(old, O_RDONLY | O_TRUNC); }},
+      {change, [&] { creat(made, 0600); }},
+      {change, [&] { [[maybe_unused]] const int done = truncate(old, 0); }},
+      {change, [&] { unlink(old); }},
+      {change, [&] { rmdir(folder_); }},
+      {change, [&] { rename(old, made); }},
+      {change, [&] { [[maybe_unused]] const int done = link(old, made); }},
+      {change, [&] { [[maybe_unused]] const int done = symlink(old, made); }},
+      {change, [&] { mkdir(made, 0700); }},
+      {change, [&] { mkfifo(made, 0600); }},
+      {change, [&] { chmod(old, 0666); }},
+      {connect, [&] { socket(AF_UNIX, SOCK_STREAM, 0); }},
+      {connect, [&] { socket(AF_INET, SOCK_DGRAM, 0); }},
+      {other, [&] { kill(parent, 0); }},
+      {other, [&] { kill(-1, 0); }},
+      {other, [&] { sigqueue(parent, 0, {}); }},
+      {other, [&] { ptrace(PTRACE_ATTACH, parent, nullptr, nullptr); }},
+      {other, [&] { process_vm_readv(parent, nullptr, 0, nullptr, 0, 0); }},
+      {kernel, [&] { unshare(CLONE_NEWUSER); }},
+      {kernel, [&] { setns(0, 0); }},
+      {kernel, [&] { mount("none", folder_, "tmpfs", 0, nullptr); }},
+      {kernel, [&] { syscall(SYS_bpf, 0, nullptr, 0); }},
+      {kernel, [&] { syscall(SYS_keyctl, 0, 0, 0, 0, 0); }},
   };
-  for (const auto& [said, deed] : deeds) EXPECT_EQ(attempt(deed), said);
-  const std::string forked = attempt([] { [[maybe_unused]] const pid_t child = fork(); });
-  EXPECT_TRUE(forked == "start a program" || forked == "killed") << forked;
-  const std::string spawned = attempt([&] {
-    pid_t child = 0;
-    posix_spawn(&child, words[0], nullptr, nullptr, words, environ);
-  });
-  EXPECT_TRUE(spawned == "start a program" || spawned == "killed") << spawned;
-  EXPECT_EQ(access(made.c_str(), F_OK), -1);
-  unlink(old.c_str());
-  EXPECT_EQ(rmdir(folder), 0);
+  for (const bool landlock : {true, false}) {
+    for (const auto& [said, deed] : deeds) EXPECT_EQ(attempt(deed, landlock), said);
+    const std::string forked =
+        attempt([] { [[maybe_unused]] const pid_t child = fork(); }, landlock);
+    EXPECT_TRUE(forked == start || forked == "killed") << forked;
+    const auto spawn = [&] {
+      pid_t child = 0;
+      posix_spawn(&child, words[0], nullptr, nullptr, words, environ);
+    };
+    const std::string spawned = attempt(spawn, landlock);
+    EXPECT_TRUE(spawned == start || spawned == "killed") << spawned;
+    const auto ring = [] {
+      if (syscall(SYS_io_uring_setup, 1, nullptr) != -1 || errno != ENOSYS) abort();
+    };
+    EXPECT_EQ(attempt(ring, landlock), "done");
+  }
 }
 
-TEST(MeshGuard, LetsReadAndStartThreads) {
-  EXPECT_EQ(attempt([] {
-              const int file = open("/proc/self/status", O_RDONLY);
-              char byte = 0;
-              std::thread reader([&] { byte = read(file, &byte, 1) == 1 ? byte : '\0'; });
-              reader.join();
-              if (byte != 'N' || kill(getpid(), 0) != 0) abort();
-            }),
-            "done");
+TEST_F(MeshGuard, LandlockAloneKeepsFiles) {
+  const pid_t child = fork();
+  if (child == 0) {
+    prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+    if (!restrict_files()) _exit(2);
+    const char* old = old_.c_str();
+    const char* made = made_.c_str();
+    char* const words[] = {const_cast<char*>("/bin/true"), nullptr};
+    const bool kept = open(old, O_WRONLY) < 0 && creat(made, 0600) < 0 && unlink(old) < 0 &&
+                      rename(old, made) < 0 && link(old, made) < 0 && symlink(old, made) < 0 &&
+                      mkdir(made, 0700) < 0 && mkfifo(made, 0600) < 0 && execv(words[0], words) < 0;
+    _exit(kept && open(old, O_RDONLY) >= 0 ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  if (WEXITSTATUS(status) == 2) GTEST_SKIP() << "no Landlock here";
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+TEST_F(MeshGuard, LetsReadAndStartThreads) {
+  for (const bool landlock : {true, false}) {
+    EXPECT_EQ(attempt(
+                  [] {
+                    const int file = open("/proc/self/status", O_RDONLY);
+                    char byte = 0;
+                    std::thread reader([&] { byte = read(file, &byte, 1) == 1 ? byte : '\0'; });
+                    reader.join();
+                    if (byte != 'N' || kill(getpid(), 0) != 0) abort();
+                  },
+                  landlock),
+              "done");
+  }
 }
 
 }  // namespace mesh_guard_test
