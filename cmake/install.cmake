@@ -11,7 +11,7 @@ install(TARGETS pounding pounding-mesh pounding-spectra RUNTIME DESTINATION ${CM
 install(PROGRAMS cmake/pounding-tools DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY meshes octave petsc-options python DESTINATION ${POUNDING_SHARE}
   PATTERN __pycache__ EXCLUDE)
-install(PROGRAMS run/compare run/fragility run/import run/law run/new run/plant run/plot run/seal run/section run/shake run/sweep run/tradeoff
+install(PROGRAMS run/compare run/fragility run/import run/law run/new run/plant run/plot run/seal run/section run/shake run/soil run/sweep run/tradeoff
   DESTINATION ${POUNDING_SHARE}/run)
 install(FILES run/environment DESTINATION ${POUNDING_SHARE}/run)
 install(DIRECTORY run/parts DESTINATION ${POUNDING_SHARE}/run

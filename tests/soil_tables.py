@@ -1,9 +1,14 @@
-"""Tables of impedances of a mat over the frequency, for tests."""
+"""Tables of impedances of a mat over the frequency, and soil fitted to them, for tests."""
 import math
 import os
+import sys
 import tempfile
+from pathlib import Path
 
 import numpy
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "run"))
+from parts.soil import fit, impedances, soil_file  # noqa: E402
 
 MOTIONS = ("x", "y", "z", "rx", "ry", "rz")
 FREQUENCIES = numpy.arange(0.25, 20.01, 0.25)
@@ -21,6 +26,15 @@ def write_table(impedance, frequencies=FREQUENCIES):
         for f, value in zip(frequencies, values):
             numbers = [number for i, j in pairs for number in (value[i, j].real, value[i, j].imag)]
             file.write(",".join(f"{number:.17g}" for number in [f] + numbers) + "\n")
+    return path
+
+
+def write_soil(impedance, frequencies=FREQUENCIES):
+    """The file of the soil that run/soil fits to such a table, which is returned."""
+    path = write_table(impedance, frequencies)
+    table = impedances.read(Path(path))
+    soil, blocks, _ = fit.fit(table)
+    soil_file.write(Path(path), soil, table, blocks, "a table")
     return path
 
 

@@ -42,16 +42,12 @@ Progress begin(MPI_Comm comm, const Scene& scene, const Structure& structure, co
   return Progress(comm, structure.name + ": " + what, scene.progress_interval);
 }
 
-/// Shares the fit to the table of a structure's soil, which rank 0 has. Collective.
+/// Shares the content of the file of a structure's soil, which rank 0 has. Collective.
 void share_fit(MPI_Comm comm, Soil& soil) {
   if (soil.table.empty()) return;
   if (!soil.fitted) soil.fitted.emplace();
-  std::vector<double> numbers{soil.fitted->band[0], soil.fitted->band[1], soil.fitted->left_out};
-  broadcast_array(comm, numbers, 0);
-  soil.fitted->band = {numbers[0], numbers[1]};
-  soil.fitted->left_out = numbers[2];
   broadcast_array(comm, soil.fitted->parts, 0);
-  broadcast_array(comm, soil.fitted->blocks, 0);
+  broadcast_array(comm, soil.fitted->misfits, 0);
 }
 
 /// Shares the place of the mat of a structure on soil, which rank 0 has. Collective.

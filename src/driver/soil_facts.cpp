@@ -4,7 +4,7 @@
 
 #include "common/component_names.h"
 #include "driver/subject_facts.h"
-#include "scene/impedance_reader.h"
+#include "scene/soil_file.h"
 
 namespace pounding {
 namespace {
@@ -68,41 +68,34 @@ Facts half_space_facts(const Soil& soil, const Foundation& foundation) {
   return facts;
 }
 
-/// Springs, dashpots and masses fitted to the table of a mat's impedances.
+/// Springs, dashpots and masses of a file of soil.
 Facts fit_facts(const Soil& soil, const Region& region) {
-  const ImpedanceFit& fit = *soil.fitted;
+  const FittedSoil& fit = *soil.fitted;
+  const auto hidden = std::ranges::count_if(
+      fit.parts, [](const DirectedImpedance& part) { return part.impedance.inner_dashpot > 0; });
   Facts facts{{{"mat", soil.mat},
                {"table", soil.table},
                {"centre", region.foundation->centre},
-               {"band", fit.band},
-               {"left_out", fit.left_out},
+               {"hidden", hidden},
                {"stiffness", region.stiffness},
                {"dashpot", region.dashpot},
-               {"blocks", Json::array()},
+               {"misfits", Json::array()},
                {"parts", Json::array()}}};
   facts.say(
-      "  soil under {mat}: {table}, {band/0:.4g} to {band/1:.4g} Hz, its middle at {centre:.6g}\n"
-      "    passive springs, dashpots and masses fitted to it; terms over those of the diagonal\n");
-  for (const BlockFit& block : fit.blocks) {
-    Json values{{"motions", names_of_motions(block.motions)},
-                {"cells", block.cells},
-                {"largest_misfit", block.largest},
-                {"largest_misfit_at", block.largest_at},
-                {"mean_misfit", block.mean},
-                {"least_damping_of_table", block.table_damping},
-                {"least_damping", block.damping},
-                {"least_damping_at", block.damping_at},
-                {"margin", block.margin},
-                {"margin_at", block.margin_at}};
+      "  soil under {mat}: {table}, its middle at {centre:.6g}\n"
+      "    passive springs, dashpots and masses, {hidden} hidden parts\n");
+  for (const FitMisfit& misfit : fit.misfits) {
+    Json values{{"motions", names_of_motions(misfit.motions)},
+                {"largest", misfit.largest},
+                {"largest_at", misfit.largest_at},
+                {"mean", misfit.mean}};
     facts.text += told(
-        "    {motions}: {cells} internal parts, misfit {largest_misfit:.2g %} at most, at "
-        "{largest_misfit_at:.3g} Hz, {mean_misfit:.2g %} in the mean; least damping "
-        "{least_damping:.3g} at {least_damping_at:.3g} Hz, of the table "
-        "{least_damping_of_table:.3g}; at any frequency {margin:.2g} or more\n",
+        "    {motions}: misfit {largest:.2g %} at most, at {largest_at:.3g} Hz, {mean:.2g %} in "
+        "the "
+        "mean\n",
         values);
-    facts.values["blocks"].push_back(std::move(values));
+    facts.values["misfits"].push_back(std::move(values));
   }
-  facts.say("[    coupled by up to {left_out:.2g %} of the diagonals, and taken as not coupled\n]");
   for (std::size_t c = 0; c < region.stiffness.size(); ++c) {
     facts.say("    {:-4s} stiffness {:12.4e}, dashpot {:12.4e}\n",
               {motion_names[c], region.stiffness[c], region.dashpot[c]});

@@ -13,7 +13,7 @@
 #include "mesh/sliding_order.h"
 #include "mesh/soil_node.h"
 #include "mesh/start_states.h"
-#include "scene/impedance_reader.h"
+#include "scene/soil_file.h"
 #include "scene/soil_reader.h"
 #include "system/mass_scaling.h"
 
@@ -40,7 +40,7 @@ void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, MeshReader& rea
   Structure& structure = scene.structures[s];
   GlobalMesh& mesh = whole.meshes[s];
   const Progress progress(comm, structure.name + ": mesh", scene.progress_interval);
-  fit_soil(structure);
+  read_soil_file(structure);
   append(fit_doubts(structure), model.warnings);
   MeshRead read = reader.next();
   mesh = std::move(read.mesh);

@@ -7,12 +7,24 @@
 #include "common/types.h"
 #include "elements/element_properties.h"
 #include "soil/foundation.h"
-#include "soil/impedance_fit.h"
 
 namespace pounding {
 
-/// Soil under the rigid mat of a structure, as the user gives it: a half-space, or a table of
-/// impedances over the frequency.
+/// Misfit of the worst term of some coupled motions over its diagonals, as a file states it.
+struct FitMisfit {
+  std::array<bool, 6> motions{};
+  double largest = 0;     ///< over the frequencies [-]
+  double largest_at = 0;  ///< its frequency [Hz]
+  double mean = 0;        ///< over the frequencies [-]
+};
+
+/// Springs, dashpots and masses of a file of soil.
+struct FittedSoil {
+  std::vector<DirectedImpedance> parts;  ///< they act side by side
+  std::vector<FitMisfit> misfits;
+};
+
+/// Soil under the rigid mat of a structure, as the user gives it: a half-space, or a file.
 struct Soil {
   std::string mat;  ///< physical group of its nodes
   HalfSpace ground;
@@ -20,8 +32,8 @@ struct Soil {
   std::optional<std::array<double, 2>> sides;  ///< full, along x and y [m]; empty: the group's own
   double embedment = 0;                        ///< [m]
   bool frequency_dependence = true;
-  std::string table;                   ///< file; empty: a half-space
-  std::optional<ImpedanceFit> fitted;  ///< to the table, once it is read; see fit_soil
+  std::string table;                 ///< file; empty: a half-space
+  std::optional<FittedSoil> fitted;  ///< once the file is read; see read_soil_file
 };
 
 /// Place of a mat in its mesh.

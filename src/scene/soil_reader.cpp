@@ -53,7 +53,7 @@ std::optional<Soil> read_soil(OptionReader& options, const Structure& structure)
       }
       options.forbid(row.pattern, names,
                      "is of a half-space, and -" + option_name(table, names) +
-                         " gives impedances in its place; leave one of them out");
+                         " gives soil in its place; leave one of them out");
     }
     return soil;
   }

@@ -13,7 +13,7 @@ import numpy as np
 
 import program
 import two_buildings  # noqa: F401  (puts python on the path)
-from soil_tables import coupled, write_table
+from soil_tables import coupled, write_soil
 
 import pounding
 
@@ -285,7 +285,7 @@ class Kinds(unittest.TestCase):
 
     def test_soil_from_a_table(self):
         self.check("-left_clamp", "none", "-left_rigid", "base", "-left_soil_mat", "base", "-left_soil_table",
-                   write_table(coupled))
+                   write_soil(coupled))
 
     def test_filled_joints(self):
         words = [word for floor in ("floor1", "floor2") for word in (

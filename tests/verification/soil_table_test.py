@@ -1,5 +1,5 @@
-"""Soil from a table of impedances over the frequency: the program's own half-space given back as a table, coupled soil
-of springs, dashpots and masses against the solution over the frequency, rest, modes, matrices, restart.
+"""Soil fitted by run/soil to a table of impedances over the frequency: the program's own half-space given back as a table,
+coupled soil of springs, dashpots and masses against the solution over the frequency, rest, modes, matrices, restart.
 
 As in soil_test.py, a body is shaken by one short pulse until it rests; sums over all steps obey the scheme with
 4 sin^2(omega h / 2) / h^2 in the place of omega^2, and nothing is lost by windows.
@@ -14,7 +14,7 @@ import scipy.io
 import program
 from decks import clock, in_modes, probes
 from recorded import Recorded, assert_continues, write_samples
-from soil_tables import cell, coupled, write_table
+from soil_tables import cell, coupled, write_soil
 
 MASS, INERTIA = 2e6, 1e8
 STEP, END = 1e-3, 12.0
@@ -66,7 +66,7 @@ class OwnHalfSpace(unittest.TestCase):
         words = on_arm(*shaken(), "-end_time", 4, "-spectra_frequencies", "1:40:30log", *damping)
         formula = Recorded(self, words + self.SOIL + list(more), 2)
         soil = formula.summary["structures"]["block"]["soil"]
-        table = write_table(of_summary(soil))
+        table = write_soil(of_summary(soil))
         for ranks in (1, 2):
             fitted = Recorded(self, words + ["-block_soil_table", table], ranks)
             for axis in "xyz":
@@ -76,10 +76,8 @@ class OwnHalfSpace(unittest.TestCase):
                 _, other = fitted.spectrum("it", axis)
                 self.assertLess(abs(other / spectrum - 1).max(), 1e-3, axis)
         found = fitted.summary["structures"]["block"]["soil"]
-        for block in found["blocks"]:
-            self.assertLess(block["largest_misfit"], 1e-3)
-            self.assertGreaterEqual(block["margin"], 0)
-            self.assertGreater(block["least_damping"], 0)
+        self.assertEqual([misfit["motions"] for misfit in found["misfits"]], ["x", "y", "z", "rx", "ry", "rz"])
+        self.assertLess(max(misfit["largest"] for misfit in found["misfits"]), 1e-3)
         for stiffness, expected in zip(found["stiffness"], soil["stiffness"]):
             self.assertAlmostEqual(stiffness / expected, 1, delta=2e-3)
 
@@ -99,7 +97,7 @@ class OwnHalfSpace(unittest.TestCase):
 class Coupled(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.table = write_table(coupled)
+        cls.table = write_soil(coupled)
         cls.words = ["-block_soil_table", cls.table]
 
     def sums(self, run, values):
@@ -122,7 +120,7 @@ class Coupled(unittest.TestCase):
 
     def test_coupling_is_in_the_answer(self):
         """Without the terms between the motions the body would move otherwise, by twenty times the tolerance."""
-        plain = write_table(lambda omega: numpy.diag(numpy.diag(coupled(omega))))
+        plain = write_soil(lambda omega: numpy.diag(numpy.diag(coupled(omega))))
         run = Recorded(self, alone(*self.words, *shaken()), 2)
         other = Recorded(self, alone("-block_soil_table", plain, *shaken()), 2)
         u, v = run.displacement("it.x"), other.displacement("it.x")
@@ -131,12 +129,10 @@ class Coupled(unittest.TestCase):
     def test_report(self):
         _, summary = program.must_run(self, alone(*self.words, "-end_time", STEP), 2)
         soil = summary["structures"]["block"]["soil"]
-        self.assertEqual([block["motions"] for block in soil["blocks"]], ["x, ry", "y, rx", "z", "rz"])
-        self.assertEqual(soil["band"], [0.25, 20])
-        for block in soil["blocks"]:
-            self.assertLess(block["largest_misfit"], 2e-3)
-            self.assertLess(block["mean_misfit"], block["largest_misfit"] + 1e-12)
-            self.assertGreater(block["margin"], 0)
+        self.assertEqual([misfit["motions"] for misfit in soil["misfits"]], ["x, ry", "y, rx", "z", "rz"])
+        for misfit in soil["misfits"]:
+            self.assertLess(misfit["largest"], 2e-3)
+            self.assertLess(misfit["mean"], misfit["largest"] + 1e-12)
         for omega in (0, *TESTED):
             sum_of_parts = sum(cell(omega, *(part[key] for key in (
                 "stiffness", "dashpot", "inner_dashpot", "inner_mass", "moving_mass", "inner_stiffness")))
@@ -158,6 +154,13 @@ class Coupled(unittest.TestCase):
             program.must_run(self, alone(*self.words, "-end_time", STEP, "-export_matrices", place), 2)
             found = scipy.io.mmread(f"{place}/block/stiffness.mtx").toarray()
             damping = scipy.io.mmread(f"{place}/block/damping.mtx").toarray()
+        with open(self.table) as file:
+            lines = file.read().splitlines()
+        for name, matrix in (("stiffness", found), ("dashpots", damping)):
+            at = lines.index(name) + 1
+            given = numpy.array([[float(word) for word in line.split(",")] for line in lines[at:at + 6]])
+            size = numpy.sqrt(numpy.diag(given))
+            self.assertLess((abs(matrix - given) / numpy.outer(size, size)).max(), 1e-12)
         exact = coupled(0).real
         size = numpy.sqrt(numpy.diag(exact))
         self.assertLess((abs(found - exact) / numpy.outer(size, size)).max(), 2e-3)

@@ -1,0 +1,325 @@
+#include "scene/soil_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+#include "common/component_names.h"
+#include "common/dense_matrix.h"
+#include "common/error.h"
+#include "common/finite_file.h"
+#include "scene/option_values.h"
+
+namespace pounding {
+namespace {
+
+constexpr double wide_miss = 0.1;     ///< misfit to doubt
+constexpr double round_off = 1e-9;    ///< of a term over the root of its diagonals' product
+constexpr double last_pivot = 1e-13;  ///< over the diagonal, from which on nothing is left
+constexpr double largest_value = 1e30;
+constexpr std::uintmax_t most_bytes = 10'000'000;
+constexpr const char* first_word = "pounding soil";
+
+using Directed = DirectedImpedance;
+
+/// Turns a part into an equal one against a motion whose largest component is 1.
+void make_unit(Directed& part) {
+  const double largest =
+      *std::ranges::max_element(part.motion, {}, [](double value) { return std::abs(value); });
+  for (double& value : part.motion) value /= largest;
+  Impedance& of = part.impedance;
+  for (double* value : {&of.stiffness, &of.dashpot, &of.inner_dashpot, &of.inner_mass, &of.mass,
+                        &of.inner_stiffness}) {
+    *value *= largest * largest;
+  }
+}
+
+/// Adds a part, as one with an earlier one of the same motion where they are not both in series.
+void add_part(Directed part, std::vector<Directed>& parts) {
+  make_unit(part);
+  Impedance& from = part.impedance;
+  const auto same = std::ranges::find_if(parts, [&](const Directed& other) {
+    return other.motion == part.motion &&
+           (other.impedance.inner_dashpot == 0 || from.inner_dashpot == 0);
+  });
+  if (same == parts.end()) {
+    parts.push_back(part);
+    return;
+  }
+  Impedance& to = same->impedance;
+  for (double Impedance::*value :
+       {&Impedance::stiffness, &Impedance::dashpot, &Impedance::inner_dashpot,
+        &Impedance::inner_mass, &Impedance::mass, &Impedance::inner_stiffness}) {
+    to.*value += from.*value;
+  }
+}
+
+/// Adds the parts of a matrix without negative eigenvalues: it is the sum of d b b^T over its
+/// pivots d, the largest first, each over its diagonal.
+void add_parts(DenseMatrix matrix, double Impedance::*value, std::vector<Directed>& parts) {
+  std::array<double, 6> diagonal{};
+  for (std::size_t i = 0; i < 6; ++i) diagonal[i] = matrix.column(i)[i];
+  for (std::size_t turn = 0; turn < 6; ++turn) {
+    std::size_t pivot = 0;
+    double most = last_pivot;
+    for (std::size_t i = 0; i < 6; ++i) {
+      const double share = diagonal[i] > 0 ? matrix.column(i)[i] / diagonal[i] : 0;
+      if (share > most) {
+        most = share;
+        pivot = i;
+      }
+    }
+    if (most == last_pivot) return;
+    Directed part;
+    const double strength = matrix.column(pivot)[pivot];
+    for (std::size_t i = 0; i < 6; ++i) part.motion[i] = matrix.column(pivot)[i] / strength;
+    part.impedance.*value = strength;
+    for (std::size_t j = 0; j < 6; ++j) {
+      for (std::size_t i = 0; i < 6; ++i) {
+        matrix.column(j)[i] -= strength * part.motion[i] * part.motion[j];
+      }
+    }
+    for (std::size_t i = 0; i < 6; ++i) matrix.column(i)[pivot] = matrix.column(pivot)[i] = 0;
+    add_part(part, parts);
+  }
+}
+
+class Reader {
+ public:
+  explicit Reader(const Structure& structure)
+      : option_("option -" + structure.name + "_soil_table " + structure.soil->table),
+        path_(structure.soil->table) {}
+
+  FittedSoil read() {
+    read_rows();
+    read_head();
+    FittedSoil soil;
+    while (words().front() == "misfit") soil.misfits.push_back(read_misfit());
+    add_parts(read_matrix("stiffness", round_off), &Impedance::stiffness, soil.parts);
+    add_parts(read_matrix("dashpots", -round_off), &Impedance::dashpot, soil.parts);
+    add_parts(read_matrix("masses", -round_off), &Impedance::mass, soil.parts);
+    expect("hidden");
+    while (next_ < rows_.size()) add_part(read_hidden(), soil.parts);
+    return soil;
+  }
+
+ private:
+  struct Row {
+    long line = 0;
+    std::vector<std::string> words;
+  };
+
+  [[noreturn]] void refuse(long line, const std::string& why) const {
+    throw UserError(option_ + (line > 0 ? ", line " + std::to_string(line) : "") + ": " + why);
+  }
+
+  void read_rows() {
+    require_finite_file(path_, option_ + ": ", most_bytes);
+    std::ifstream file(path_);
+    if (!file) refuse(0, "no such file, or it cannot be read");
+    std::string text;
+    for (long line = 1; std::getline(file, text); ++line) {
+      if (line == 1 && text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+      text = trimmed(text.substr(0, text.find('#')));
+      if (!text.empty()) rows_.push_back({line, split(text, ',')});
+    }
+    if (rows_.empty()) refuse(0, "nothing in it");
+  }
+
+  void read_head() {
+    const Row& head = rows_.front();
+    if (std::ranges::find(head.words, "frequency") != head.words.end()) {
+      refuse(head.line, "a table of impedances, which is fitted first: run/soil " + path_ +
+                            " OUT writes the file for this option");
+    }
+    if (head.words.front() != first_word) {
+      refuse(head.line, "'" + head.words.front() + "' where '" + first_word +
+                            ",1' belongs; run/soil writes such files");
+    }
+    if (head.words != std::vector<std::string>{first_word, "1"}) {
+      refuse(head.line,
+             "another version of the file than 1, which is read here; write it anew by "
+             "run/soil");
+    }
+    ++next_;
+    const std::vector<std::string>& mats = words();
+    if (mats.front() != "mats" || mats.size() != 2) {
+      refuse(line(), "'" + mats.front() + "' where 'mats,1' belongs");
+    }
+    if (mats[1] != "1") {
+      refuse(line(), "soil of " + mats[1] + " mats, and a structure has one here");
+    }
+    ++next_;
+  }
+
+  /// Line and words that are next.
+  long line() const { return next_ < rows_.size() ? rows_[next_].line : rows_.back().line + 1; }
+  const std::vector<std::string>& words() const {
+    if (next_ >= rows_.size()) refuse(line(), "the file ends where more of it belongs");
+    return rows_[next_].words;
+  }
+
+  void expect(const std::string& section) {
+    if (words() != std::vector{section}) {
+      refuse(line(), "'" + words().front() + "' where '" + section + "' belongs");
+    }
+    ++next_;
+  }
+
+  double number(const std::string& word) const {
+    const auto value = parse_real(word);
+    if (!value || std::abs(*value) > largest_value) {
+      refuse(line(), "'" + word + "' is no number of use");
+    }
+    return *value;
+  }
+
+  std::vector<double> numbers(std::size_t count) const {
+    if (words().size() != count) {
+      refuse(line(),
+             std::to_string(words().size()) + " values where " + std::to_string(count) + " belong");
+    }
+    std::vector<double> values;
+    for (const std::string& word : words()) values.push_back(number(word));
+    return values;
+  }
+
+  FitMisfit read_misfit() {
+    const std::vector<std::string>& row = words();
+    if (row.size() != 5) refuse(line(), "a misfit has motions, the most, its frequency, the mean");
+    FitMisfit misfit;
+    for (const std::string& name : split(row[1], ' ')) {
+      const auto at = std::ranges::find(motion_names, name);
+      if (at == motion_names.end()) refuse(line(), "'" + name + "' is none of x, y, z, rx, ry, rz");
+      misfit.motions[static_cast<std::size_t>(at - motion_names.begin())] = true;
+    }
+    misfit.largest = number(row[2]);
+    misfit.largest_at = number(row[3]);
+    misfit.mean = number(row[4]);
+    ++next_;
+    return misfit;
+  }
+
+  /// A symmetric matrix none of whose eigenvalues is below `least`.
+  DenseMatrix read_matrix(const std::string& section, double least) {
+    const long head = line();
+    expect(section);
+    DenseMatrix matrix(6, 6);
+    for (std::size_t i = 0; i < 6; ++i) {
+      const std::vector<double> row = numbers(6);
+      for (std::size_t j = 0; j < 6; ++j) matrix.column(j)[i] = row[j];
+      if (row[i] < 0) refuse_energy(section, i, i, row[i]);
+      for (std::size_t j = 0; j < i; ++j) make_symmetric(section, i, j, matrix);
+      ++next_;
+    }
+    DenseMatrix scaled = matrix;
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t j = 0; j < 6; ++j) scaled.column(j)[i] /= size(matrix, i, j);
+    }
+    const double found = symmetric_eigenvalues(scaled).front();
+    if (found >= least) return matrix;
+    const std::string value = text_of(found);
+    if (found >= -round_off) {
+      refuse(head,
+             "the soil has no stiffness against some motion: the least eigenvalue of the "
+             "stiffness over its diagonals is " +
+                 value);
+    }
+    refuse(head, "the soil would give energy: the least eigenvalue of the " + section +
+                     " over the diagonals is " + value);
+  }
+
+  static std::string text_of(double value) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
+  }
+
+  /// Root of the product of two diagonals, 1 where it is 0.
+  static double size(const DenseMatrix& matrix, std::size_t i, std::size_t j) {
+    const double root = std::sqrt(matrix.column(i)[i]) * std::sqrt(matrix.column(j)[j]);
+    return root > 0 ? root : 1;
+  }
+
+  static std::string place(std::size_t i, std::size_t j) {
+    return std::string(motion_names[i]) + " " + std::string(motion_names[j]);
+  }
+
+  [[noreturn]] void refuse_energy(const std::string& section, std::size_t i, std::size_t j,
+                                  double value) const {
+    refuse(line(), "the soil would give energy: " + text_of(value) + " at " + place(i, j) +
+                       " of the " + section);
+  }
+
+  void make_symmetric(const std::string& section, std::size_t i, std::size_t j,
+                      DenseMatrix& matrix) const {
+    double& below = matrix.column(j)[i];
+    double& above = matrix.column(i)[j];
+    const bool has_both = matrix.column(i)[i] > 0 && matrix.column(j)[j] > 0;
+    if (!has_both && (below != 0 || above != 0)) {
+      refuse_energy(section, i, j, below != 0 ? below : above);
+    }
+    if (std::abs(below - above) > round_off * size(matrix, i, j)) {
+      refuse(line(), "not symmetric: " + text_of(below) + " at " + place(i, j) + " of the " +
+                         section + ", " + text_of(above) + " at " + place(j, i));
+    }
+    below = above = (below + above) / 2;
+  }
+
+  Directed read_hidden() {
+    const std::vector<double> row = numbers(9);
+    Directed part;
+    std::copy_n(row.begin(), 6, part.motion.begin());
+    if (part.motion == std::array<double, 6>{}) refuse(line(), "a hidden part against no motion");
+    constexpr std::array names{"dashpot", "spring", "mass"};
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (row[6 + k] >= 0 && (k > 0 || row[6] > 0)) continue;
+      refuse(line(), std::string("the soil would give energy, or none would pass: a hidden ") +
+                         names[k] + " of " + text_of(row[6 + k]));
+    }
+    part.impedance.inner_dashpot = row[6];
+    part.impedance.inner_stiffness = row[7];
+    part.impedance.inner_mass = row[8];
+    ++next_;
+    return part;
+  }
+
+  std::string option_;
+  std::string path_;
+  std::vector<Row> rows_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+void read_soil_file(Structure& structure) {
+  if (!structure.soil || structure.soil->table.empty()) return;
+  structure.soil->fitted = Reader(structure).read();
+}
+
+std::vector<std::string> fit_doubts(const Structure& structure) {
+  std::vector<std::string> doubts;
+  if (!structure.soil || !structure.soil->fitted) return doubts;
+  for (const FitMisfit& misfit : structure.soil->fitted->misfits) {
+    if (misfit.largest <= wide_miss) continue;
+    char numbers[120];
+    std::snprintf(numbers, sizeof numbers, "by up to %.3g %%, at %.4g Hz", 100 * misfit.largest,
+                  misfit.largest_at);
+    doubts.push_back("structure " + structure.name + ": springs, dashpots and masses of " +
+                     structure.soil->table + " miss the table that they are fitted to along " +
+                     names_of_motions(misfit.motions) + " " + numbers +
+                     "; passive soil may not be able to move so");
+  }
+  return doubts;
+}
+
+std::string names_of_motions(const std::array<bool, 6>& motions) {
+  std::string names;
+  for (std::size_t c = 0; c < motions.size(); ++c) {
+    if (motions[c]) names += (names.empty() ? "" : ", ") + std::string(motion_names[c]);
+  }
+  return names;
+}
+
+}  // namespace pounding
