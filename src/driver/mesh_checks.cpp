@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numbers>
 #include <set>
 #include <sstream>
 
+#include "common/disjoint_sets.h"
 #include "common/error.h"
+#include "common/matrix3.h"
 #include "common/place_text.h"
+#include "driver/facts.h"
 #include "mesh/bounding_box.h"
 
 namespace pounding {
@@ -23,6 +28,20 @@ constexpr double outside = 0.05;
 
 /// Joins are beams and slabs that lie on each other.
 constexpr double longest_join = 1;  // m
+
+/// Flexibility of a cantilever by shear, which some beams leave out, over that by bending.
+constexpr double doubted_shear = 0.05;
+
+/// Part of a section that bears shear: that of a rectangle, more than webs and tubes have.
+constexpr double shear_part = 5.0 / 6;
+
+/// Share of shear in a cantilever in its first mode over that in a member held at both ends:
+/// frequencies of the former by bending and by shear alone are 3.516 (E I / m)^1/2 / L2 and
+/// pi / 2 (kappa G A / m)^1/2 / L.
+constexpr double cantilever_part = 3.516 * 3.516 / (std::numbers::pi * std::numbers::pi / 4) / 12;
+
+/// Beams are in one line whose directions turn by less than about 2.5 degrees.
+constexpr double in_line = 0.999;
 
 std::string found_at(const Places& places, const char* what) {
   return std::to_string(places.count) + what + place_text(places.first);
@@ -234,6 +253,71 @@ void doubt_turning_points(const Scene& scene, const Structure& structure, const 
   }
 }
 
+/// Lengths of the straight lines of beams of any region, through all joints, that the beams of a
+/// mesh lie in [m]; set by set.
+std::vector<double> line_lengths(const GlobalMesh& mesh) {
+  struct End {
+    std::size_t beam;
+    Vector3 towards;
+  };
+  std::map<GlobalIndex, std::vector<End>> ends;
+  std::vector<double> lengths;
+  for (const ElementSet& set : mesh.regions) {
+    for (std::size_t e = 0; is_beam(set.type) && e < set.tags.size(); ++e) {
+      const GlobalIndex first = set.connectivity[2 * e];
+      const GlobalIndex second = set.connectivity[2 * e + 1];
+      const Vector3 along = minus(mesh.position(second), mesh.position(first));
+      const Vector3 back = minus(mesh.position(first), mesh.position(second));
+      ends[first].push_back({lengths.size(), normalised(along)});
+      ends[second].push_back({lengths.size(), normalised(back)});
+      lengths.push_back(norm(along));
+    }
+  }
+  DisjointSets lines(lengths.size());
+  for (const auto& [node, at] : ends) {
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (dot(at[i].towards, at[j].towards) < -in_line) lines.join(at[i].beam, at[j].beam);
+      }
+    }
+  }
+  std::vector<double> whole(lengths.size());
+  for (std::size_t b = 0; b < lengths.size(); ++b) whole[lines.root(b)] += lengths[b];
+  for (std::size_t b = 0; b < lengths.size(); ++b) lengths[b] = whole[lines.root(b)];
+  return lengths;
+}
+
+/// Doubt about regions of beams without flexibility in shear whose longest line is thick.
+void doubt_slenderness(const Structure& structure, const GlobalMesh& mesh,
+                       std::vector<std::string>& warnings) {
+  const std::vector<double> lengths = line_lengths(mesh);
+  std::map<int, double> longest;  // of each region
+  std::size_t b = 0;
+  for (const ElementSet& set : mesh.regions) {
+    for (std::size_t e = 0; is_beam(set.type) && e < set.tags.size(); ++e) {
+      longest[set.region] = std::max(longest[set.region], lengths[b++]);
+    }
+  }
+  for (const auto& [r, length] : longest) {
+    const Region& region = structure.regions[static_cast<std::size_t>(r)];
+    if (is_flexible_in_shear(region)) continue;
+    const Section& section = *region.section;
+    const double slenderness =
+        length / std::sqrt(std::max(section.inertia_y, section.inertia_z) / section.area);
+    // 12 E I / (kappa G A L2)
+    const double held = 24 * (1 + region.material.poisson) / shear_part / std::pow(slenderness, 2);
+    if (cantilever_part * held < doubted_shear) continue;
+    warnings.push_back(sentence(
+        "structure {}, group {}: slenderness {:.3g}, its beams being {:.4g} m long in one "
+        "line: shear, which they leave out, would make that {:.3g} % more flexible held "
+        "at both ends, {:.3g} % as a cantilever; {}",
+        {structure.name, region.group, slenderness, length, 100 * held,
+         100 * cantilever_part * held,
+         region.element == ElementType::beam ? "give section " + section.name + " a shear_area"
+                                             : "let its element be beam, with shear areas"}));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> mesh_warnings(const Scene& scene, const Structure& structure,
@@ -248,6 +332,7 @@ std::vector<std::string> mesh_warnings(const Scene& scene, const Structure& stru
   doubt_long_joins(structure, mesh, warnings);
   const BoundingBox box = bounding_box({&mesh, 1});
   doubt_turning_points(scene, structure, box, warnings);
+  if (structure.matrices.empty()) doubt_slenderness(structure, mesh, warnings);
   warnings.insert(warnings.end(), mesh.doubts.begin(), mesh.doubts.end());
   const double longest = box.longest_side();
   if (longest > longest_structure) {

@@ -27,8 +27,8 @@ std::vector<UnusedElements> check_unused(const Scene& scene, const Structure& st
 void check_connectivity(const Scene& scene, const Structure& structure,
                         const Connectivity& connectivity);
 
-/// Doubts about a mesh: nodes that coincide within one piece, the size of a whole, and the point
-/// about which its embedded foundation turns.
+/// Doubts about a mesh: nodes that coincide within one piece, the size of a whole, the point about
+/// which its embedded foundation turns, and thick beams that leave shear out.
 std::vector<std::string> mesh_warnings(const Scene& scene, const Structure& structure,
                                        const GlobalMesh& mesh, const Connectivity& connectivity);
 

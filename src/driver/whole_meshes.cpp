@@ -6,7 +6,6 @@
 #include "driver/applied_loads.h"
 #include "driver/mesh_checks.h"
 #include "driver/model_doubts.h"
-#include "driver/shear_doubts.h"
 #include "driver/warnings.h"
 #include "interactions/pairing/absorbing_faces.h"
 #include "mesh/find_supported_nodes.h"
@@ -30,7 +29,6 @@ void check_mesh(const Scene& scene, std::size_t s, const GlobalMesh& mesh, Model
   check_export(scene, structure, mesh);
   if (structure.matrices.empty()) check_connectivity(scene, structure, findings.connectivity);
   append(mesh_warnings(scene, structure, mesh, findings.connectivity), model.warnings);
-  append(shear_doubts(structure, mesh), model.warnings);
 }
 
 }  // namespace
