@@ -14,11 +14,11 @@ namespace pounding {
 namespace {
 
 /// Meshes that Gmsh reads by the ending of their names.
-constexpr auto meshes = std::to_array<std::string_view>({".msh", ".unv", ".mesh", ".bdf", ".nas"});
+constexpr auto meshes = std::to_array<std::string_view>({".msh", ".mesh", ".bdf", ".nas"});
 
 /// Models of other programs that run/import makes scenes of, by the ending of their names.
 constexpr auto models = std::to_array<std::string_view>(
-    {".inp", ".med", ".rmed", ".mmed", ".cdb", ".dat", ".k", ".key", ".dyn"});
+    {".inp", ".unv", ".med", ".rmed", ".mmed", ".cdb", ".dat", ".k", ".key", ".dyn"});
 
 /// Shapes that a geometry may merge, by the ending of their names.
 constexpr auto shapes =
@@ -87,12 +87,13 @@ void check_mesh_file(const std::string& option, const std::filesystem::path& fil
   }
   const std::string ending = file.extension().string();
   if (contains(models, ending)) {
-    throw UserError("option " + option + ": Gmsh does not read files with the ending '" + ending +
-                    "'; run/import makes a scene and a .msh of it (docs/import.md)");
+    throw UserError(
+        "option " + option + ": files with the ending '" + ending +
+        "' are not meshes of Gmsh; run/import makes a scene and a .msh of it (docs/import.md)");
   }
   if (!is_geometry(file) && !contains(meshes, ending)) {
     throw UserError("option " + option + ": files with the ending '" + ending +
-                    "' are not read; give a Gmsh .geo or .msh file (or .unv, .mesh, .bdf, .nas)");
+                    "' are not read; give a Gmsh .geo or .msh file (or .mesh, .bdf, .nas)");
   }
   if (ending == ".msh") check_header(option, file);
   if (is_geometry(file)) check_line_end(option, file);

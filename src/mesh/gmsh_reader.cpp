@@ -23,7 +23,6 @@
 #include "mesh/soil_node.h"
 #include "mesh/tied_nodes.h"
 #include "mesh/unused_elements.h"
-#include "mesh/unv_file.h"
 #include "scene/spread_words.h"
 
 namespace pounding {
@@ -44,11 +43,7 @@ void check_parameters(const Structure& structure, const RawMesh& raw) {
   }
 }
 
-bool is_unv(const Structure& structure) {
-  return std::filesystem::path(structure.mesh).extension() == ".unv";
-}
-
-/// Gmsh on its way to the mesh of a structure; nothing for one that is read without it.
+/// Gmsh on its way to the mesh of a structure.
 std::unique_ptr<GmshRun> begin_raw_mesh(const Structure& structure, double time_limit) {
   MeshRequest request;
   request.option = mesh_option(structure);
@@ -61,16 +56,11 @@ std::unique_ptr<GmshRun> begin_raw_mesh(const Structure& structure, double time_
     throw UserError("option -" + structure.name + "_mesh_set: " + structure.mesh +
                     " is a mesh, parameters apply to .geo files only");
   }
-  if (is_unv(structure)) return nullptr;
   return std::make_unique<GmshRun>(std::move(request));
 }
 
-RawAnswer finish_raw_mesh(const Structure& structure, GmshRun* run) {
-  if (run == nullptr) {
-    const std::string file = std::filesystem::absolute(structure.mesh).string();
-    return {read_unv(mesh_option(structure), file), "", "", true};
-  }
-  RawAnswer answer = run->answer();
+RawAnswer finish_raw_mesh(const Structure& structure, GmshRun& run) {
+  RawAnswer answer = run.answer();
   check_opened_files(mesh_option(structure), answer.mesh.files);
   check_parameters(structure, answer.mesh);
   return answer;
@@ -440,7 +430,7 @@ class MeshReader::Reading {
 
   MeshRead finish() {
     if (failure_) std::rethrow_exception(failure_);
-    RawAnswer answer = finish_raw_mesh(structure_, run_.get());
+    RawAnswer answer = finish_raw_mesh(structure_, *run_);
     merge_shared_elements(answer.mesh);
     const std::vector<std::string> doubts = doubts_of(structure_, answer);
     const std::vector<DividedLines> divided = divide_beams(structure_, answer.mesh);

@@ -181,8 +181,8 @@ class Groups(MeshCase):
              *(f"{e + 1} {kind} 2 {group} {entity} " + " ".join(map(str, nodes))
                for e, (kind, group, entity, nodes) in enumerate(elements)), "$EndElements", ""]), ".msh")
 
-    def test_formats_that_gmsh_does_not_read_say_how_to_convert(self):
-        for ending in (".inp", ".med", ".cdb", ".k"):
+    def test_formats_that_run_import_reads_say_so(self):
+        for ending in (".inp", ".unv", ".med", ".cdb", ".k"):
             mesh = self.with_file("*NODE\n1, 0, 0, 0\n", ending)
             self.refuse(self.cube(mesh, "body", "base"), "-t_mesh", f"'{ending}'", "run/import", "docs/import.md")
 
@@ -226,38 +226,6 @@ class Groups(MeshCase):
         self.hold(self.cube(self.with_file(
             f"MeshVersionFormatted 2\nDimension 3\nVertices\n8\n{vertices}Quadrilaterals\n1\n1 4 3 2 12\n"
             "Hexahedra\n1\n1 2 3 4 5 6 7 8 11\nEnd\n", ".mesh"), "11", "12"))
-
-    def unv(self, groups):
-        def line(*values):
-            return "".join(f"{value:10d}" for value in values) + "\n"
-
-        nodes = "".join(line(n + 1, 1, 1, 11) + "".join(f"{x:25.16E}" for x in place).replace("E", "D") + "\n"
-                        for n, place in enumerate(CUBE))
-        elements = (line(1, 115, 3, 1, 7, 8) + line(*range(1, 9)) + line(2, 44, 4, 1, 7, 4) + line(1, 4, 3, 2))
-        named = "".join(line(g + 1, 0, 0, 0, 0, 0, 0, len(members)) + name + "\n"
-                        + "".join(line(kind, tag, 0, 0) for kind, tag in members)
-                        for g, (name, members) in enumerate(groups))
-        return self.with_file("".join(f"    -1\n{number:6d}\n{text}    -1\n" for number, text in
-                                      ((2411, nodes), (2412, elements), (2467, named)) if text), ".unv")
-
-    def test_universal_file_by_its_groups(self):
-        self.hold(self.cube(self.unv([("body", [(8, 1)]), ("base", [(8, 2)])]), "body", "base"))
-        feet = [(7, n) for n in range(1, 5)]
-        self.hold(self.cube(self.unv([("body", [(8, 1)]), ("feet", feet), ("skin", [(8, 2)])]), "body", "feet"))
-        self.hold(self.cube(self.unv([]), "3", "4"))
-        self.refuse(self.cube(self.unv([("body", [(8, 1)])]), "body", "base"), "group 'base'", "which has: body")
-
-    def test_universal_file_of_gmsh(self):
-        """Its own reader does not survive it."""
-        model = self.with_file('SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 1, 1, 1};\n'
-                               "Transfinite Curve {:} = 2; Transfinite Surface {:}; Recombine Surface {:}; Transfinite Volume {:};\n"
-                               'Physical Volume("body", 3) = {1}; Physical Surface("base", 4) = {5};\n', ".geo")
-        mesh = model[:-4] + ".unv"
-        script = ("import sys, ctypes\ng = ctypes.CDLL('libgmsh.so')\ne = ctypes.c_int()\ng.gmshInitialize(0, None, 0, ctypes.byref(e))\n"
-                  "g.gmshOpen(sys.argv[1].encode(), ctypes.byref(e))\ng.gmshModelMeshGenerate(3, ctypes.byref(e))\n"
-                  "g.gmshWrite(sys.argv[2].encode(), ctypes.byref(e))\nsys.exit(e.value)\n")
-        subprocess.run([sys.executable, "-c", script, model, mesh], check=True, capture_output=True)
-        self.hold(self.cube(mesh, "body", "base"))
 
 
 class Gmsh(MeshCase):

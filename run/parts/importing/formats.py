@@ -7,7 +7,7 @@ from .model import InputFault, Model
 
 # Name -> module, endings.
 FORMATS = {"abaqus": ("abaqus", (".inp",)), "nastran": ("nastran", (".bdf", ".nas", ".dat")),
-           "ansys": ("ansys", (".cdb",)), "med": ("med", (".med", ".rmed", ".mmed")),
+           "ansys": ("ansys", (".cdb",)), "med": ("med", (".med", ".rmed", ".mmed")), "unv": ("unv", (".unv",)),
            "dyna": ("dyna", (".k", ".key", ".dyn")), "sap2000": ("sap2000", (".s2k", ".$2k"))}
 
 

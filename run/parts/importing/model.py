@@ -156,7 +156,7 @@ class Model:
     ties: list = field(default_factory=list)  # (name of a set that follows, name of a set of facets)
     alpha: float = 0.0
     beta: float = 0.0
-    has_properties: bool = True  # MED holds meshes and groups alone
+    has_properties: bool = True  # .med and .unv hold meshes and groups alone
     cards: Cards = field(default_factory=Cards)
     said: list = field(default_factory=list)  # remarks for the user
 
