@@ -91,14 +91,8 @@ void share_meshes(MPI_Comm comm, Scene& scene, Profile& profile,
   const ScopedTimer timer(profile, Phase::partition);
   const Progress progress(comm, "partition", scene.progress_interval);
   Partition partition;
-  on_rank0(comm, [&] {
-    partition = cut_meshes(scene, whole.meshes, model.interface, size_of(comm));
-    if (scene.predict_ranks > 0) {
-      const Partition then = cut_meshes(scene, whole.meshes, model.interface, scene.predict_ranks);
-      model.foreseen = {loads_of_ranks(scene, whole.meshes, model.interface, partition),
-                        loads_of_ranks(scene, whole.meshes, model.interface, then)};
-    }
-  });
+  on_rank0(comm,
+           [&] { partition = cut_meshes(scene, whole.meshes, model.interface, size_of(comm)); });
   model.partition_imbalance = partition.imbalance;
   model.partition_edge_cut = partition.edge_cut;
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {

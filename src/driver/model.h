@@ -11,7 +11,6 @@
 
 #include "common/profile.h"
 #include "driver/building.h"
-#include "driver/rank_loads.h"
 #include "driver/separation_rules.h"
 #include "driver/step_limits.h"
 #include "interactions/pairing/interface.h"
@@ -57,7 +56,6 @@ struct Model {
   std::vector<JointGaps> joint_gaps;  ///< per contact
   double partition_imbalance = 1;
   long partition_edge_cut = 0;
-  std::optional<ForeseenLoads> foreseen;  ///< with -predict_ranks; on rank 0
   double filler_time_step = std::numeric_limits<double>::infinity();  ///< see filler_limit [s]
   double time_step = 0;                                               ///< in force [s]
   std::int64_t steps = 0;                                             ///< until the end time

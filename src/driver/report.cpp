@@ -131,7 +131,6 @@ void write_summary(const std::string& path, const FinishedRun& run) {
   facts.add("partition", partition_facts(model));
   facts.add("kernels", kernel_facts());
   facts.values["partition"]["interface_ranks"] = statistics.interface_ranks;
-  if (statistics.prediction) facts.add("prediction", prediction_facts(*statistics.prediction));
   facts.add("interface_looks", statistics.interface_looks);
   facts.add("contact_rows", statistics.contact_rows);
   facts.add("coupled_rows", statistics.coupled_rows);

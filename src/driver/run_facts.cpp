@@ -6,22 +6,6 @@
 #include "driver/time_step.h"
 
 namespace pounding {
-namespace {
-
-Json load_values(const RankLoads& loads) {
-  return {{"ranks", loads.ranks},
-          {"imbalance", loads.imbalance},
-          {"mean_dofs", loads.mean_dofs},
-          {"largest_dofs", loads.dofs},
-          {"largest_elements", loads.elements},
-          {"largest_halo_dofs", loads.exchanged},
-          {"largest_messages", loads.messages},
-          {"interface_ranks", loads.interface_ranks},
-          {"interface_dofs", loads.interface_dofs}};
-}
-
-}  // namespace
-
 Facts warning_facts(std::span<const std::string> lines) {
   Facts facts{Json::array()};
   for (const std::string& line : lines) {
@@ -64,50 +48,6 @@ Facts time_step_facts(const Scene& scene, const Model& model) {
     facts.say("  earlier versions took {} s: see What changes your numbers in CHANGELOG.md\n",
               {earlier_time_step(scene, model)});
   }
-  return facts;
-}
-
-Facts prediction_facts(const RankPrediction& prediction) {
-  const auto& [now, then] = prediction.loads;
-  Facts facts{load_values(then)};
-  facts.values["now"] = load_values(now);
-  facts.values["latency"] = prediction.latency;
-  facts.values["bandwidth"] = prediction.bandwidth;
-  facts.values["measured_step"] = prediction.measured;
-  facts.values["step"] = prediction.step();
-  facts.values["elements"] = prediction.elements;
-  facts.values["halo"] = prediction.halo;
-  facts.values["contact"] = prediction.contact;
-  facts.values["memory_of_a_rank"] = prediction.memory;
-  facts.values["start_up_memory_of_rank_0"] = prediction.start_up_memory;
-  const double efficiency =
-      prediction.measured * now.ranks / (prediction.step() * static_cast<double>(then.ranks));
-  facts.values["efficiency"] = efficiency;
-  facts.say(
-      "\nforeseen, by latency {latency} s, bandwidth {bandwidth} B/s, elements as measured\n");
-  const auto count = [&](const char* name, std::int64_t here, std::int64_t there) {
-    facts.say("  {:-40s} {:12d} {:12d}\n", {name, here, there});
-  };
-  const auto value = [&](const char* name, double here, double there) {
-    facts.say("  {:-40s} {:12.1f} {:12.1f}\n", {name, here, there});
-  };
-  constexpr double megabyte = 1e6;
-  constexpr double microsecond = 1e-6;
-  count("ranks", now.ranks, then.ranks);
-  value("dofs of a rank, mean", now.mean_dofs, then.mean_dofs);
-  count("  largest", now.dofs, then.dofs);
-  count("elements that a rank holds, largest", now.elements, then.elements);
-  count("dofs that it sends or receives", now.exchanged, then.exchanged);
-  count("messages that it sends", now.messages, then.messages);
-  count("ranks with dofs of contacts", now.interface_ranks, then.interface_ranks);
-  value("memory of a rank while it steps [MB]", prediction.memory_now / megabyte,
-        prediction.memory / megabyte);
-  value("step [microseconds]", prediction.measured / microsecond, prediction.step() / microsecond);
-  facts.say("    of this elements {:.1f}, halo {:.1f}, contact {:.1f}; ",
-            {prediction.elements / microsecond, prediction.halo / microsecond,
-             prediction.contact / microsecond});
-  facts.say("{efficiency:.0f %} of the speed that the ranks would have without cuts\n");
-  facts.say("  rank 0 needs {start_up_memory_of_rank_0:.0f MB} to read and to cut the meshes\n");
   return facts;
 }
 

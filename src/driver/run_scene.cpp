@@ -9,7 +9,6 @@
 #include "common/error.h"
 #include "common/floating_point.h"
 #include "common/memory.h"
-#include "common/memory_use.h"
 #include "common/parallel.h"
 #include "driver/build_model.h"
 #include "driver/equipment_demand.h"
@@ -23,7 +22,6 @@
 #include "driver/model_file.h"
 #include "driver/observers.h"
 #include "driver/provenance.h"
-#include "driver/rank_prediction.h"
 #include "driver/report.h"
 #include "driver/run_identity.h"
 #include "driver/stop_signal.h"
@@ -85,7 +83,6 @@ RunOutcome run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
   flush_subnormal_numbers();
   return_large_arrays();
   const double start = MPI_Wtime();
-  const double memory_before = take_memory_use().held;
   const bool root = rank_of(comm) == 0;
   Profile profile;
   const bool runs = !scene.dry_run && scene.law_cycles.empty() && scene.write_mesh_pieces == 0;
@@ -136,8 +133,6 @@ RunOutcome run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
   const double seconds = loop.measure(scene.dry_run ? 200 : 50);
   if (root) print_time_step(scene, model, seconds);
   RunStatistics statistics;
-  statistics.prediction = predict_step(comm, scene, model, profile, seconds, memory_before);
-  if (statistics.prediction) print(prediction_facts(*statistics.prediction));
   if (scene.dry_run) {
     profile.note_memory(Phase::step);
     const PhaseReport phases = report_phases(comm, profile, model.dofs());

@@ -10,7 +10,6 @@
 #include "common/matrix3.h"
 #include "driver/fidelity_estimate.h"
 #include "driver/phase_report.h"
-#include "driver/rank_prediction.h"
 #include "driver/stated_peaks.h"
 #include "dynamics/energy_balance.h"
 #include "interactions/filler_rows.h"
@@ -124,7 +123,6 @@ struct RunStatistics {
   std::vector<std::string> overpressed;      ///< structures with a pendulum whose slope was cut
   std::vector<std::string> warnings;         ///< of the run, one line each
   PhaseReport phases;                        ///< time and memory
-  std::optional<RankPrediction> prediction;  ///< with -predict_ranks; rank 0
   std::optional<FidelityEstimate> fidelity;  ///< with -fidelity_window; channels on rank 0
 };
 

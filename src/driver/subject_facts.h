@@ -49,7 +49,6 @@ Facts rest_facts(const Scene& scene, const Model& model);
 Facts partition_facts(const Model& model);
 Facts kernel_facts();
 Facts time_step_facts(const Scene& scene, const Model& model);
-Facts prediction_facts(const RankPrediction& prediction);
 Facts energy_facts(const RunStatistics& run);
 Facts phase_facts(const PhaseReport& report);
 Facts warning_facts(std::span<const std::string> lines);

@@ -56,7 +56,6 @@ Scene at_full_order(Scene scene, const Model& model) {
   scene.loops.clear();
   scene.fields_interval = 0;
   scene.export_matrices.clear();
-  scene.predict_ranks = 0;
   return scene;
 }
 

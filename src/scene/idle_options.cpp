@@ -40,9 +40,6 @@ class IdleOptions {
     for (const char* option : {"fields_start", "fields_end", "fields_format"}) {
       needs(option, scene_.fields_interval > 0, "fields_interval");
     }
-    for (const char* option : {"latency", "bandwidth"}) {
-      needs(option, scene_.predict_ranks > 0, "predict_ranks");
-    }
     for (const char* option :
          {"gap_interval", "gap_tolerance", "impact_merge_time", "force_window"}) {
       needs(option, !scene_.contacts.empty(), "contacts");

@@ -471,9 +471,6 @@ struct Scene {
   int energy_interval = 0;       ///< steps between two lines of the energy ledger
   double mesh_time_limit = 0;    ///< for Gmsh to make or read one mesh [s]
   bool dry_run = false;
-  int predict_ranks = 0;           ///< ranks on which a step is foreseen; 0: none
-  double latency = 0;              ///< of a message between these [s]
-  double bandwidth = 0;            ///< of a message between these [B/s]
   std::string vector_unit;         ///< whose kernels compute (use_vector_unit)
   double checkpoint_interval = 0;  ///< wall time between checkpoints [s]; 0: none
   int checkpoint_steps = 0;        ///< steps between checkpoints; 0: none

@@ -130,9 +130,6 @@ class SceneReader {
     scene_.gap_interval = options_.real("gap_interval");
     scene_.energy_interval = options_.integer("energy_interval");
     scene_.dry_run = options_.boolean("dry_run");
-    scene_.predict_ranks = options_.integer("predict_ranks");
-    scene_.latency = options_.real("latency");
-    scene_.bandwidth = options_.real("bandwidth");
     scene_.vector_unit = options_.choice("vector_unit");
     scene_.law_cycles = options_.reals("law_cycles");
     std::erase(scene_.law_cycles, 0.0);
@@ -184,13 +181,6 @@ class SceneReader {
         std::ranges::all_of(scene_.structures,
                             [](const Structure& s) { return s.modal.has_value(); })) {
       options_.refuse("mesh_pieces", {}, "every structure is reduced, whose meshes are not cut");
-    }
-    if (scene_.predict_ranks == 0) return;
-    if (!scene_.mesh_pieces.empty()) {
-      options_.refuse("predict_ranks", {}, "it needs the whole meshes; not with -mesh_pieces");
-    }
-    if (!ensemble_.empty()) {
-      options_.refuse("predict_ranks", {}, "it is of one run; not with -ensemble");
     }
   }
 

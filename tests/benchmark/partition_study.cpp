@@ -17,12 +17,14 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/storey_pair.h"
-#include "mesh/partition_loads.h"
+#include "support/partition_loads.h"
 
 namespace pounding::measuring {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using testing_support::part_loads;
+using testing_support::PartLoad;
 
 Json spread(const std::vector<PartLoad>& loads, long (*value)(const PartLoad&)) {
   long largest = 0;

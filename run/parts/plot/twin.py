@@ -18,8 +18,7 @@ FREE = {"contacts", "output", "title", "restart", "write_modes", "write_model", 
         "fields_end", "fields_format", "checkpoint_interval", "checkpoint_steps", "csv_digits", "partition", "mesh_pieces",
         "write_mesh_pieces", "modes", "modes_solver", "loops", "loops_at", "export_matrices", "progress_interval",
         "mesh_time_limit", "gap_interval", "energy_interval", "impact_merge_time", "force_window", "gap_tolerance",
-        "time_step", "courant", "omega_max_tolerance", "allow_unstable", "stiffness", "dry_run", "predict_ranks", "latency",
-        "bandwidth", "vector_unit"}
+        "time_step", "courant", "omega_max_tolerance", "allow_unstable", "stiffness", "dry_run", "vector_unit"}
 READ = ("_mesh", "_record", "_target", "_matrices", "_table", "_initial_state")  # endings of options whose files decide the model
 
 
