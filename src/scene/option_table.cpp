@@ -371,8 +371,9 @@ std::span<const OptionRow> option_table() {
 }
 
 const OptionRow& option_row(std::string_view pattern) {
-  const auto row = std::ranges::find(option_rows, pattern, &OptionRow::pattern);
-  if (row == option_rows.end()) {
+  const auto table = pattern.starts_with('-') ? spectra_option_table() : option_table();
+  const auto row = std::ranges::find(table, pattern, &OptionRow::pattern);
+  if (row == table.end()) {
     throw std::logic_error("no option has the pattern " + std::string(pattern));
   }
   return *row;

@@ -103,7 +103,10 @@ struct OptionRow {
 /// Every option, in the order of the help.
 std::span<const OptionRow> option_table();
 
-/// The row of a pattern. Throws std::logic_error for a pattern that is not in the table.
+/// Options of pounding-spectra, likewise; their patterns begin with another '-'.
+std::span<const OptionRow> spectra_option_table();
+
+/// The row of a pattern of either table. Throws std::logic_error for one that is in none.
 const OptionRow& option_row(std::string_view pattern);
 
 /// The pattern with its placeholders replaced, in order, by `names`.

@@ -74,7 +74,7 @@ class Rotated(unittest.TestCase):
         one = write_columns(self, noise(6))
         short = write_columns(self, noise(7, 900))
         for words, part in (([one], "no pairs"), ([one, short], "no pair"), ([one, one, one], "no pairs"),
-                            ([one, one, "--true"], "--true"), ([one, one, "--rotd", "101"], "0 to 100")):
+                            ([one, one, "--true"], "--true"), ([one, one, "--rotd", "101"], "[0, 100]")):
             result = spectra("--rotd", 50, "--unit", "g", *words)
             self.assertEqual(result.returncode, 1, words)
             self.assertEqual(len(result.stderr.splitlines()), 1)
