@@ -27,7 +27,7 @@ set(POUNDING_KERNEL_FILES
   "^interactions/(solvers/|[a-z_]+[.])"
   "^common/row_products[.]"
   "^ensemble/(member_run|octet_)"
-  "^motion/(oscillator|peak_displacements|record_stretch|stretch_)"
+  "^motion/oscillator"
   "^output/(recorder|probe_rows)"
   "^system/(block_factorisation|coupled_mass|rigid_body|tied_part|trace)")
 

@@ -59,11 +59,12 @@ double looked_at_everywhere(const std::vector<double>& a, double theta, double x
 }
 
 TEST(ResponseSpectrum, MissesNoExtremumWhereverItLies) {
-  // Records of one stretch and of several, whose largest value is anywhere, also in the last step,
-  // and dampings of which some allow no stretch to be left out.
-  for (const std::size_t size : {3, 64, 65, 66, 129, 700})
-    for (const std::size_t shift : {0, 1, 5, 63, 64, 300, 571})
-      for (const double theta : {0.003, 0.1, 0.45, 0.97}) {
+  // Records of one passage and of several, whose largest value is anywhere, also in the last step,
+  // oscillators that go by one sample and by eight, and dampings of which some allow no passage to
+  // be left out.
+  for (const std::size_t size : {3, 9, 66, 256, 257, 700})
+    for (const std::size_t shift : {0, 1, 5, 255, 256, 300, 571})
+      for (const double theta : {0.003, 0.05, 0.1, 0.45, 0.97}) {
         std::vector<double> a = noise(size);
         std::rotate(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(shift % size), a.end());
         a[shift % size] *= 20;
@@ -82,9 +83,22 @@ TEST(ResponseSpectrum, MissesNoExtremumWhereverItLies) {
       }
 }
 
+TEST(ResponseSpectrum, MissesNoPeakWherePassagesMeet) {
+  // A blow whose largest response comes 31 samples later, in every place near sample 256.
+  const double h = 0.01, theta = 0.05;
+  const std::vector<double> one{theta / (2 * pi * h)};
+  for (std::size_t blow = 215; blow < 240; ++blow) {
+    std::vector<double> a(700, 0.0);
+    a[blow] = 1;
+    const double found =
+        response_spectrum(a, h, one, 0.02, AfterRecord::ignored)[0].pseudo_acceleration;
+    EXPECT_NEAR(found / looked_at_everywhere(a, theta, 0.02), 1, 1e-6) << blow;
+  }
+}
+
 TEST(ResponseSpectrum, OscillatorsBesideAnotherDoNotCount) {
-  // Quiet, a blow, quiet again: most stretches are left out, and which ones depends on all
-  // oscillators of a block. Of one alone nothing is left out that matters.
+  // Quiet, a blow, quiet again: most passages hold no peak, and an oscillator goes by one sample or
+  // by eight as those of its block do.
   std::vector<double> a = noise(5000);
   for (std::size_t n = 0; n < a.size(); ++n) a[n] *= n > 2000 && n < 2100 ? 30 : 0.3;
   std::vector<double> frequencies;

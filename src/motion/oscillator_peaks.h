@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -10,12 +11,14 @@ namespace pounding {
 
 /// Largest |u| of every oscillator, in their order, under an acceleration sampled every `time_step`
 /// [s], linear between samples: at the samples and wherever an extremum lies between them. The
-/// oscillators start at rest. Those below oscillator::series_limit go side by side, and slow ones
-/// are stepped and looked at only in the stretches of the record where the largest can lie
-/// (stretch_bound.h), which changes it by round-off alone: those that move alike should follow each
-/// other. `acceleration` is not empty.
+/// oscillators start at rest. Those below oscillator::series_limit go side by side; those that move
+/// alike should follow each other. `acceleration` is not empty.
 std::vector<double> peak_displacements(std::span<const double> acceleration, double time_step,
                                        std::span<const oscillator::Oscillator> oscillators,
                                        AfterRecord after);
+
+/// Largest h |u'|, h^2 |u'' + a| and h^2 |u''| of an oscillator, likewise; h the time step.
+std::array<double, 3> true_peaks(std::span<const double> acceleration, double time_step,
+                                 const oscillator::Oscillator& oscillator, AfterRecord after);
 
 }  // namespace pounding
