@@ -4,12 +4,14 @@ import csv
 import json
 from collections import Counter
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 
 import h5py
 import numpy as np
 
 from . import summary_shape
+from .equipment import CABINET, judge
 
 DIRECTIONS = ("x", "y", "z")
 GROUND = "ground"  # stands for a probe in the rows of spectra.csv that are the ground's
@@ -44,7 +46,6 @@ class Result:
     impacts: dict = field(default_factory=dict)
     forces: dict = field(default_factory=dict)  # of forces.csv: largest values
     energy: dict = field(default_factory=dict)
-    equipment: dict = field(default_factory=dict)  # of equipment.csv: required spectrum and capacity
     yielding: dict = field(default_factory=dict)  # of yielding.csv: laws of elements and how far they went
     title: str = ""
     without: "Result | None" = None  # the run without pounding, where one is set beside it
@@ -60,9 +61,27 @@ class Result:
 
     @property
     def spectrum_probes(self) -> list:
-        """Probes that spectra.csv has, without the ground."""
+        """Probes that spectra.csv has, without the ground and the cabinets of equipment."""
         names = dict.fromkeys(str(name) for name in self.spectra.get("probe", []))
-        return [name for name in names if name != GROUND or name in self.probes]
+        cabinets = {name + CABINET for name in self.summary.get("equipment", {})}
+        return [name for name in names if (name != GROUND or name in self.probes) and name not in cabinets]
+
+    @cached_property
+    def _judged(self) -> tuple:
+        return judge(self.summary, self.spectrum) if self.spectra else ({}, {})
+
+    @property
+    def verdicts(self) -> dict:
+        """Items of equipment -> whether their capacity holds, the smallest ratio of it over the widened spectrum of their
+        floor, its frequency and direction, the same by direction, and the rules that they are judged by. Nothing of a
+        folder without spectra."""
+        return self._judged[0]
+
+    @property
+    def equipment(self) -> dict:
+        """Column -> array: equipment, direction, counted (1: in the band that counts), frequency [Hz], required and
+        capacity [m/s2]."""
+        return self._judged[1]
 
     def __repr__(self) -> str:
         words = [f"probes {_listed(self.probes or self.spectrum_probes)}"]
@@ -307,7 +326,6 @@ def load(folder: Path | str) -> Result:
         "impacts.csv": lambda path: result.impacts.update(_read_table(path)),
         "forces.csv": lambda path: result.forces.update(_read_table(path)),
         "energy.csv": lambda path: result.energy.update(_read_table(path)),
-        "equipment.csv": lambda path: result.equipment.update(_read_table(path)),
         "yielding.csv": lambda path: result.yielding.update(_read_table(path)),
     }
     for name, read in readers.items():

@@ -94,7 +94,6 @@ void print_results(const FinishedRun& run) {
   print(force_facts(statistics));
   print(drift_facts(run.recorder.drifts()));
   print(probe_facts(scene, statistics, run.recorder, run.spectra));
-  print(equipment_facts(scene, run.equipment));
   print(fidelity_facts(scene, statistics));
   print("\n");
   print(warning_facts(statistics.warnings));
@@ -144,7 +143,7 @@ void write_summary(const std::string& path, const FinishedRun& run) {
   facts.add(force_facts(statistics));
   facts.add("drifts", drift_facts(run.recorder.drifts()));
   facts.add(probe_facts(scene, statistics, run.recorder, run.spectra));
-  facts.add(equipment_facts(scene, run.equipment));
+  facts.add(equipment_facts(scene, run.capacities));
   facts.add(fidelity_facts(scene, statistics));
   std::vector<std::string> warnings = scene.warnings;
   warnings.insert(warnings.end(), model.warnings.begin(), model.warnings.end());

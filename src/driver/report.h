@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "driver/equipment_demand.h"
+#include "driver/equipment_capacity.h"
 #include "driver/floor_spectra.h"
 #include "driver/model.h"
 #include "driver/provenance.h"
@@ -37,7 +37,7 @@ struct FinishedRun {
   const ImpactCatalogue& impacts;
   const Recorder& recorder;
   const std::vector<ProbeSpectrum>& spectra;
-  const std::vector<EquipmentVerdict>& equipment;  ///< in the order of the scene
+  const std::vector<TargetSpectrum>& capacities;  ///< of equipment, in the order of the scene
   int ranks = 1;
 };
 

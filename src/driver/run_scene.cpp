@@ -11,7 +11,7 @@
 #include "common/memory.h"
 #include "common/parallel.h"
 #include "driver/build_model.h"
-#include "driver/equipment_demand.h"
+#include "driver/equipment_capacity.h"
 #include "driver/field_plan.h"
 #include "driver/floor_spectra.h"
 #include "driver/folder_checks.h"
@@ -97,7 +97,11 @@ RunOutcome run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
     }
   });
   std::vector<TargetSpectrum> capacities;  // of equipment, on rank 0
-  on_rank0(comm, [&] { capacities = read_capacities(scene); });
+  on_rank0(comm, [&] {
+    capacities = read_capacities(scene);
+    scene.spectra.frequencies = with_capacities(scene.spectra.frequencies, capacities);
+  });
+  broadcast_array(comm, scene.spectra.frequencies);
   if (root) print_title(scene, overrides_text(origin), size_of(comm));
   if (!scene.law_cycles.empty()) {
     write_law_loops(comm, scene);
@@ -149,6 +153,8 @@ RunOutcome run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
   }
   std::vector<ProbeSpectrum> spectra = compute_floor_spectra(comm, scene, loop.recorder());
   on_rank0(comm, [&] {
+    std::ranges::move(cabinet_spectra(scene, loop.recorder(), spectra),
+                      std::back_inserter(spectra));
     std::ranges::move(compute_ground_spectra(scene, *model.motion), std::back_inserter(spectra));
     write_floor_spectra(scene.output + "/spectra.csv", spectra, scene.spectra.start,
                         scene.csv_digits);
@@ -164,13 +170,9 @@ RunOutcome run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
       append(peak_warnings(scene, statistics.peaks, loop.recorder()), statistics.warnings);
     }
     statistics.wall_time = MPI_Wtime() - start;
-    const std::vector<EquipmentVerdict> equipment =
-        judge_equipment(scene, capacities, spectra, loop.recorder());
-    if (!equipment.empty()) {
-      write_equipment(scene.output + "/equipment.csv", scene, equipment, scene.csv_digits);
-    }
-    const FinishedRun finished{provenance,     scene,           resolved, model,     statistics,
-                               loop.impacts(), loop.recorder(), spectra,  equipment, size_of(comm)};
+    const FinishedRun finished{provenance, scene,          resolved,        model,
+                               statistics, loop.impacts(), loop.recorder(), spectra,
+                               capacities, size_of(comm)};
     write_summary(scene.output + "/summary.json", finished);
     print_results(finished);
   });

@@ -217,7 +217,7 @@ class Study(unittest.TestCase):
                 spectra[sample, owner] = np.log(run.spectrum("left_roof", "x", 0.05)[1])
                 if owner != sample:
                     continue
-                failed += not run.summary["equipment"]["relay"]["passes"]
+                failed += not run.verdicts["relay"]["passes"]
                 gaps.add(tuple(run.summary["contacts"]["floor1"]["initial_gap"]))
         self.assertRegex(said, f"relay fails at 5 m/s2 in {100 * failed / 3:.3g} % in a joint of 10 mm .*, "
                          f"{100 * found['apart'] / 3:.3g} % apart")

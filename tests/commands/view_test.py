@@ -100,7 +100,7 @@ class View(unittest.TestCase):
             area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
             lx = {"s1:slab": 3.36, "s2:slab": 2.16}[name]
             self.assertAlmostEqual(area, 2 * (2 * lx * 2.28 + 2 * 0.22 * (lx + 2.28)), places=3)
-        equipment = program.summary(self.folder)["equipment"]
+        equipment = load(self.folder).verdicts
         demand = {name: one["needed"] / one["ratio"] for name, one in equipment.items()}
         self.assertGreater(demand["relay"], 1)
         self.assertLess(demand["pump"], 1)

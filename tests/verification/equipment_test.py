@@ -58,11 +58,27 @@ class Equipment(unittest.TestCase):
         numpy.testing.assert_allclose(table["frequency"], self.frequency, rtol=1e-8)
         numpy.testing.assert_allclose(table["required"], self.required, rtol=1e-7)
         numpy.testing.assert_allclose(table["capacity"], 50, rtol=1e-8)
-        one = self.hit.summary["equipment"]["flat"]
+        one = self.hit.verdicts["flat"]
         self.assertAlmostEqual(one["ratio"] * self.required.max() / 50, 1, delta=1e-7)
         self.assertAlmostEqual(one["directions"]["x"]["required_at_zero_period"] / self.required[-1], 1, delta=1e-7)
         high = self.required[(self.frequency >= 20) & (self.frequency <= 40)].max()
         self.assertAlmostEqual(one["high_band_ratio"] * high / 50, 1, delta=1e-7)
+
+    def test_spectra_have_the_corners_of_capacities(self):
+        """Those between the ends of spectra_frequencies; the others stay as they are."""
+        corners = {"notched": {"capacity": self.file("notched", [(.2, 50), (9.9, 50), (10.01, .002), (10.2, 50), (900, 50)])}}
+        run = self.run_with("corners", corners, gap=.01)
+        frequency, values = run.spectrum("left_roof", "x", .05)
+        numpy.testing.assert_allclose(sorted({*frequency} - {*self.frequency}), [9.9, 10.01, 10.2], rtol=1e-8)
+        old = numpy.isin(frequency, self.frequency)
+        numpy.testing.assert_allclose(values[old], self.hit.spectrum("left_roof", "x", .05)[1], rtol=1e-8)
+        at = run.equipment["frequency"] == 10.01
+        self.assertAlmostEqual(run.equipment["capacity"][at][0], .002, delta=1e-12)
+        one = run.verdicts["notched"]
+        self.assertEqual(one["frequency"], 10.01)  # no other frequency has so little of it
+        self.assertAlmostEqual(one["ratio"] * run.equipment["required"][at][0] / .002, 1, delta=1e-9)
+        self.assertEqual(set(self.hit.summary["equipment"]["flat"]) & {"passes", "ratio"}, set())
+        self.assertFalse((run.folder / "equipment.csv").exists())
 
     def test_in_a_cabinet(self):
         """The spectrum of an oscillator on the recorded floor, by another integration of the same samples."""
@@ -82,6 +98,7 @@ class Equipment(unittest.TestCase):
         rows = list(csv.DictReader(line for line in found.splitlines() if not line.startswith("#")))
         values = numpy.array([float(row["pseudo_acceleration"]) for row in rows])
         numpy.testing.assert_allclose(run.equipment["required"], widened(self.frequency, values, WIDTH), rtol=1e-5)
+        self.assertNotIn("flat cabinet", run.spectrum_probes)
         at_twelve = numpy.interp(12, self.frequency, run.equipment["required"])
         self.assertGreater(at_twelve, 3 * numpy.interp(12, self.frequency, self.required))  # it resonates
 
@@ -101,10 +118,10 @@ class Equipment(unittest.TestCase):
                  "deep": {"capacity": capacity("deep", numpy.where(dip < 1.1, .95, 1.2)), "dip": .1},
                  "wide": {"capacity": capacity("wide", numpy.where(octaves < .4, 1.05, 1.2)), "dip": .1},
                  "beside": {"capacity": capacity("beside", numpy.where(self.frequency > 40, .5, 1.2)), "band": "1,33"},
-                 "all": {"capacity": self.file("weak", [(1, 1e-3), (100, 1e-3)]), "direction": "all"}}
+                 "all": {"capacity": self.file("weak", [(f, 1e-3) for f in self.frequency[[20, -20]]]), "direction": "all"}}
         expected = {"enough": True, "short": False, "bare": True, "in_g": True, "dipped": True, "strict": False,
                     "deep": False, "wide": False, "beside": True, "all": False}
-        found = [self.run_with(f"rules{ranks}", items, ranks, gap=.01).summary["equipment"] for ranks in (1, 2)]
+        found = [self.run_with(f"rules{ranks}", items, ranks, gap=.01).verdicts for ranks in (1, 2)]
         self.assertEqual({name: one["passes"] for name, one in found[0].items()}, expected)
         self.assertEqual(list(found[0]["all"]["directions"]), ["x", "y", "z"])
         self.assertAlmostEqual(found[0]["strict"]["ratio"], 1.05, delta=1e-6)

@@ -73,10 +73,9 @@ def answers(runs: Runs) -> list:
         line = f"{label} beside {runs.labels[0]}: {counts[0]} impacts in place of {counts[1]}"
         change = answer.largest_change(run, first)
         line += f"; the floor spectra ({100 * change.damping:g} %) grow at most {change.text()}" if change else ""
-        held = {one: run.summary.get("equipment", {}).get(one, {}).get("passes")
-                for one in first.summary.get("equipment", {})}
+        held = {one: run.verdicts.get(one, {}).get("passes") for one in first.verdicts}
         for name, passes in held.items():
-            if passes is not None and passes != first.summary["equipment"][name]["passes"]:
+            if passes is not None and passes != first.verdicts[name]["passes"]:
                 line += f"; {name} {'passes' if passes else 'fails'}"
         found.append(f"{line}.")
     return found

@@ -68,7 +68,7 @@ def peaks(runs: Runs) -> list:
 
 def equipment(runs: Runs) -> list:
     """A row per item of equipment: smallest ratio of capacity over required of every run, and whether it holds."""
-    found = [result.summary.get("equipment", {}) for result in runs.results]
+    found = [result.verdicts for result in runs.results]
     rows = []
     for name in dict.fromkeys(name for one in found for name in one):
         row = {"item": name}

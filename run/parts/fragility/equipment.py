@@ -5,16 +5,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pounding.equipment import SIXTH, counting, log_interpolated, ratio_of
 from pounding.fragility import widened
 from pounding.results import Result
-
-SIXTH = np.log(2) / 6  # of an octave, in logarithms
 
 
 @dataclass(frozen=True, eq=False)
 class Item:
-    """`ways`: directions; `frequency` [Hz] and `capacity` [m/s2] where the item has one and its band counts; `needed`:
-    ratio of capacity over required spectrum; `dip`: part of it that may lack between two frequencies that have all."""
+    """`ways`: directions; `frequency` [Hz] and `capacity` [m/s2] of its curve; `band`: frequencies that count, None: all;
+    `needed`: ratio of capacity over required spectrum; `dip`: part of it that may lack between two that have all."""
 
     title: str
     probe: str
@@ -25,6 +24,7 @@ class Item:
     dip: float
     frequency: np.ndarray
     capacity: np.ndarray
+    band: list | None
 
     @property
     def name(self) -> str:
@@ -32,36 +32,35 @@ class Item:
 
     def fails(self, frequency: np.ndarray, spectra: np.ndarray) -> np.ndarray:
         """Whether it fails under spectra (..., frequencies) of its floor in one direction, as wide as a floor is recorded."""
-        place = np.searchsorted(frequency, self.frequency * (1 - 1e-6))
-        with np.errstate(divide="ignore"):
-            ratio = self.capacity / widened(frequency, spectra, self.broadening)[..., place]
+        required = widened(frequency, spectra, self.broadening)
+        counts = counting(frequency, self.band) & counting(frequency, (self.frequency[0], self.frequency[-1]))
+        at = frequency[counts]
+        ratio = ratio_of(np.broadcast_to(self._capacity(at), required[..., counts].shape), required[..., counts])
         short = ratio < self.needed
         if self.dip:
-            log_f = np.log(self.frequency)
-            for i in np.flatnonzero(short.reshape(-1, len(log_f)).any(0)):
-                beside = [self._at(ratio, log_f, log_f[i] + way * SIXTH) >= self.needed for way in (-1, 1)]
+            for i in np.flatnonzero(short.reshape(-1, len(at)).any(0)):
+                beside = [self._capacity(one) >= self.needed * self._between(frequency, required, one)
+                          for one in (at[i] / SIXTH, at[i] * SIXTH)]
                 short[..., i] &= ~(beside[0] & beside[1] & (ratio[..., i] >= self.needed * (1 - self.dip)))
         return short.any(-1)
 
+    def _capacity(self, at: np.ndarray) -> np.ndarray:
+        return log_interpolated(at, self.frequency, self.capacity)
+
     @staticmethod
-    def _at(ratio: np.ndarray, log_f: np.ndarray, at: float) -> np.ndarray:
-        """The ratio at a frequency, linear in logarithms."""
-        k = int(np.clip(np.searchsorted(log_f, at), 1, len(log_f) - 1))
-        share = np.clip((at - log_f[k - 1]) / (log_f[k] - log_f[k - 1]), 0, 1)
-        return ratio[..., k - 1] ** (1 - share) * ratio[..., k] ** share
+    def _between(frequency: np.ndarray, spectra: np.ndarray, at: float) -> np.ndarray:
+        """Spectra at a frequency, linear in logarithms."""
+        k = int(np.clip(np.searchsorted(frequency, at), 1, len(frequency) - 1))
+        share = np.clip(np.log(at / frequency[k - 1]) / np.log(frequency[k] / frequency[k - 1]), 0, 1)
+        return spectra[..., k - 1] ** (1 - share) * spectra[..., k] ** share
 
 
 def of_run(run: Result) -> list:
     """The items that a run of the scene has, as JSON holds them."""
-    found = []
-    for name, one in run.summary.get("equipment", {}).items():
-        rows = ((run.equipment["equipment"] == name) & (run.equipment["direction"] == next(iter(one["directions"])))
-                & (run.equipment["counted"] == 1))
-        found.append({"title": name, "probe": one["probe"], "ways": list(one["directions"]),
-                      **{key: one[key] for key in ("damping", "broadening", "needed", "dip")},
-                      "frequency": run.equipment["frequency"][rows].tolist(),
-                      "capacity": run.equipment["capacity"][rows].tolist()})
-    return found
+    return [{"title": name, "probe": one["probe"], "ways": one["directions"], "band": one.get("band"),
+             "frequency": one["capacity"]["frequency"], "capacity": one["capacity"]["acceleration"],
+             **{key: one[key] for key in ("damping", "broadening", "needed", "dip")}}
+            for name, one in run.summary.get("equipment", {}).items()]
 
 
 def items(kept: list) -> list:

@@ -10,7 +10,7 @@ CAPACITY = "#222222"
 
 
 def items(run: Result) -> dict:
-    return run.summary.get("equipment", {})
+    return run.verdicts
 
 
 def _ratio_text(one: dict) -> str:
@@ -123,7 +123,7 @@ def figures(run: Result) -> list:
     if not items(run):
         raise Missing("the scene has no equipment")
     if not run.equipment:
-        raise Missing("no equipment.csv")
+        raise Missing("no spectra.csv")
     return [page for name, one in items(run).items() for page in _figure(run, name, one)]
 
 

@@ -114,7 +114,7 @@ class _Scene:
     def capacities(self, result: Result) -> list:
         """Items of equipment at their places, with demand over capacity: above 1 the item fails."""
         probes, shown = self.probes(result.folder), []
-        for name, one in result.summary.get("equipment", {}).items():
+        for name, one in result.verdicts.items():
             if one["ratio"] and one["probe"] in probes:
                 demand = one["needed"] / one["ratio"]
                 shown.append({"name": f"{name}: {demand:.2f} of its capacity", "colour": FAILS if demand > 1 else HOLDS,
