@@ -9,8 +9,8 @@
 #include <type_traits>
 #include <vector>
 
-/// Bytes that one process of a machine writes and another reads. One function that takes either
-/// stream describes the order for both directions.
+/// Bytes that one process of a machine writes and another reads, from a file, a pipe or rank 0. One
+/// function that takes either stream describes the order for both directions.
 namespace pounding {
 
 /// Takes bytes that come one after the other.

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <mpi.h>
+
+#include "common/byte_stream.h"
 
 /// Agreement between ranks: no rank fails alone inside a collective.
 namespace pounding {
@@ -66,6 +70,31 @@ void broadcast_array(MPI_Comm comm, std::vector<Value, Allocator>& values, int r
   for (long sent = 0; sent < total; sent += 1L << 30) {
     MPI_Bcast(bytes + sent, static_cast<int>(std::min(total - sent, 1L << 30)), MPI_CHAR, root,
               comm);
+  }
+}
+
+/// The values of rank 0 that `pass(stream)` describes, on every rank; lists of the others must be
+/// empty before. Collective.
+template <typename Pass>
+void broadcast_values(MPI_Comm comm, const Pass& pass) {
+  std::vector<char> bytes;
+  const WriteBytes take = [&](std::span<const char> values) {
+    bytes.insert(bytes.end(), values.begin(), values.end());
+  };
+  const bool root = rank_of(comm) == 0;
+  if (root) {
+    ByteWriter writer(take);
+    pass(writer);
+  }
+  broadcast_array(comm, bytes);
+  std::size_t place = 0;
+  const ReadBytes give = [&](std::span<char> values) {
+    std::copy_n(bytes.data() + place, values.size(), values.data());
+    place += values.size();
+  };
+  if (!root) {
+    ByteReader reader(give, bytes.size());
+    pass(reader);
   }
 }
 

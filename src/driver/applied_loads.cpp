@@ -8,7 +8,6 @@
 
 #include "common/error.h"
 #include "common/matrix3.h"
-#include "common/parallel.h"
 #include "common/place_text.h"
 #include "driver/facts.h"
 #include "elements/element.h"
@@ -252,20 +251,6 @@ std::vector<NodalLoad> find_loads(const Scene& scene, std::span<const GlobalMesh
     loads.back().structure = s;
   }
   return loads;
-}
-
-void broadcast_loads(MPI_Comm comm, std::vector<NodalLoad>& loads) {
-  int count = static_cast<int>(loads.size());
-  MPI_Bcast(&count, 1, MPI_INT, 0, comm);
-  loads.resize(count);
-  for (NodalLoad& load : loads) {
-    MPI_Bcast(&load.structure, 1, MPI_INT, 0, comm);
-    broadcast_array(comm, load.forces, 0);
-    MPI_Bcast(&load.nodes, 1, MPI_INT64_T, 0, comm);
-    MPI_Bcast(&load.extent, 1, MPI_DOUBLE, 0, comm);
-    MPI_Bcast(load.force.data(), 3, MPI_DOUBLE, 0, comm);
-    MPI_Bcast(load.moment.data(), 3, MPI_DOUBLE, 0, comm);
-  }
 }
 
 std::vector<std::string> load_doubts(const Scene& scene, std::span<const GlobalMesh> meshes,

@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <mpi.h>
-
 #include "mesh/global_mesh.h"
 #include "mesh/nodal_load.h"
 #include "scene/scene.h"
@@ -19,9 +17,6 @@ namespace pounding {
 /// to act on, a moment on nodes without rotations, a pressure on a face between two solids. Serial,
 /// rank 0.
 std::vector<NodalLoad> find_loads(const Scene& scene, std::span<const GlobalMesh> meshes);
-
-/// Brings the loads that rank 0 found to every rank. Collective.
-void broadcast_loads(MPI_Comm comm, std::vector<NodalLoad>& loads);
 
 /// Doubts about them, one line each: a load that acts on held components only, one whose forces
 /// cancel out. Serial, rank 0.

@@ -7,7 +7,6 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "common/progress.h"
-#include "driver/applied_loads.h"
 #include "driver/field_plan.h"
 #include "driver/filler_limit.h"
 #include "driver/full_order.h"
@@ -24,7 +23,6 @@
 #include "driver/time_step.h"
 #include "driver/warnings.h"
 #include "driver/whole_meshes.h"
-#include "mesh/start_states.h"
 #include "modal/reduced_system.h"
 #include "scene/factor_reader.h"
 #include "scene/soil_reader.h"
@@ -50,34 +48,17 @@ void share_fit(MPI_Comm comm, Soil& soil) {
   broadcast_array(comm, soil.fitted->misfits, 0);
 }
 
-/// Shares the place of the mat of a structure on soil, which rank 0 has. Collective.
-void share_foundation(MPI_Comm comm, MatPlace place, Structure& structure) {
-  if (!structure.soil) return;
-  share_fit(comm, *structure.soil);
-  std::vector<double> numbers{place.node[0],   place.node[1],   place.node[2],  place.centre[0],
-                              place.centre[1], place.centre[2], place.sides[0], place.sides[1]};
-  broadcast_array(comm, numbers, 0);
-  place = {{numbers[0], numbers[1], numbers[2]},
-           {numbers[3], numbers[4], numbers[5]},
-           {numbers[6], numbers[7]}};
-  lay_foundation(place, structure);
-}
-
 /// Shares the findings of rank 0 in the whole meshes. Collective.
 void share_findings(MPI_Comm comm, Scene& scene, WholeMeshes& whole,
                     const ContactsKnown& contacts_known, Model& model) {
+  broadcast_values(comm, [&](auto& stream) { pass_shared_findings(stream, whole, model); });
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
-    share_foundation(comm, whole.mats[s], scene.structures[s]);
+    Structure& structure = scene.structures[s];
+    if (!structure.soil) continue;
+    share_fit(comm, *structure.soil);
+    lay_foundation(whole.mats[s], structure);
   }
-  interactions::broadcast_interface(comm, model.interface);
-  if (contacts_known) {
-    broadcast_array(comm, whole.gap_shares);
-    contacts_known(model.interface, whole.gap_shares);
-  }
-  broadcast_probes(comm, model.probes);
-  broadcast_forces(comm, model.forces);
-  broadcast_loads(comm, model.loads);
-  broadcast_start_states(comm, model.starts);
+  if (contacts_known) contacts_known(model.interface, whole.gap_shares);
 }
 
 /// Rank 0 reads the meshes, finds the faces in contact, and sends every rank its part.
@@ -102,8 +83,7 @@ void share_meshes(MPI_Comm comm, Scene& scene, Profile& profile,
   }
 }
 
-/// Every rank reads its piece of meshes that were cut before; rank 0 reads the meshes of reduced
-/// structures as well, of which bases are made.
+/// Every rank reads its piece of meshes that were cut before.
 void read_meshes(MPI_Comm comm, Scene& scene, Profile& profile, const ContactsKnown& contacts_known,
                  WholeMeshes& whole, Model& model) {
   std::string identity;
@@ -125,16 +105,6 @@ void read_meshes(MPI_Comm comm, Scene& scene, Profile& profile, const ContactsKn
     model.meshes.push_back(
         join_parcel(comm, scene.structures[s].name, std::move(parcels[s]), whole.meshes[s]));
   }
-  on_rank0(comm, [&] {
-    std::vector<const Structure*> reduced;
-    for (const Structure& structure : scene.structures) {
-      if (structure.modal) reduced.push_back(&structure);
-    }
-    MeshReader reader(std::move(reduced), scene.mesh_time_limit);
-    for (std::size_t s = 0; s < scene.structures.size(); ++s) {
-      if (scene.structures[s].modal) read_whole_mesh(comm, scene, s, reader, whole, model);
-    }
-  });
 }
 
 /// Every rank gets its part of the meshes. Bases of reduced structures come from the whole ones.

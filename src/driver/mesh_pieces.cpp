@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* common_kind = "pounding mesh pieces 3";
+constexpr const char* common_kind = "pounding mesh pieces 4";
 constexpr const char* piece_kind = "pounding mesh piece 1";
 
 std::string common_path(const Scene& scene) {
@@ -44,12 +44,8 @@ std::string piece_path(const Scene& scene, int rank) {
   throw UserError("option -mesh_pieces " + scene.mesh_pieces + ": " + why);
 }
 
-/// A thing that meshes are made of, and its value.
-struct Ingredient {
-  std::string name;
-  std::string value;
-  bool operator==(const Ingredient&) const = default;
-};
+/// Things that meshes are made of, and the value of each.
+using Ingredients = std::vector<std::pair<std::string, std::string>>;
 
 fs::path folder_of_mesh(const Structure& structure) {
   return fs::absolute(structure.mesh).parent_path();
@@ -57,11 +53,10 @@ fs::path folder_of_mesh(const Structure& structure) {
 
 /// Everything on which the pieces depend but the number of ranks. `opened`: the files that Gmsh
 /// opened for each structure, by their paths from its mesh.
-std::vector<Ingredient> ingredients_of(const Scene& scene,
-                                       const std::vector<std::vector<std::string>>& opened) {
-  std::vector<Ingredient> list{
-      {"program", std::string(program_version()) + " (" + program_commit() + ")"}};
-  for (const auto& [name, value] : scene.mesh_options) list.push_back({"option " + name, value});
+Ingredients ingredients_of(const Scene& scene,
+                           const std::vector<std::vector<std::string>>& opened) {
+  Ingredients list{{"program", std::string(program_version()) + " (" + program_commit() + ")"}};
+  for (const auto& [name, value] : scene.mesh_options) list.emplace_back("option " + name, value);
   for (const Structure& structure : scene.structures) {
     list.push_back({"mesh of " + structure.name, digest_of_file(structure.mesh).sha256});
     if (structure.initial_state.empty()) continue;
@@ -80,35 +75,23 @@ std::vector<Ingredient> ingredients_of(const Scene& scene,
   return list;
 }
 
-/// The first names that one list has and the other has not, "mesh of b, option a and 3 more"; empty
-/// if none.
-std::string differences(const std::vector<Ingredient>& one, const std::vector<Ingredient>& other) {
-  constexpr std::size_t told = 4;
-  std::vector<std::string> names;
-  const auto add_missing = [&](const std::vector<Ingredient>& from,
-                               const std::vector<Ingredient>& in) {
-    for (const Ingredient& each : from) {
-      const bool missing = std::ranges::find(in, each) == in.end();
-      if (missing && std::ranges::find(names, each.name) == names.end()) names.push_back(each.name);
+/// The first thing that one list has and the other has not; empty if there is none.
+std::string difference(const Ingredients& one, const Ingredients& other) {
+  for (const auto& [from, in] : {std::pair(&one, &other), std::pair(&other, &one)}) {
+    for (const auto& each : *from) {
+      if (std::ranges::find(*in, each) == in->end()) return each.first;
     }
-  };
-  add_missing(one, other);
-  add_missing(other, one);
-  std::string text;
-  for (std::size_t n = 0; n < std::min(told, names.size()); ++n) {
-    text += (text.empty() ? "" : ", ") + names[n];
   }
-  if (names.size() > told) text += " and " + std::to_string(names.size() - told) + " more";
-  return text;
+  return "";
 }
 
 /// Identity of a cut: the sources of the pieces and the number of ranks.
-std::string identity_of(const std::vector<Ingredient>& ingredients, int ranks) {
+std::string identity_of(const Ingredients& ingredients, int ranks) {
   Hash hash;
   hash.add(static_cast<double>(ranks));
-  for (const Ingredient& each : ingredients) {
-    hash.add(each.name);
-    hash.add(each.value);
+  for (const auto& [name, value] : ingredients) {
+    hash.add(name);
+    hash.add(value);
   }
   return hash.text();
 }
@@ -120,8 +103,8 @@ void pass_head(Stream& stream, Head& head) {
   stream.list(head.opened,
               [&](auto& files) { stream.list(files, [&](auto& file) { stream(file); }); });
   stream.list(head.ingredients, [&](auto& each) {
-    stream(each.name);
-    stream(each.value);
+    stream(each.first);
+    stream(each.second);
   });
 }
 
@@ -129,41 +112,12 @@ struct Head {
   std::string kind = common_kind;
   std::int32_t ranks = 0;
   std::vector<std::vector<std::string>> opened;  ///< by Gmsh, of each structure: from its mesh
-  std::vector<Ingredient> ingredients;
+  Ingredients ingredients;
 };
 
-template <typename Stream, typename Marks>
-void pass_marks(Stream& stream, Marks& marks) {
-  stream.list(marks.rigid, [&](auto& part) {
-    stream(part.group);
-    stream(part.kind);
-    stream(part.components);
-    stream.array(part.nodes);
-    stream.list(part.tied, [&](auto& tied) {
-      stream(tied.node);
-      stream(tied.group);
-      stream.array(tied.carriers);
-    });
-  });
-  stream.array(marks.absorbing);
-  stream.array(marks.supported);
-  stream(marks.ground_support);
-}
-
-template <typename Stream, typename AnyInterface>
-void pass_interface(Stream& stream, AnyInterface& interface) {
-  stream.list(interface.constraints, [&](auto& row) {
-    stream(row.contact);
-    stream.array(row.terms);
-    stream(row.initial_gap);
-    stream(row.geometric_gap);
-    stream(row.facet_size);
-    stream(row.place);
-    stream(row.matched);
-    stream(row.friction);
-    stream(row.filler);
-  });
-  stream.list(interface.reports, [&](auto& report) {
+template <typename Stream, typename Reports>
+void pass_reports(Stream& stream, Reports& reports) {
+  stream.list(reports, [&](auto& report) {
     stream(report.contact);
     stream(report.pairs);
     stream(report.matched);
@@ -183,13 +137,6 @@ void pass_interface(Stream& stream, AnyInterface& interface) {
     stream(report.filler_area);
     stream(report.filler_thickness);
   });
-  auto& sliding = interface.sliding;
-  stream.array(sliding.nodes);
-  stream.array(sliding.facets);
-  stream.array(sliding.rows);
-  stream.array(sliding.candidates);
-  stream(interface.model_size);
-  stream.list(interface.warnings, [&](auto& warning) { stream(warning); });
 }
 
 template <typename Stream, typename Findings>
@@ -209,74 +156,28 @@ void pass_findings(Stream& stream, Findings& findings) {
     stream(unused.left_out);
     stream(unused.place);
   });
-}
-
-/// Groups of spread springs, by the numbers of their regions.
-struct SpreadRecord {
-  std::int32_t region = 0;
-  std::int64_t nodes = 0;
-  double extent = 0;
-};
-
-std::vector<SpreadRecord> records_of(const std::vector<SpreadReport>& spread,
-                                     const Structure& structure) {
-  std::vector<SpreadRecord> records;
-  for (const SpreadReport& report : spread) {
-    records.push_back({static_cast<std::int32_t>(report.region - structure.regions.data()),
-                       report.nodes, report.extent});
-  }
-  return records;
-}
-
-std::vector<SpreadReport> reports_of(const std::vector<SpreadRecord>& records,
-                                     const Structure& structure) {
-  std::vector<SpreadReport> spread;
-  for (const SpreadRecord& record : records) {
-    spread.push_back({&structure.regions.at(record.region), record.nodes, record.extent});
-  }
-  return spread;
+  stream.list(findings.divided, [&](auto& divided) {
+    stream(divided.group);
+    stream(divided.lines);
+    stream(divided.beams);
+    stream(divided.whole);
+  });
 }
 
 /// The one description of the common piece behind its head, for both directions.
 template <typename Stream, typename Whole, typename AnyModel>
-void pass_common(Stream& stream, Whole& whole, AnyModel& model,
-                 std::vector<std::vector<SpreadRecord>>& spread) {
+void pass_common(Stream& stream, Whole& whole, AnyModel& model) {
   for (auto& mesh : whole.meshes) pass_marks(stream, mesh);
-  stream.array(whole.mats);
-  stream.array(whole.gap_shares);
+  pass_shared_findings(stream, whole, model);
   for (auto& building : model.buildings) {
     pass_findings(stream, building.findings);
     stream(building.absorbing);
+    stream.array(building.spread);
   }
-  for (auto& records : spread) stream.array(records);
-  pass_interface(stream, model.interface);
-  stream.list(model.probes, [&](auto& probe) {
-    stream(probe.name);
-    stream(probe.structure);
-    stream.array(probe.nodes);
-    stream(probe.position);
-    stream(probe.snap_distance);
-    stream(probe.element_size);
-  });
-  stream.list(model.forces, [&](auto& force) {
-    stream(force.structure);
-    stream.array(force.elements);
-    stream.array(force.regions);
-    stream.array(force.nodes);
-  });
-  stream.list(model.loads, [&](auto& load) {
-    stream(load.structure);
-    stream.array(load.forces);
-    stream(load.nodes);
-    stream(load.extent);
-    stream(load.force);
-    stream(load.moment);
-  });
-  stream.list(model.starts, [&](auto& start) {
-    stream.array(start.displacement);
-    stream.array(start.velocity);
-  });
-  stream.list(model.warnings, [&](auto& warning) { stream(warning); });
+  pass_reports(stream, model.interface.reports);
+  for (auto* const warnings : {&model.interface.warnings, &model.warnings}) {
+    stream.list(*warnings, [&](auto& warning) { stream(warning); });
+  }
   stream(model.partition_imbalance);
   stream(model.partition_edge_cut);
 }
@@ -292,9 +193,20 @@ void write_sealed(const std::string& path, const std::function<void(ByteWriter&)
   seal_file(path);
 }
 
-/// Reads a sealed file. Throws std::runtime_error that begins with its path.
-void read_sealed(const std::string& path, const std::function<void(ByteReader&)>& read) {
-  check_seal(path);
+/// Reads a sealed file. Throws UserError where it is missing, damaged or none.
+void read_sealed(const Scene& scene, const std::string& path,
+                 const std::function<void(ByteReader&)>& read) {
+  if (std::error_code failure; !fs::is_regular_file(path, failure)) {
+    refuse_pieces(scene, path + " is not there; cut the meshes first (-write_mesh_pieces RANKS)");
+  }
+  const auto damaged = [&](const std::string& why) {
+    refuse_pieces(scene, why + "; cut the meshes anew (-write_mesh_pieces RANKS)");
+  };
+  try {
+    check_seal(path);
+  } catch (const std::runtime_error& error) {
+    damaged(error.what());
+  }
   std::ifstream file(path, std::ios::binary);
   file.seekg(seal_size);
   const ReadBytes bytes = [&](std::span<char> values) {
@@ -307,23 +219,7 @@ void read_sealed(const std::string& path, const std::function<void(ByteReader&)>
   } catch (const UserError&) {
     throw;
   } catch (const std::exception& error) {
-    throw std::runtime_error(path + ": no piece of a mesh, or a damaged one (" + error.what() +
-                             ")");
-  }
-}
-
-void read_sealed_of(const Scene& scene, const std::string& path,
-                    const std::function<void(ByteReader&)>& read) {
-  if (std::error_code failure; !fs::is_regular_file(path, failure)) {
-    refuse_pieces(scene, path + " is not there; cut the meshes first (-write_mesh_pieces RANKS)");
-  }
-  try {
-    read_sealed(path, read);
-  } catch (const UserError&) {
-    throw;
-  } catch (const std::runtime_error& error) {
-    refuse_pieces(scene,
-                  std::string(error.what()) + "; cut the meshes anew (-write_mesh_pieces RANKS)");
+    damaged(path + ": no piece of a mesh, or a damaged one (" + error.what() + ")");
   }
 }
 
@@ -341,15 +237,6 @@ std::size_t dofs_of(const GlobalMesh& mesh) {
   std::size_t dofs = 0;
   for (const std::uint8_t mask : mesh.free_components) dofs += component_count(mask);
   return dofs;
-}
-
-/// Account of one structure in pieces. `nodes`: of each piece.
-void print_pieces(const Structure& structure, const GlobalMesh& mesh,
-                  const std::vector<GlobalIndex>& nodes) {
-  const auto [least, most] = std::ranges::minmax(nodes);
-  std::printf("structure %s: %lld nodes, %zu dofs; %lld to %lld nodes in a piece\n",
-              structure.name.c_str(), static_cast<long long>(mesh.node_count()), dofs_of(mesh),
-              static_cast<long long>(least), static_cast<long long>(most));
 }
 
 /// Cuts the meshes and writes all files. Rank 0.
@@ -373,32 +260,20 @@ void cut_and_write(const Scene& scene, const WholeMeshes& whole, Model& model) {
   }
   fs::create_directories(scene.mesh_pieces);
   remove_pieces(scene);
-  std::vector<std::vector<GlobalIndex>> nodes(cutters.size());
   double bytes = 0;
   for (int rank = 0; rank < ranks; ++rank) {
-    const auto parcel_of = [&](std::size_t s) {
-      MeshParcel parcel = cutters[s]->parcel(rank);
-      nodes[s].push_back(parcel.sizes[0]);
-      return parcel;
-    };
-    bytes += write_mesh_piece(scene, rank, identity, parcel_of);
-  }
-  std::vector<std::vector<SpreadRecord>> spread;
-  for (std::size_t s = 0; s < whole.meshes.size(); ++s) {
-    spread.push_back(records_of(model.buildings[s].spread, scene.structures[s]));
+    bytes += write_mesh_piece(scene, rank, identity,
+                              [&](std::size_t s) { return cutters[s]->parcel(rank); });
   }
   const std::string fresh = common_path(scene) + ".new";
   write_sealed(fresh, [&](ByteWriter& stream) {
     pass_head(stream, head);
-    pass_common(stream, whole, std::as_const(model), spread);
+    pass_common(stream, whole, std::as_const(model));
   });
   std::error_code failure;
   fs::rename(fresh, common_path(scene), failure);
   if (failure) {
     throw UserError(common_path(scene) + ": could not be written (" + failure.message() + ")");
-  }
-  for (std::size_t s = 0; s < nodes.size(); ++s) {
-    print_pieces(scene.structures[s], whole.meshes[s], nodes[s]);
   }
   print(partition_facts(model));
   std::printf("pieces: %d in %s, %.4g MB, for runs on as many ranks with -mesh_pieces %s\n", ranks,
@@ -447,12 +322,12 @@ CommonPiece read_common_piece(const Scene& scene, int ranks, Model& model) {
   const std::size_t count = scene.structures.size();
   CommonPiece common;
   common.whole.meshes.resize(count);
-  read_sealed_of(scene, common_path(scene), [&](ByteReader& stream) {
+  read_sealed(scene, common_path(scene), [&](ByteReader& stream) {
     Head head;
     pass_head(stream, head);
     if (head.kind != common_kind) throw std::runtime_error("another format");
-    const std::vector<Ingredient> now = ingredients_of(scene, head.opened);
-    const std::string differ = differences(head.ingredients, now);
+    const Ingredients now = ingredients_of(scene, head.opened);
+    const std::string differ = difference(head.ingredients, now);
     if (!differ.empty()) {
       refuse_pieces(scene, "the pieces are of another model (" + differ +
                                "); cut the meshes anew (-write_mesh_pieces " +
@@ -466,18 +341,14 @@ CommonPiece read_common_piece(const Scene& scene, int ranks, Model& model) {
                                ")");
     }
     common.identity = identity_of(now, ranks);
-    std::vector<std::vector<SpreadRecord>> spread(count);
-    pass_common(stream, common.whole, model, spread);
-    for (std::size_t s = 0; s < count; ++s) {
-      model.buildings[s].spread = reports_of(spread[s], scene.structures[s]);
-    }
+    pass_common(stream, common.whole, model);
   });
   return common;
 }
 
 std::vector<MeshParcel> read_mesh_piece(const Scene& scene, int rank, const std::string& identity) {
   std::vector<MeshParcel> parcels(scene.structures.size());
-  read_sealed_of(scene, piece_path(scene, rank), [&](ByteReader& stream) {
+  read_sealed(scene, piece_path(scene, rank), [&](ByteReader& stream) {
     std::string kind;
     std::string cut;
     stream(kind);

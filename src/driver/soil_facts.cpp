@@ -123,7 +123,7 @@ Facts soil_facts(const Structure& structure) {
 Facts spread_facts(const Building& building) {
   Facts facts{Json::array()};
   for (const SpreadReport& group : building.spread) {
-    const Region& region = *group.region;
+    const Region& region = building.structure->regions[static_cast<std::size_t>(group.region)];
     const bool area = region.spread == Spread::area;
     const auto stiffness = sums_of(group, region.stiffness);
     const auto dashpot = sums_of(group, region.dashpot);

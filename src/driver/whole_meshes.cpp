@@ -9,6 +9,7 @@
 #include "driver/warnings.h"
 #include "interactions/pairing/absorbing_faces.h"
 #include "mesh/find_supported_nodes.h"
+#include "mesh/gmsh_reader.h"
 #include "mesh/sliding_order.h"
 #include "mesh/soil_node.h"
 #include "mesh/start_states.h"
@@ -31,8 +32,9 @@ void check_mesh(const Scene& scene, std::size_t s, const GlobalMesh& mesh, Model
   append(mesh_warnings(scene, structure, mesh, findings.connectivity), model.warnings);
 }
 
-}  // namespace
-
+/// Takes the mesh of a structure, the next of `reader`, lays its soil under the mat and finds its
+/// nodes on absorbing faces, spread springs and supports. `comm`: for lines of progress. Throws
+/// UserError. Rank 0.
 void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, MeshReader& reader,
                      WholeMeshes& whole, Model& model) {
   Structure& structure = scene.structures[s];
@@ -49,10 +51,12 @@ void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, MeshReader& rea
     lay_foundation(whole.mats[s], structure);
   }
   model.buildings[s].absorbing = interactions::find_absorbing_nodes(scene, structure, mesh);
-  model.buildings[s].spread = find_spread_springs(structure, mesh);
+  model.buildings[s].spread = find_spread_springs(mesh);
   order_sliding_bearings(structure, mesh);
   find_supported_nodes(scene, structure, mesh);
 }
+
+}  // namespace
 
 WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model) {
   const std::size_t count = scene.structures.size();

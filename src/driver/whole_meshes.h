@@ -8,7 +8,6 @@
 #include "driver/model.h"
 #include "interactions/pairing/find_interface.h"
 #include "mesh/global_mesh.h"
-#include "mesh/gmsh_reader.h"
 #include "mesh/partition.h"
 #include "scene/scene.h"
 
@@ -22,11 +21,40 @@ struct WholeMeshes {
   std::vector<interactions::GapShare> gap_shares;  ///< of the rows of the interface
 };
 
-/// Takes the mesh of a structure, the next of `reader`, lays its soil under the mat and finds its
-/// nodes on absorbing faces, spread springs and supports. `comm`: for lines of progress, rank 0
-/// alone calls. Serial. Throws UserError.
-void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, MeshReader& reader,
-                     WholeMeshes& whole, Model& model);
+/// All that ranks have to know of the whole meshes beside their parts, to a byte stream or from it
+/// (common/byte_stream.h).
+template <typename Stream, typename Whole, typename AnyModel>
+void pass_shared_findings(Stream& stream, Whole& whole, AnyModel& model) {
+  stream.array(whole.mats);
+  stream.array(whole.gap_shares);
+  interactions::pass_rows(stream, model.interface);
+  stream.list(model.probes, [&](auto& probe) {
+    stream(probe.name);
+    stream(probe.structure);
+    stream.array(probe.nodes);
+    stream(probe.position);
+    stream(probe.snap_distance);
+    stream(probe.element_size);
+  });
+  stream.list(model.forces, [&](auto& force) {
+    stream(force.structure);
+    stream.array(force.elements);
+    stream.array(force.regions);
+    stream.array(force.nodes);
+  });
+  stream.list(model.loads, [&](auto& load) {
+    stream(load.structure);
+    stream.array(load.forces);
+    stream(load.nodes);
+    stream(load.extent);
+    stream(load.force);
+    stream(load.moment);
+  });
+  stream.list(model.starts, [&](auto& start) {
+    stream.array(start.displacement);
+    stream.array(start.velocity);
+  });
+}
 
 /// The meshes of all structures, checked, with contacts, probes and forces found in them. Throws
 /// UserError for faults of meshes. Rank 0.

@@ -7,7 +7,6 @@
 
 #include "common/error.h"
 #include "common/matrix3.h"
-#include "common/parallel.h"
 #include "mesh/bounding_box.h"
 
 namespace pounding {
@@ -167,18 +166,6 @@ std::vector<ResolvedForce> resolve_forces(const Scene& scene, std::span<const Gl
     resolved.nodes.assign(nodes.begin(), nodes.end());
   }
   return forces;
-}
-
-void broadcast_forces(MPI_Comm comm, std::vector<ResolvedForce>& forces) {
-  int count = static_cast<int>(forces.size());
-  MPI_Bcast(&count, 1, MPI_INT, 0, comm);
-  forces.resize(count);
-  for (ResolvedForce& force : forces) {
-    MPI_Bcast(&force.structure, 1, MPI_INT, 0, comm);
-    broadcast_array(comm, force.elements, 0);
-    broadcast_array(comm, force.regions, 0);
-    broadcast_array(comm, force.nodes, 0);
-  }
 }
 
 }  // namespace pounding

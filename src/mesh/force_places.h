@@ -4,8 +4,6 @@
 #include <span>
 #include <vector>
 
-#include <mpi.h>
-
 #include "mesh/global_mesh.h"
 #include "scene/scene.h"
 
@@ -29,8 +27,5 @@ bool counts(const ForceItem& force, std::uint8_t free_components, const Vector3&
 /// Finds the elements of every item. Throws UserError for a point far from the group's elements and
 /// for a plane that misses them.
 std::vector<ResolvedForce> resolve_forces(const Scene& scene, std::span<const GlobalMesh> meshes);
-
-/// Brings the elements that rank 0 found to every rank. Collective.
-void broadcast_forces(MPI_Comm comm, std::vector<ResolvedForce>& forces);
 
 }  // namespace pounding

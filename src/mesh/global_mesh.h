@@ -77,6 +77,25 @@ struct NodeMarks {
   int ground_support = -1;
 };
 
+/// Marks, to a byte stream or from it (common/byte_stream.h).
+template <typename Stream, typename Marks>
+void pass_marks(Stream& stream, Marks& marks) {
+  stream.list(marks.rigid, [&](auto& part) {
+    stream(part.group);
+    stream(part.kind);
+    stream(part.components);
+    stream.array(part.nodes);
+    stream.list(part.tied, [&](auto& tied) {
+      stream(tied.node);
+      stream(tied.group);
+      stream.array(tied.carriers);
+    });
+  });
+  stream.array(marks.absorbing);
+  stream.array(marks.supported);
+  stream(marks.ground_support);
+}
+
 struct GlobalMesh : NodeMarks {
   std::vector<double> coordinates;      ///< shape (n_nodes, 3) [m]
   std::vector<std::int64_t> node_tags;  ///< as in the file

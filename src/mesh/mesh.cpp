@@ -66,131 +66,50 @@ Mesh unpack(MPI_Comm comm, const std::string& name, MeshParcel&& parcel) {
   return mesh;
 }
 
-/// Groups that move together, all in a few arrays.
-struct RigidParcel {
-  std::vector<char> names;          ///< zero-terminated
-  std::vector<std::uint8_t> kinds;  ///< kind and components of each
-  std::vector<GlobalIndex> counts;  ///< nodes of each
-  std::vector<GlobalIndex> nodes;
-  std::vector<GlobalIndex> ties;      ///< of each: tied nodes; of these: node, group, carriers
-  std::vector<GlobalIndex> carriers;  ///< their nodes
-  std::vector<double> blocks;         ///< theirs
-
-  explicit RigidParcel(const std::vector<RigidNodes>& rigid) {
-    for (const RigidNodes& part : rigid) {
-      names.insert(names.end(), part.group.begin(), part.group.end());
-      names.push_back('\0');
-      kinds.push_back(static_cast<std::uint8_t>(part.kind));
-      kinds.push_back(part.components);
-      counts.push_back(static_cast<GlobalIndex>(part.nodes.size()));
-      nodes.insert(nodes.end(), part.nodes.begin(), part.nodes.end());
-      ties.push_back(static_cast<GlobalIndex>(part.tied.size()));
-      for (const TiedNode& tied : part.tied) add(tied);
-    }
-  }
-
-  void add(const TiedNode& tied) {
-    ties.insert(ties.end(),
-                {tied.node, tied.group, static_cast<GlobalIndex>(tied.carriers.size())});
-    for (const Carrier& carrier : tied.carriers) {
-      carriers.push_back(carrier.node);
-      blocks.insert(blocks.end(), carrier.block.begin(), carrier.block.end());
-    }
-  }
-
-  template <typename Function>
-  void for_each_array(Function&& function) {
-    function(names);
-    function(kinds);
-    function(counts);
-    function(nodes);
-    function(ties);
-    function(carriers);
-    function(blocks);
-  }
-};
-
-/// Reads the tied nodes of one part after the other.
-class TiedReader {
- public:
-  explicit TiedReader(const RigidParcel& parcel)
-      : parcel_(parcel), place_(parcel.ties.begin()), first_(0) {}
-
-  std::vector<TiedNode> next() {
-    std::vector<TiedNode> found(static_cast<std::size_t>(*place_++));
-    for (TiedNode& tied : found) {
-      tied.node = *place_++;
-      tied.group = static_cast<int>(*place_++);
-      tied.carriers.resize(static_cast<std::size_t>(*place_++));
-      for (Carrier& carrier : tied.carriers) {
-        carrier.node = parcel_.carriers[first_];
-        std::copy_n(&parcel_.blocks[carrier.block.size() * first_++], carrier.block.size(),
-                    carrier.block.begin());
-      }
-    }
-    return found;
-  }
-
- private:
-  const RigidParcel& parcel_;
-  std::vector<GlobalIndex>::const_iterator place_;
-  std::size_t first_;  ///< carrier that is next
-};
-
-/// Sends every rank the nodes that move together.
-void share_rigid_parts(MPI_Comm comm, const std::vector<RigidNodes>& rigid, Mesh& mesh) {
-  RigidParcel parcel(rigid);
-  parcel.for_each_array([&](auto& array) { broadcast_array(comm, array, 0); });
+/// The nodes of this rank that move together; parts of others keep their counts alone.
+void take_rigid_parts(std::vector<RigidNodes>& rigid, Mesh& mesh) {
   mesh.rigid_of.assign(mesh.file_node.size(), -1);
   std::unordered_map<GlobalIndex, LocalIndex> local;
-  for (LocalIndex n = 0; !parcel.counts.empty() && n < mesh.node_count(); ++n) {
+  for (LocalIndex n = 0; !rigid.empty() && n < mesh.node_count(); ++n) {
     local[mesh.file_node[n]] = n;
   }
-  const char* name = parcel.names.data();
-  auto node = parcel.nodes.begin();
-  TiedReader ties(parcel);
-  for (std::size_t i = 0; i < parcel.counts.size(); ++i) {
+  for (std::size_t i = 0; i < rigid.size(); ++i) {
     RigidPart& part = mesh.rigid.emplace_back();
-    part.group = name;
-    name += part.group.size() + 1;
-    part.kind = static_cast<RigidKind>(parcel.kinds[2 * i]);
-    part.components = parcel.kinds[2 * i + 1];
-    part.global_nodes = parcel.counts[i];
-    for (const auto end = node + parcel.counts[i]; node != end; ++node) {
-      const auto found = local.find(*node);
+    part.group = rigid[i].group;
+    part.kind = rigid[i].kind;
+    part.components = rigid[i].components;
+    part.global_nodes = static_cast<GlobalIndex>(rigid[i].nodes.size());
+    for (const GlobalIndex node : rigid[i].nodes) {
+      const auto found = local.find(node);
       if (found == local.end()) continue;
       mesh.rigid_of[found->second] = static_cast<int>(i);
       if (found->second < mesh.owned_nodes) part.nodes.push_back(found->second);
     }
     std::ranges::sort(part.nodes);
-    part.tied = ties.next();
-    if (part.nodes.empty()) part.tied.clear();
-    if (!part.nodes.empty() && static_cast<GlobalIndex>(part.nodes.size()) != part.global_nodes) {
+    if (part.nodes.empty()) continue;
+    part.tied = std::move(rigid[i].tied);
+    if (static_cast<GlobalIndex>(part.nodes.size()) != part.global_nodes) {
       throw std::logic_error("rigid group " + part.group + " lives on several ranks");
     }
   }
 }
 
-/// Sends every rank the nodes of absorbing faces; each keeps those that it owns.
-void share_absorbing_nodes(MPI_Comm comm, std::vector<AbsorbingNode> nodes, Mesh& mesh) {
-  broadcast_array(comm, nodes, 0);
+/// Sends every rank the marks of nodes; each keeps those of absorbing faces that it owns and those
+/// on supports that it has, ghosts as well.
+void share_marks(MPI_Comm comm, const NodeMarks& of_rank0, Mesh& mesh) {
+  NodeMarks marks = rank_of(comm) == 0 ? of_rank0 : NodeMarks{};
+  broadcast_values(comm, [&](auto& stream) { pass_marks(stream, marks); });
+  take_rigid_parts(marks.rigid, mesh);
   std::ranges::copy_if(
-      nodes, std::back_inserter(mesh.absorbing),
+      marks.absorbing, std::back_inserter(mesh.absorbing),
       [&](const AbsorbingNode& absorbing) { return mesh.owned_node(absorbing.node) >= 0; });
-}
-
-/// Sends every rank the nodes on supports; each keeps those that it has, ghosts as well.
-void share_supported_nodes(MPI_Comm comm, const NodeMarks& marks, Mesh& mesh) {
   mesh.ground_support = marks.ground_support;
-  MPI_Bcast(&mesh.ground_support, 1, MPI_INT, 0, comm);
-  std::vector<SupportedNode> nodes = marks.supported;
-  broadcast_array(comm, nodes, 0);
-  if (nodes.empty()) return;
+  if (marks.supported.empty()) return;
   std::vector<GlobalIndex> local = mesh.file_node;
   std::ranges::sort(local);
-  std::ranges::copy_if(nodes, std::back_inserter(mesh.supported), [&](const SupportedNode& node) {
-    return std::ranges::binary_search(local, node.node);
-  });
+  std::ranges::copy_if(
+      marks.supported, std::back_inserter(mesh.supported),
+      [&](const SupportedNode& node) { return std::ranges::binary_search(local, node.node); });
 }
 
 }  // namespace
@@ -216,9 +135,7 @@ bool is_in_rigid_body(const Mesh& mesh, const ElementBlock& block, std::size_t e
 Mesh join_parcel(MPI_Comm comm, const std::string& name, MeshParcel&& parcel,
                  const NodeMarks& marks) {
   Mesh mesh = unpack(comm, name, std::move(parcel));
-  share_rigid_parts(comm, marks.rigid, mesh);
-  share_absorbing_nodes(comm, marks.absorbing, mesh);
-  share_supported_nodes(comm, marks, mesh);
+  share_marks(comm, marks, mesh);
   return mesh;
 }
 

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "common/error.h"
-#include "common/parallel.h"
 #include "mesh/bounding_box.h"
 #include "mesh/element_sizes.h"
 #include "mesh/group_names.h"
@@ -102,18 +101,6 @@ std::vector<ResolvedProbe> resolve_probes(const Scene& scene, std::span<const Gl
     }
   }
   return probes;
-}
-
-void broadcast_probes(MPI_Comm comm, std::vector<ResolvedProbe>& probes) {
-  int count = static_cast<int>(probes.size());
-  MPI_Bcast(&count, 1, MPI_INT, 0, comm);
-  probes.resize(count);
-  for (ResolvedProbe& probe : probes) {
-    broadcast(comm, probe.name);
-    MPI_Bcast(&probe.structure, 1, MPI_INT, 0, comm);
-    broadcast_array(comm, probe.nodes);
-    MPI_Bcast(probe.position.data(), 3, MPI_DOUBLE, 0, comm);
-  }
 }
 
 }  // namespace pounding

@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <mpi.h>
-
 #include "mesh/global_mesh.h"
 #include "scene/scene.h"
 
@@ -25,8 +23,5 @@ struct ResolvedProbe {
 /// one per node, "name.1", "name.2", ... Serial, rank 0. Throws UserError (unknown group, a point
 /// farther from its node than 5 % of the extent of the mesh, or than the largest element there).
 std::vector<ResolvedProbe> resolve_probes(const Scene& scene, std::span<const GlobalMesh> meshes);
-
-/// The probes of rank 0 on every rank. Collective.
-void broadcast_probes(MPI_Comm comm, std::vector<ResolvedProbe>& probes);
 
 }  // namespace pounding

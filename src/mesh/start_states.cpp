@@ -11,7 +11,6 @@
 #include "common/error.h"
 #include "common/finite_file.h"
 #include "common/matrix3.h"
-#include "common/parallel.h"
 #include "common/place_text.h"
 #include "elements/element.h"
 #include "mesh/bounding_box.h"
@@ -188,16 +187,6 @@ std::vector<NodalStart> find_start_states(const Scene& scene, std::span<const Gl
     }
   }
   return starts;
-}
-
-void broadcast_start_states(MPI_Comm comm, std::vector<NodalStart>& starts) {
-  int count = static_cast<int>(starts.size());
-  MPI_Bcast(&count, 1, MPI_INT, 0, comm);
-  starts.resize(count);
-  for (NodalStart& start : starts) {
-    broadcast_array(comm, start.displacement, 0);
-    broadcast_array(comm, start.velocity, 0);
-  }
 }
 
 }  // namespace pounding

@@ -3,8 +3,6 @@
 #include <span>
 #include <vector>
 
-#include <mpi.h>
-
 #include "mesh/global_mesh.h"
 #include "mesh/nodal_load.h"
 #include "scene/scene.h"
@@ -17,8 +15,5 @@ namespace pounding {
 /// one that is clamped in a component that is to move, a displacement beside a static start.
 /// Serial, rank 0.
 std::vector<NodalStart> find_start_states(const Scene& scene, std::span<const GlobalMesh> meshes);
-
-/// Brings the starts that rank 0 found to every rank. Collective.
-void broadcast_start_states(MPI_Comm comm, std::vector<NodalStart>& starts);
 
 }  // namespace pounding

@@ -169,7 +169,7 @@ class SceneReader {
     return list;
   }
 
-  /// Meshes are cut into a folder, and reduced structures are not cut.
+  /// Meshes are cut into a folder, for structures at full order.
   void check_pieces() const {
     if (scene_.write_mesh_pieces > 0 && scene_.mesh_pieces.empty()) {
       options_.refuse("write_mesh_pieces", {}, "give the folder for them (-mesh_pieces)");
@@ -178,9 +178,10 @@ class SceneReader {
       options_.refuse("write_mesh_pieces", {}, "it writes; not with -dry_run");
     }
     if (!scene_.mesh_pieces.empty() &&
-        std::ranges::all_of(scene_.structures,
+        std::ranges::any_of(scene_.structures,
                             [](const Structure& s) { return s.modal.has_value(); })) {
-      options_.refuse("mesh_pieces", {}, "every structure is reduced, whose meshes are not cut");
+      options_.refuse("mesh_pieces", {},
+                      "a structure is reduced, and its basis needs the whole mesh");
     }
   }
 

@@ -108,7 +108,7 @@ void distribute(MPI_Comm comm, const ModelRequest& request, SteppedModel& model)
     partition =
         partition_meshes(meshes, interactions::facing_nodes(model.interface), size_of(comm));
   });
-  interactions::broadcast_interface(comm, model.interface);
+  broadcast_values(comm, [&](auto& stream) { interactions::pass_rows(stream, model.interface); });
   for (std::size_t s = 0; s < meshes.size(); ++s) {
     model.meshes.push_back(distribute_mesh(comm, "s" + std::to_string(s + 1), meshes[s], partition,
                                            static_cast<int>(s)));

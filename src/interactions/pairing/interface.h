@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <mpi.h>
-
 #include "interactions/pairing/sliding_faces.h"
 #include "mesh/global_mesh.h"
 #include "mesh/node_links.h"
@@ -106,7 +104,26 @@ bool has_fillers(const Interface& interface);
 /// Facing nodes, for the partition.
 std::vector<NodeLink> facing_nodes(const Interface& interface);
 
-/// The interface of rank 0 on every rank. Collective.
-void broadcast_interface(MPI_Comm comm, Interface& interface);
+/// Rows of an interface, to a byte stream or from it (common/byte_stream.h).
+template <typename Stream, typename AnyInterface>
+void pass_rows(Stream& stream, AnyInterface& interface) {
+  stream.list(interface.constraints, [&](auto& row) {
+    stream(row.contact);
+    stream.array(row.terms);
+    stream(row.initial_gap);
+    stream(row.geometric_gap);
+    stream(row.facet_size);
+    stream(row.place);
+    stream(row.matched);
+    stream(row.friction);
+    stream(row.filler);
+  });
+  auto& sliding = interface.sliding;
+  stream.array(sliding.nodes);
+  stream.array(sliding.facets);
+  stream.array(sliding.rows);
+  stream.array(sliding.candidates);
+  stream(interface.model_size);
+}
 
 }  // namespace pounding::interactions

@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <vector>
 
-#include <mpi.h>
-
 #include "common/matrix3.h"
 #include "mesh/global_mesh.h"
 
@@ -43,8 +41,5 @@ struct SlidingFaces {
 
   bool empty() const { return rows.empty(); }
 };
-
-/// The faces of rank 0 on every rank. Collective.
-void broadcast_sliding_faces(MPI_Comm comm, SlidingFaces& faces);
 
 }  // namespace pounding::interactions
