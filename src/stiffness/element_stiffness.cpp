@@ -1,6 +1,7 @@
 #include "stiffness/element_stiffness.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include <mpi.h>
 
@@ -14,53 +15,42 @@ namespace {
 
 constexpr LocalIndex dofs_per_node = 6;
 
-/// Counts who adds to a dof, to find the last one.
+/// Counts who adds to a dof.
 class TouchCounter {
  public:
-  explicit TouchCounter(LocalIndex owned_dofs) : left_(static_cast<std::size_t>(owned_dofs), 0) {
-    began_ = left_;
-  }
+  explicit TouchCounter(LocalIndex owned_dofs)
+      : touches_(static_cast<std::size_t>(owned_dofs), 0) {}
 
-  void expect(const std::vector<LocalIndex>& dofs) {
-    for (const LocalIndex dof : dofs) ++left_[dof];
+  void add(const std::vector<LocalIndex>& dofs) {
+    for (const LocalIndex dof : dofs) ++touches_[dof];
   }
-  void happen(const std::vector<LocalIndex>& dofs) {
-    for (const LocalIndex dof : dofs) {
-      --left_[dof];
-      began_[dof] = 1;
-    }
+  /// Nobody but one who adds to `own` adds to a range.
+  bool alone(DofRange range, const std::vector<LocalIndex>& own) const {
+    const auto inside = std::ranges::count_if(
+        own, [range](LocalIndex dof) { return dof >= range.begin && dof < range.end; });
+    return std::accumulate(touches_.begin() + range.begin, touches_.begin() + range.end,
+                           std::ptrdiff_t{0}) == inside;
   }
-  bool untouched(DofRange range) const { return all_are(began_, range, 0); }
-  /// Nobody is left to add to them.
-  bool done(DofRange range) const { return all_are(left_, range, 0); }
 
  private:
-  static bool all_are(const std::vector<int>& counts, DofRange range, int value) {
-    return std::all_of(counts.begin() + range.begin, counts.begin() + range.end,
-                       [value](int count) { return count == value; });
-  }
-
-  std::vector<int> left_;
-  std::vector<int> began_;
+  std::vector<int> touches_;
 };
 
-/// Chains that nothing adds to after them hand over their forces.
-void decide_outcomes(const std::vector<std::unique_ptr<ElementLines>>& all,
-                     const ProductForms& forms, TouchCounter& counter,
+/// Chains to which nothing else adds hand over their forces.
+void hand_over_alone(const std::vector<std::unique_ptr<ElementLines>>& all,
+                     const ProductForms& forms, const TouchCounter& counter,
                      std::vector<char>& handed_over) {
   for (const auto& lines : all) {
-    std::vector<ElementLines::Outcome> outcomes;
+    std::vector<char> alone;
     for (std::size_t c = 0; c < lines->chain_count(); ++c) {
       const DofRange range = lines->chain_range(c);
-      const bool alone = counter.untouched(range);
-      counter.happen(lines->chain_dofs(c));
-      auto& outcome = outcomes.emplace_back(ElementLines::Outcome::add);
-      if (forms.hand_over && (alone || forms.completed) && !range.empty() && counter.done(range)) {
-        outcome = alone ? ElementLines::Outcome::hand_over : ElementLines::Outcome::complete;
-        std::fill(handed_over.begin() + range.begin, handed_over.begin() + range.end, 1);
-      }
+      const bool hands_over =
+          forms.hand_over && !range.empty() && counter.alone(range, lines->chain_dofs(c));
+      alone.push_back(hands_over ? 1 : 0);
+      if (alone.back() == 0) continue;
+      std::fill(handed_over.begin() + range.begin, handed_over.begin() + range.end, 1);
     }
-    lines->set_outcomes(outcomes);
+    lines->set_handed_over(alone);
   }
 }
 
@@ -114,21 +104,19 @@ ElementStiffness::~ElementStiffness() = default;
 void ElementStiffness::plan(const ProductForms& forms) {
   std::vector<LocalIndex> early = inner_.dofs;
   early.insert(early.end(), sparse_->owned_rows().begin(), sparse_->owned_rows().end());
-  std::vector<LocalIndex> late = outer_.dofs;
-  late.insert(late.end(), sparse_->ghost_rows().begin(), sparse_->ghost_rows().end());
   TouchCounter counter(owned_dofs_);
-  counter.expect(early);
-  counter.expect(late);
+  counter.add(early);
+  counter.add(outer_.dofs);
+  counter.add(sparse_->ghost_rows());
   for (const Part* part : {&inner_, &outer_}) {
     for (const auto& lines : part->lines) {
-      for (std::size_t c = 0; c < lines->chain_count(); ++c) counter.expect(lines->chain_dofs(c));
+      for (std::size_t c = 0; c < lines->chain_count(); ++c) counter.add(lines->chain_dofs(c));
     }
   }
   std::vector<char> handed_over(owned_dofs_, 0);
-  counter.happen(early);
-  decide_outcomes(inner_.lines, forms, counter, handed_over);
-  counter.happen(late);
-  decide_outcomes(outer_.lines, forms, counter, handed_over);
+  for (const Part* part : {&inner_, &outer_}) {
+    hand_over_alone(part->lines, forms, counter, handed_over);
+  }
   for (LocalIndex dof = 0; dof < owned_dofs_; ++dof) {
     if (handed_over[dof] == 0) append(late_ranges_, dof);
   }

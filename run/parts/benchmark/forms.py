@@ -23,7 +23,6 @@ LABELS = {
     "beams": "beams from their local stiffnesses",
     "best_axis": "rows along the best axis",
     "hand_over": "forces handed over chain by chain",
-    "completed": "of chains that others add to as well",
     "best_thickness": "pairs along the better axis",
     "both_sides": "bricks on both sides of a pair in one step",
     "lent_lines": "lines lent to a pair that is alone",
@@ -36,7 +35,7 @@ LABELS = {
     "update_vectors": "update of nodes in vectors",
     "nothing": "(nothing left out)",
 }
-OF_ROWS = ["best_axis", "hand_over", "completed"]
+OF_ROWS = ["best_axis", "hand_over"]
 OF_BRICKS = ["bricks", *OF_ROWS, "best_thickness", "both_sides", "lent_lines", "row_pairs", "rows",
              "part_cores", "set_behind", "set_joins"]
 OF_SHELLS = ["rectangles", *OF_ROWS, "shell_vectors"]

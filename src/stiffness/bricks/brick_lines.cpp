@@ -45,7 +45,7 @@ BrickLines::BrickLines(const DofPlaces& places, const Matrix3& axes,
   }
   schedule_ = schedule_lines(pairs, chain_forms, line_stride_, forms);
   for (const ChainStore& store : schedule_.stores) {
-    stores_.push_back({store, Outcome::add});
+    stores_.push_back({store, false});
   }
   for (const PairSplit& split : schedule_.splits) {
     pair_loads_.push_back(split.load ? plan_load(split.place) : PairLoad{});
@@ -213,27 +213,19 @@ void BrickLines::collect_forces(const Store& store, double* range) const {
 }
 
 void BrickLines::store_chain(const Store& store, double* q, ForceReceiver& receiver) const {
-  const auto& [place, outcome] = store;
+  const auto& [place, handed_over] = store;
   const BrickChain& chain = chains_.at(place.chain);
   if (rotated_) {
     rotate_vectors(axes_, true, chain.length, line_stride_,
                    buffer_.data() + place.start + 3 * line_stride_);
   }
   add_ends(store, q);
-  if (outcome == Outcome::add) {
+  if (!handed_over) {
     add_core(store, q);
     return;
   }
-  double* const range = range_.data();
-  const LocalIndex size = chain.range.end - chain.range.begin;
-  if (outcome == Outcome::complete) std::fill_n(range, size, 0.0);
-  collect_forces(store, range);
-  if (outcome == Outcome::complete) {
-    double* const already = q + chain.range.begin;
-    for (LocalIndex i = 0; i < size; ++i) range[i] += already[i];
-    std::fill_n(already, size, 0.0);
-  }
-  if (size > 0) receiver.receive(chain.range.begin, chain.range.end, range);
+  collect_forces(store, range_.data());
+  receiver.receive(chain.range.begin, chain.range.end, range_.data());
 }
 
 void BrickLines::apply(const StiffnessArgument& w, const double* ghosts, double* q,
@@ -267,8 +259,8 @@ DofRange BrickLines::chain_range(std::size_t place) const {
   return chains_.at(stores_[place].place.chain).range;
 }
 
-void BrickLines::set_outcomes(const std::vector<Outcome>& outcomes) {
-  for (std::size_t s = 0; s < stores_.size(); ++s) stores_[s].outcome = outcomes[s];
+void BrickLines::set_handed_over(const std::vector<char>& handed_over) {
+  for (std::size_t s = 0; s < stores_.size(); ++s) stores_[s].handed_over = handed_over[s] != 0;
   std::size_t begin = 0;
   for (const LineStep& step : schedule_.steps) {
     sort_stores(begin, step.stores_end);
@@ -293,7 +285,7 @@ void BrickLines::make_room() {
   LocalIndex handed_over = 0;
   for (const Store& store : stores_) {
     const DofRange range = chains_.at(store.place.chain).range;
-    LocalIndex& longest = store.outcome == Outcome::add ? added : handed_over;
+    LocalIndex& longest = store.handed_over ? handed_over : added;
     longest = std::max(longest, range.end - range.begin);
   }
   if (added_.size() < static_cast<std::size_t>(added)) added_.resize(added, 0.0);

@@ -40,14 +40,14 @@ class BrickLines final : public ElementLines {
   std::size_t chain_count() const override { return stores_.size(); }
   std::vector<LocalIndex> chain_dofs(std::size_t place) const override;
   DofRange chain_range(std::size_t place) const override;
-  void set_outcomes(const std::vector<Outcome>& outcomes) override;
+  void set_handed_over(const std::vector<char>& handed_over) override;
   void apply(const StiffnessArgument& w, const double* ghosts, double* q,
              ForceReceiver& receiver) const override;
 
  private:
   struct Store {
     ChainStore place;
-    Outcome outcome = Outcome::add;
+    bool handed_over = false;
   };
 
   struct PairEnd {

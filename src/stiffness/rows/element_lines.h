@@ -14,13 +14,6 @@ class ElementLines {
  public:
   virtual ~ElementLines() = default;
 
-  /// Outcome of the forces of a chain.
-  enum class Outcome : char {
-    add,        ///< to q
-    complete,   ///< with what q holds already they are final: handed over, q is zero again
-    hand_over,  ///< final as they are: q is left alone
-  };
-
   /// Chains in the order in which `apply` is done with them.
   virtual std::size_t chain_count() const = 0;
   /// Owned dofs of a chain to which the elements add.
@@ -28,10 +21,12 @@ class ElementLines {
   /// All dofs of the chain's nodes, those included to which the elements do not add, if they are
   /// owned and follow each other; else an empty range.
   virtual DofRange chain_range(std::size_t place) const = 0;
-  /// Decides for every chain; other outcomes than `add` for those with a range only. Call once.
-  virtual void set_outcomes(const std::vector<Outcome>& outcomes) = 0;
+  /// Decides for every chain whether its forces, final as they are, are handed over, not added to q;
+  /// only for those with a range. Call once.
+  virtual void set_handed_over(const std::vector<char>& handed_over) = 0;
 
-  /// q += K w on the owned dofs that these elements touch, but see Outcome. Allocates nothing.
+  /// q += K w on the owned dofs that these elements touch, but for forces that are handed over.
+  /// Allocates nothing.
   virtual void apply(const StiffnessArgument& w, const double* ghosts, double* q,
                      ForceReceiver& receiver) const = 0;
 };

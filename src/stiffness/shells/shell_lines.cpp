@@ -147,7 +147,7 @@ void ShellLines::store_chain(const Transfer& transfer, double* q, ForceReceiver&
   double* const line = buffer_.data() + transfer.start + components * line_stride_;
   rotate(true, chain.length, line);
   const SixArrays from = arrays(line);
-  if (transfer.outcome == Outcome::add) {
+  if (!transfer.handed_over) {
     for (int p = 0; p < chain.length; ++p) {
       for (int c = 0; c < components; ++c) {
         const LocalIndex dof = place(chain, p, c);
@@ -158,12 +158,6 @@ void ShellLines::store_chain(const Transfer& transfer, double* q, ForceReceiver&
   }
   const auto [begin, end] = chain.range;
   store_shell_nodes(from, places_.data() + chain.begin, chain.length, begin, range_.data());
-  if (transfer.outcome == Outcome::complete) {
-    for (LocalIndex dof = begin; dof < end; ++dof) {
-      range_[dof - begin] += q[dof];
-      q[dof] = 0;
-    }
-  }
   receiver.receive(begin, end, range_.data());
 }
 
@@ -199,9 +193,9 @@ DofRange ShellLines::chain_range(std::size_t place_in_order) const {
   return chain_of(stores_[place_in_order].chain).range;
 }
 
-void ShellLines::set_outcomes(const std::vector<Outcome>& outcomes) {
+void ShellLines::set_handed_over(const std::vector<char>& handed_over) {
   for (std::size_t s = 0; s < stores_.size(); ++s) {
-    stores_[s].outcome = outcomes[s];
+    stores_[s].handed_over = handed_over[s] != 0;
     const DofRange range = chain_of(stores_[s].chain).range;
     const std::size_t size = range.end - range.begin;
     if (range_.size() < size) range_.resize(size);

@@ -36,7 +36,7 @@ class ShellLines final : public ElementLines {
   std::size_t chain_count() const override { return stores_.size(); }
   std::vector<LocalIndex> chain_dofs(std::size_t place) const override;
   DofRange chain_range(std::size_t place) const override;
-  void set_outcomes(const std::vector<Outcome>& outcomes) override;
+  void set_handed_over(const std::vector<char>& handed_over) override;
   void apply(const StiffnessArgument& w, const double* ghosts, double* q,
              ForceReceiver& receiver) const override;
 
@@ -50,7 +50,7 @@ class ShellLines final : public ElementLines {
   struct Transfer {
     int chain = 0;
     int start = 0;  ///< of the chain's line, into buffer_
-    Outcome outcome = Outcome::add;
+    bool handed_over = false;
   };
   /// The entries of loads_ and stores_ up to the given ends come before it, after it.
   struct Run {
