@@ -30,11 +30,13 @@ double norm(Vec x) {
 
 }  // namespace
 
-Lanczos::Lanczos(const LinearSystem& system, const Mesh& mesh, const SymmetricOperator& scaled)
-    : system_(system), mesh_(mesh), scaled_(scaled) {
-  POUNDING_PETSC(MatCreateVecs(scaled.matrix(), current_.out(), previous_.out()));
-  POUNDING_PETSC(VecDuplicate(current_.get(), next_.out()));
-}
+Lanczos::Lanczos(const LinearSystem& system, const Mesh& mesh, SymmetricProduct product)
+    : system_(system),
+      mesh_(mesh),
+      product_(std::move(product)),
+      previous_(create_vector(system)),
+      current_(create_vector(system)),
+      next_(create_vector(system)) {}
 
 void Lanczos::begin() {
   double* values = nullptr;
@@ -53,7 +55,7 @@ void Lanczos::begin() {
 }
 
 void Lanczos::advance(double& diagonal, double& beside) {
-  scaled_.apply(current_.get(), next_.get());
+  product_(current_.get(), next_.get());
   POUNDING_PETSC(VecAXPY(next_.get(), -beta_, previous_.get()));
   POUNDING_PETSC(VecDot(current_.get(), next_.get(), &diagonal));
   POUNDING_PETSC(VecAXPY(next_.get(), -diagonal, current_.get()));

@@ -5,10 +5,12 @@
 
 #include "common/petsc.h"
 #include "mesh/mesh.h"
-#include "modal/symmetric_operator.h"
 #include "system/linear_system.h"
 
 namespace pounding {
+
+/// y = A x of vectors x and y over the owned dofs of a structure, A symmetric. Collective.
+using SymmetricProduct = std::function<void(Vec x, Vec y)>;
 
 /// Work that the largest eigenvalue of a structure may cost.
 struct EigenvalueEffort {
@@ -32,14 +34,11 @@ struct EigenvalueEffort {
 ///
 ///     P{ lambda_max > theta / (1 - e) } <= 1.648 sqrt(n) exp(-sqrt(e) (2 k - 1))
 ///
-/// The start vector is the same for any number of ranks, so that a run can be repeated. SLEPc's
-/// Krylov-Schur keeps and orthogonalises its vectors and knows no bound of the second kind: with
-/// it the start-up of two buildings of 97,200 dofs took 28.9 s in place of 2.3 s
-/// (docs/performance.md).
+/// The start vector is the same for any number of ranks, so that a run can be repeated.
 class Lanczos {
  public:
   /// All that is referred to must outlive it. Collective.
-  Lanczos(const LinearSystem& system, const Mesh& mesh, const SymmetricOperator& scaled);
+  Lanczos(const LinearSystem& system, const Mesh& mesh, SymmetricProduct product);
 
   /// Iterates until r is 1e-10 of theta and no eigenvalue above (1 + 2e-3) theta can have been
   /// missed but with a probability of 1e-9 (or there are fewer than k / 2 dofs), or, if that takes
@@ -73,7 +72,7 @@ class Lanczos {
 
   const LinearSystem& system_;
   const Mesh& mesh_;
-  const SymmetricOperator& scaled_;
+  SymmetricProduct product_;
   VecHandle previous_;
   VecHandle current_;
   VecHandle next_;

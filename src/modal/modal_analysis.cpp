@@ -226,7 +226,7 @@ LargestFrequency largest_frequency(const LinearSystem& system, const Mesh& mesh,
     return none;
   }
   const ScaledOperator scaled(system, {{1, &system.stiffest()}});
-  Lanczos lanczos(system, mesh, scaled);
+  Lanczos lanczos(system, mesh, [&scaled](Vec x, Vec y) { scaled.apply(x, y); });
   lanczos.run(effort, "omega_max");
   double square = lanczos.bound();
   if (!(square >= 0)) {

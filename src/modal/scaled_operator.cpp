@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 namespace pounding {
@@ -20,18 +19,6 @@ std::vector<double> mass_scale(const LinearSystem& system) {
   return scale;
 }
 
-/// PETSc calls this one for a product with the shell.
-PetscErrorCode multiply_shell(Mat shell, Vec x, Vec y) {
-  void* context = nullptr;
-  PetscCall(MatShellGetContext(shell, static_cast<void*>(&context)));
-  try {
-    static_cast<const ScaledOperator*>(context)->apply(x, y);
-  } catch (const std::runtime_error&) {
-    return PETSC_ERR_LIB;
-  }
-  return 0;
-}
-
 }  // namespace
 
 ScaledOperator::ScaledOperator(const LinearSystem& system, std::vector<Term> terms, double shift)
@@ -43,12 +30,6 @@ ScaledOperator::ScaledOperator(const LinearSystem& system, std::vector<Term> ter
       diagonal_(wrap_vector(system, scale_)) {
   POUNDING_PETSC(VecDuplicate(diagonal_.get(), argument_.out()));
   POUNDING_PETSC(VecDuplicate(diagonal_.get(), product_.out()));
-  const LocalIndex n = system.owned_dofs();
-  POUNDING_PETSC(
-      MatCreateShell(system.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, this, shell_.out()));
-  POUNDING_PETSC(
-      MatShellSetOperation(shell_.get(), MATOP_MULT, reinterpret_cast<void (*)()>(multiply_shell)));
-  POUNDING_PETSC(MatSetOption(shell_.get(), MAT_SYMMETRIC, PETSC_TRUE));
 }
 
 void ScaledOperator::solve_coupled(Vec x, Half half) const {

@@ -3,14 +3,13 @@
 #include <vector>
 
 #include "common/petsc.h"
-#include "modal/symmetric_operator.h"
 #include "system/linear_system.h"
 
 namespace pounding {
 
 /// A = G^-1 (sum of f_i B_i) G^-T + s I as an operator, from products with the B_i alone; G G^T is
 /// the mass: G = M^1/2 where it is diagonal.
-class ScaledOperator final : public SymmetricOperator {
+class ScaledOperator {
  public:
   struct Term {
     double factor = 1;                              ///< f_i
@@ -19,10 +18,8 @@ class ScaledOperator final : public SymmetricOperator {
   /// Collective.
   ScaledOperator(const LinearSystem& system, std::vector<Term> terms, double shift = 0);
 
-  /// A as PETSc's shell: multiplies, has no entries. Borrowed.
-  Mat matrix() const override { return shell_.get(); }
   /// y = A x. Collective.
-  void apply(Vec x, Vec y) const override;
+  void apply(Vec x, Vec y) const;
   /// G^-T y of a vector over the owned dofs: the motion of y.
   void to_motion(std::vector<double>& y) const;
   /// G^-1 f of a force over the owned dofs.
@@ -43,7 +40,6 @@ class ScaledOperator final : public SymmetricOperator {
   VecHandle diagonal_;                 ///< scale_
   VecHandle argument_;                 ///< G^-T x
   VecHandle product_;                  ///< of one term
-  MatHandle shell_;
 };
 
 }  // namespace pounding

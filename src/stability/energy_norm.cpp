@@ -31,10 +31,10 @@ EnergyNorm::EnergyNorm(const LinearSystem& system, double time_step, double ener
                        double work)
     : system_(system),
       scaled_(system, terms_of(system, time_step), 1 - time_step / 2 * system.damping.alpha),
+      direction_(create_vector(system)),
+      product_(create_vector(system)),
       energy_margin_(energy_margin),
-      iterations_left_(work / static_cast<double>(std::max<GlobalIndex>(1, system.global_dofs))) {
-  POUNDING_PETSC(MatCreateVecs(scaled_.matrix(), direction_.out(), product_.out()));
-}
+      iterations_left_(work / static_cast<double>(std::max<GlobalIndex>(1, system.global_dofs))) {}
 
 double EnergyNorm::bound(std::vector<double> f, double enough) {
   if (!(energy_margin_ > 0)) return std::numeric_limits<double>::infinity();

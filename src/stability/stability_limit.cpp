@@ -22,7 +22,7 @@ Bound largest_growth(const LinearSystem& system, const Mesh& mesh, double dt,
       {2 * dt * beta + dt * dt * system.stiffening(), &system.stiffest()}};
   if (system.extra_damping) terms.push_back({2 * dt, system.extra_damping.get()});
   const ScaledOperator scaled(system, terms, 2 * dt * alpha);
-  Lanczos lanczos(system, mesh, scaled);
+  Lanczos lanczos(system, mesh, [&scaled](Vec x, Vec y) { scaled.apply(x, y); });
   lanczos.run(effort, "the stable time step");
   return {lanczos.bound(), lanczos.excess()};
 }

@@ -223,30 +223,6 @@ double FrequencyChange::by_elements() const {
   return FrequencyChange{0, elements}.largest();
 }
 
-/// D^1/2 (M + K / omega^2)^-1 D^1/2.
-class RotationBound::Operator final : public SymmetricOperator {
- public:
-  Operator(const RotationBound& parent, std::span<const double> inertia)
-      : parent_(parent), root_(inertia.size()), values_(inertia.size()) {
-    std::ranges::transform(inertia, root_.begin(), [](double value) { return std::sqrt(value); });
-  }
-  Mat matrix() const override { return parent_.matrix_.get(); }
-  void apply(Vec x, Vec y) const override {
-    const VecReader reader(x);
-    for (std::size_t i = 0; i < root_.size(); ++i) values_[i] = root_[i] * reader.data()[i];
-    parent_.solver_.solve(values_);
-    double* result = nullptr;
-    POUNDING_PETSC(VecGetArray(y, &result));
-    for (std::size_t i = 0; i < root_.size(); ++i) result[i] = root_[i] * values_[i];
-    POUNDING_PETSC(VecRestoreArray(y, &result));
-  }
-
- private:
-  const RotationBound& parent_;
-  std::vector<double> root_;
-  mutable std::vector<double> values_;
-};
-
 RotationBound::RotationBound(const LinearSystem& system, const Mesh& mesh, double omega)
     : system_(system),
       mesh_(mesh),
@@ -257,7 +233,19 @@ RotationBound::Found RotationBound::bound(std::span<const double> inertia) const
   double largest = inertia.empty() ? 0 : *std::ranges::max_element(inertia);
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, system_.comm);
   if (largest == 0) return {};
-  const Operator product(*this, inertia);
+  // D^1/2 (M + K / omega^2)^-1 D^1/2
+  std::vector<double> values(inertia.size());
+  const auto product = [&](Vec x, Vec y) {
+    const VecReader reader(x);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = std::sqrt(inertia[i]) * reader.data()[i];
+    }
+    solver_.solve(values);
+    double* result = nullptr;
+    POUNDING_PETSC(VecGetArray(y, &result));
+    for (std::size_t i = 0; i < values.size(); ++i) result[i] = std::sqrt(inertia[i]) * values[i];
+    POUNDING_PETSC(VecRestoreArray(y, &result));
+  };
   Lanczos lanczos(system_, mesh_, product);
   EigenvalueEffort effort;
   effort.work = 0;

@@ -47,7 +47,6 @@ class RotationBound {
   Found bound(std::span<const double> inertia) const;
 
  private:
-  class Operator;
   const LinearSystem& system_;
   const Mesh& mesh_;
   MatHandle matrix_;  ///< M + K / omega^2

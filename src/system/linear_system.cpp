@@ -60,6 +60,14 @@ std::vector<char> dofs_of_extra_damping(const LinearSystem& system) {
   return acted_on;
 }
 
+VecHandle create_vector(const LinearSystem& system) {
+  VecHandle vector;
+  POUNDING_PETSC(VecCreate(system.comm, vector.out()));
+  POUNDING_PETSC(VecSetSizes(vector.get(), system.owned_dofs(), PETSC_DECIDE));
+  POUNDING_PETSC(VecSetType(vector.get(), VECSTANDARD));
+  return vector;
+}
+
 VecHandle wrap_vector(const LinearSystem& system, std::vector<double>& storage) {
   VecHandle vector;
   POUNDING_PETSC(VecCreateMPIWithArray(system.comm, 1, system.owned_dofs(), PETSC_DECIDE,

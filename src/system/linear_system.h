@@ -138,6 +138,9 @@ void finish_system(const Mesh& mesh, LinearSystem& system);
 /// Per owned dof, whether the extra damping acts on it.
 std::vector<char> dofs_of_extra_damping(const LinearSystem& system);
 
+/// A new distributed vector over the owned dofs. Collective.
+VecHandle create_vector(const LinearSystem& system);
+
 /// Distributed vector over the owned dofs that uses `storage` as its memory (size: owned_dofs).
 VecHandle wrap_vector(const LinearSystem& system, std::vector<double>& storage);
 
