@@ -27,6 +27,17 @@ def markdown(title: str, head: list, rows: list) -> str:
     return "\n".join([f"**{title}**", ""] + lines) + "\n"
 
 
+def by_ranks(title: str, key: str, rows: list, columns: dict) -> str:
+    """A line for each value of `key`, with what was found on one number of ranks after the other in its cells, once where
+    all are alike; `columns`: head -> key of the rows."""
+    lines = []
+    for value in dict.fromkeys(row[key] for row in rows):
+        found = [[number(row.get(column)) for row in rows if row[key] == value] for column in columns.values()]
+        lines.append([cells[0] if len(set(cells)) == 1 else " / ".join(cells) for cells in found])
+    ranks = sorted({row["ranks"] for row in rows})
+    return markdown(f"{title}, {' / '.join(map(str, ranks))} rank{'s' if ranks != [1] else ''}", list(columns), lines)
+
+
 def write_csv(path: Path, rows: list) -> None:
     """`rows`: dictionaries of scalars; a column per key."""
     columns = list(dict.fromkeys(key for row in rows for key in row))

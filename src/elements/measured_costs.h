@@ -4,8 +4,8 @@
 /// nanoseconds of a step on a core; their ratios matter, to within a factor of two. Of an element:
 /// `mpirun -n 1 build/pounding -options_file SCENE -dry_run` prints the microseconds of a step;
 /// that of a slab or a frame of one kind, over its number of elements, is the cost of one with its
-/// share of the nodes. Of products: `build/tests/stiffness_benchmark` compares the product by
-/// elements with the assembled matrix. Of cuts: `run/scaling` compares ranks.
+/// share of the nodes. Of products: `run/benchmark --shapes` compares those by elements with those
+/// of assembled matrices. Of cuts: `run/scaling` compares ranks.
 namespace pounding::measured_costs {
 
 /// One element in a step, its share of the nodes included.

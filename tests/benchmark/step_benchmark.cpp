@@ -1,13 +1,12 @@
 // Times whole steps of one model, carried out in several ways that take turns. Options:
 //
-//   -cells X,Y,Z           a brick of concrete of these cells, clamped at x = 0, with -skew out of
-//                          its right angles; if Z is 0 a plate of shells, -opening: with one; or
+//   -cells X,Y,Z           a brick of concrete of these cells, clamped at x = 0; if Z is 0 a plate of
+//                          shells; or
 //   -storeys CELLS         the pair of buildings of storey_pair.h, cells per metre; or
 //   -scene FILE            a scene of the program, under its own motion
 //   -motion FILE           samples of the ground acceleration [m/s2]; -motion_step their step [s]
-//   -steps A,B,...         element, assembled (the program's step); without:FORM (the same, element
-//                          by element without one form, see leave_out); bare (a slab by a kernel
-//                          for it alone); aij, baij, sbaij (PETSc's products in a step written out)
+//   -steps A,B,...         element, assembled (the program's step); aij, baij, sbaij (PETSc's
+//                          products in a step written out)
 //   -apart                 every rank steps a model of its own, nothing is exchanged
 //   -vector_unit UNIT      whose kernels compute, as the program's option
 //   -export FOLDER         leaves stiffness.petsc and mass.petsc there (one rank, a brick)
@@ -44,7 +43,6 @@ namespace {
 constexpr long first_steps = 20;
 /// Pieces of a measurement, shorter than what the system gives a program before others get a turn.
 constexpr double piece_seconds = 3e-4;
-constexpr std::string_view without = "without:";
 
 std::string option(const char* name) {
   char text[PETSC_MAX_PATH_LEN] = "";
@@ -62,13 +60,6 @@ ModelRequest read_request() {
   POUNDING_PETSC(PetscOptionsGetInt(nullptr, nullptr, "-storeys", &cells_per_metre, nullptr));
   POUNDING_PETSC(
       PetscOptionsGetReal(nullptr, nullptr, "-motion_step", &request.motion_step, nullptr));
-  const auto flag = [](const char* name) {
-    PetscBool set = PETSC_FALSE;
-    POUNDING_PETSC(PetscOptionsGetBool(nullptr, nullptr, name, &set, nullptr));
-    return set == PETSC_TRUE;
-  };
-  request.opening = flag("-opening");
-  request.skew = flag("-skew");
   request.scene = option("-scene");
   request.cells = {cells[0], cells[1], cells[2]};
   request.cells_per_metre = cells_per_metre;
@@ -103,10 +94,8 @@ class Bench {
   void add(const std::string& name) {
     const SteppedModel& model = model_for(name);
     std::unique_ptr<TimedStep>& step = steps_[name];
-    if (name == "element" || name == "assembled" || name.starts_with(without)) {
+    if (name == "element" || name == "assembled") {
       step = make_program_step(model);
-    } else if (name == "bare") {
-      step = make_bare_step(model, request_);
     } else {
       step = make_matrix_step(model, name);
     }
@@ -182,15 +171,12 @@ class Bench {
   static MPI_Comm comm() { return PETSC_COMM_WORLD; }
 
   SteppedModel& model_for(const std::string& name) {
-    const bool element = name == "element" || name == "bare" || name.starts_with(without);
-    std::unique_ptr<SteppedModel>& model = models_[name.starts_with(without) ? name
-                                                   : element                 ? "element"
-                                                                             : "assembled"];
+    const bool element = name == "element";
+    std::unique_ptr<SteppedModel>& model = models_[element ? "element" : "assembled"];
     if (!model) {
       model = std::make_unique<SteppedModel>(
           build_stepped_model(apart_ ? PETSC_COMM_SELF : comm(), request_,
                               element ? StiffnessMethod::element : StiffnessMethod::assembled));
-      if (name.starts_with(without)) leave_out(name.substr(without.size()), *model);
     }
     return *model;
   }

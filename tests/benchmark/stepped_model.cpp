@@ -1,7 +1,6 @@
 #include "benchmark/stepped_model.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -13,9 +12,7 @@
 #include "scene/options_database.h"
 #include "scene/scene_reader.h"
 #include "stability/stable_time_step.h"
-#include "stiffness/element_stiffness.h"
 #include "support/box_mesh.h"
-#include "support/named_forms.h"
 #include "system/finite_element_system.h"
 
 namespace pounding::measuring {
@@ -33,25 +30,11 @@ Structure concrete_structure(const std::string& name, const ModelRequest& reques
   return structure;
 }
 
-/// A plate clamped at x = 0; the opening takes a third of its width and a quarter of its length.
-GlobalMesh plate_mesh(int nx, int ny, bool opening) {
-  const auto open = [&](int i, int j) {
-    return opening && 3 * i >= nx && 3 * i < 2 * nx && 8 * j >= 3 * ny && 8 * j < 5 * ny;
-  };
-  const auto used = [&](int i, int j) {
-    for (const int a : {i - 1, i}) {
-      for (const int b : {j - 1, j}) {
-        if (a >= 0 && a < nx && b >= 0 && b < ny && !open(a, b)) return true;
-      }
-    }
-    return false;
-  };
+/// A plate clamped at x = 0.
+GlobalMesh plate_mesh(int nx, int ny) {
   GlobalMesh mesh;
-  std::vector<GlobalIndex> number;
   for (int j = 0; j <= ny; ++j) {
     for (int i = 0; i <= nx; ++i) {
-      number.push_back(mesh.node_count());
-      if (!used(i, j)) continue;
       mesh.node_tags.push_back(mesh.node_count() + 1);
       mesh.coordinates.insert(mesh.coordinates.end(), {cell_size[0] * i, cell_size[1] * j, 0.0});
       mesh.free_components.push_back(i == 0 ? 0 : 0x3f);
@@ -63,11 +46,10 @@ GlobalMesh plate_mesh(int nx, int ny, bool opening) {
   set.type = ElementType::shell4;
   for (int j = 0; j < ny; ++j) {
     for (int i = 0; i < nx; ++i) {
-      if (open(i, j)) continue;
       set.tags.push_back(static_cast<std::int64_t>(set.tags.size()) + 1);
       const int first = j * (nx + 1) + i;
-      for (const int place : {first, first + 1, first + nx + 2, first + nx + 1}) {
-        set.connectivity.push_back(number[static_cast<std::size_t>(place)]);
+      for (const int node : {first, first + 1, first + nx + 2, first + nx + 1}) {
+        set.connectivity.push_back(node);
       }
     }
   }
@@ -86,7 +68,7 @@ std::vector<GlobalMesh> make_meshes(const ModelRequest& request,
     return meshes;
   }
   if (request.cells[2] == 0) {
-    meshes.push_back(plate_mesh(request.cells[0], request.cells[1], request.opening));
+    meshes.push_back(plate_mesh(request.cells[0], request.cells[1]));
     return meshes;
   }
   Vector3 size{};
@@ -95,8 +77,6 @@ std::vector<GlobalMesh> make_meshes(const ModelRequest& request,
   }
   meshes.push_back(testing_support::box_mesh({0, 0, 0}, size, request.cells));
   testing_support::clamp(meshes.back(), "x_min");
-  std::vector<double>& x = meshes.back().coordinates;
-  for (std::size_t i = 0; request.skew && i < x.size(); i += 3) x[i] += 0.3 * x[i + 1];
   return meshes;
 }
 
@@ -145,31 +125,7 @@ SteppedModel scene_model(MPI_Comm comm, const ModelRequest& request, StiffnessMe
   return model;
 }
 
-/// Nodes as StructureStep moves them in vectors, told so that it does not know them for such: masses
-/// that differ in the last digit, rotations that are not written as -1.
-void hide_nodes(LinearSystem& system) {
-  for (std::size_t i = 0; i < system.direction.size(); ++i) {
-    if (system.direction[i] == 1) {
-      system.lumped_mass[i] = std::nextafter(system.lumped_mass[i], 0.0);
-    } else if (system.direction[i] < 0) {
-      system.direction[i] = -2;
-    }
-  }
-}
-
 }  // namespace
-
-void leave_out(const std::string& form, SteppedModel& model) {
-  for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    if (form == "update_vectors") {
-      hide_nodes(model.systems[s]);
-    } else {
-      model.systems[s].stiffness = std::make_unique<stiffness::ElementStiffness>(
-          model.structures[s], model.meshes[s], nullptr, testing_support::forms_without(form));
-    }
-  }
-  return_freed_memory();
-}
 
 GlobalIndex SteppedModel::global_dofs() const {
   GlobalIndex dofs = 0;

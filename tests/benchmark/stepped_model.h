@@ -20,8 +20,6 @@ inline constexpr Vector3 cell_size{0.12, 0.12, 0.22};
 struct ModelRequest {
   std::array<int, 3> cells{};  ///< of one brick of concrete, clamped at its face x = 0; of a plate
                                ///< of shells if there are none along z; or
-  bool opening = false;        ///< in the middle of the plate
-  bool skew = false;           ///< the brick's edges at right angles do not stay so
   int cells_per_metre = 0;     ///< of a pair of buildings, see storey_pair.h; or
   std::string scene;           ///< options file of the program, its motion included
   std::string motion;          ///< file of samples [m/s2], applied in all three directions
@@ -46,10 +44,5 @@ struct SteppedModel {
 /// Builds, partitions, distributes and assembles. Collective.
 SteppedModel build_stepped_model(MPI_Comm comm, const ModelRequest& request,
                                  StiffnessMethod method);
-
-/// Leaves out the form of that name: one of ProductForms, or `update_vectors`, by which StructureStep
-/// moves the dofs of nodes four at a time. `nothing...` leaves out none: models built in the same
-/// way to compare with. Throws std::invalid_argument. Collective.
-void leave_out(const std::string& form, SteppedModel& model);
 
 }  // namespace pounding::measuring

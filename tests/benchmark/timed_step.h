@@ -29,9 +29,4 @@ std::unique_ptr<TimedStep> make_program_step(const SteppedModel& model);
 /// Collective.
 std::unique_ptr<TimedStep> make_matrix_step(const SteppedModel& model, const std::string& type);
 
-/// The same scheme for a slab of one layer of boxes by a kernel written for it alone, on regular
-/// arrays, without ledger: what the machine allows to such arithmetic. `model` must outlive it and
-/// be that of `request`. Throws std::invalid_argument. Collective.
-std::unique_ptr<TimedStep> make_bare_step(const SteppedModel& model, const ModelRequest& request);
-
 }  // namespace pounding::measuring

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <array>
-#include <stdexcept>
-#include <string>
 #include <string_view>
 
 #include "stiffness/rows/product_forms.h"
@@ -27,19 +25,5 @@ inline constexpr std::array named_forms{
     POUNDING_FORM(set_behind),     POUNDING_FORM(set_joins),  POUNDING_FORM(shell_vectors)};
 #undef POUNDING_FORM
 static_assert(named_forms.size() == sizeof(stiffness::ProductForms));
-
-/// Every form but the named one; all of them for `nothing` and names that begin so. Throws
-/// std::invalid_argument.
-inline stiffness::ProductForms forms_without(std::string_view name) {
-  stiffness::ProductForms forms;
-  bool found = name.starts_with("nothing");
-  for (const NamedForm& named : named_forms) {
-    if (named.name != name) continue;
-    forms.*named.form = false;
-    found = true;
-  }
-  if (!found) throw std::invalid_argument("no form " + std::string(name));
-  return forms;
-}
 
 }  // namespace pounding::testing_support

@@ -4,13 +4,13 @@ import json
 from pathlib import Path
 
 from parts.plot.style import log_scale, plt
-from parts.tables import markdown, number, write_csv
+from parts.tables import by_ranks, markdown, number, write_csv
 from pounding.files import write_text
 
 from .comparison import BYTES_PER_DOF, LABELS
 from .machine import Machine
 
-COLOURS = {"element": "#08519C", "bare": "#6BAED6", "assembled": "#B2182B", "aij": "#E69F00", "baij": "#C2A5CF",
+COLOURS = {"element": "#08519C", "assembled": "#B2182B", "aij": "#E69F00", "baij": "#C2A5CF",
            "sbaij": "#762A83", "scipy": "#1B7837", "octave": "#555555"}
 
 
@@ -41,17 +41,18 @@ def figures(rows: list) -> list:
 
 
 def step_table(listed: list) -> str:
-    head = ["dofs", "ranks", "step", "µs per step", "ns per dof", "lowest to highest",
-            "× element", "× triad", "memory B per dof", "quiet rounds", "note"]
-    cells = []
-    for one in listed:
-        spread = "—" if one["lowest"] is None else f"{number(one['lowest'])} to {number(one['highest'])}"
-        cells.append([one["dofs"], one["ranks"], one["label"], one["microseconds_per_step"],
-                      one["nanoseconds_per_dof"], spread, one["ratio_to_element"],
-                      one["ratio_to_triad"], one["memory_per_dof"],
-                      f"{one['quiet_rounds']} of {one['rounds']}", one["note"] or "—"])
-    return markdown("Whole steps of a clamped concrete brick of hexahedra, harmonic ground motion, "
-                    "Rayleigh damping, no contact", head, cells)
+    """A line per size, and one for every way that was disturbed or not measured."""
+    rows = [{"dofs": one["dofs"], "ranks": one["ranks"], "ns": one["nanoseconds_per_dof"], "triad": one["ratio_to_triad"],
+             "memory": one["memory_per_dof"],
+             **{other["way"]: other["ratio_to_element"] for other in listed
+                if (other["dofs"], other["ranks"]) == (one["dofs"], one["ranks"])}}
+            for one in listed if one["way"] == "element"]
+    columns = {"free dofs": "dofs", "ns per dof": "ns", **{f"{LABELS[way]}, ×": way for way in LABELS if way != "element"},
+               "× triad": "triad", "memory [B per dof]": "memory"}
+    text = by_ranks("Whole steps of a clamped concrete brick of hexahedra, harmonic ground motion, Rayleigh damping, no "
+                    "contact: element by element, and times over that", "dofs", rows, columns)
+    return text + "".join(f"\n- {one['label']}, {one['dofs']} dofs on {one['ranks']} ranks: {one['note']}"
+                          for one in listed if one["note"]) + "\n"
 
 
 def machine_table(machine: Machine) -> str:
@@ -71,7 +72,7 @@ def machine_table(machine: Machine) -> str:
 
 
 NOTES = f"""\
-- Medians over rounds in which every way took its turn; `lowest to highest` are single rounds.
+- Medians over rounds in which every way took its turn; table.csv has the lowest and the highest.
 - A round is quiet if the multiply-adds just before and after it reached 0.9 of the best that one
   rank did in this run, times the number of ranks (1.8 for two). Figures are medians over the quiet
   rounds, and marked as disturbed where there is none.
@@ -79,9 +80,8 @@ NOTES = f"""\
   {BYTES_PER_DOF} bytes per dof: reading and writing the two arrays of the state. Masses,
   coordinates and element matrices can be shared by congruent bricks and are not counted.
 - `element by element` and `assembled` are the program's own step with its energy ledger; the
-  others are the same scheme written out around one product without a ledger; `bare kernel` is
-  written for slabs of one layer alone, on regular arrays: what the machine allows to the same
-  arithmetic. All have moved the brick alike to 1e-9 after their first steps.
+  others are the same scheme written out around one product without a ledger. All have moved the
+  brick alike to 1e-9 after their first steps.
 - Memory: growth of the resident set from an empty process to a stepping one, mesh and all included,
   over the ranks together.
 - What is compared is linear elasticity on congruent bricks, for which the first is specialised;

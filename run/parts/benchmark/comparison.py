@@ -14,7 +14,7 @@ from .workers import (ELEMENT_MEMORY, MOTION_STEP, SOURCE, MeasuringError, Stepp
 
 BYTES_PER_DOF = 32  # read and write of two state arrays; masses, coordinates, elements are shared
 SLAB_UP_TO = 60_000  # dofs
-LABELS = {"element": "element by element", "bare": "bare kernel of this slab", "assembled": "assembled (AIJ)",
+LABELS = {"element": "element by element", "assembled": "assembled (AIJ)",
           "aij": "PETSc AIJ, written out", "baij": "PETSc BAIJ, blocks of 3",
           "sbaij": "PETSc SBAIJ, blocks of 3", "scipy": "SciPy CSR, K(u + βv)",
           "octave": "Octave, K u and C v"}
@@ -63,9 +63,8 @@ class Comparison(ExitStack):
     def start(self) -> None:
         """Starts every way for which there is room, in the order of the table."""
         for ranks in self.ranks:
-            ways = ["element", "bare"] if self.cells[2] == 1 else ["element"]
-            if self._fits("element", ways, ranks):
-                self._start_program(ways, ranks)
+            if self._fits("element", ["element"], ranks):
+                self._start_program(["element"], ranks)
         for ranks in self.ranks:
             if self._fits("matrices", MATRIX_WAYS, ranks):
                 words = ["-export", self.scratch] if ranks == 1 else []

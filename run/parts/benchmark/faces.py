@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from parts.tables import markdown, write_csv
+from parts.tables import by_ranks, write_csv
 from pounding.files import write_text
 
 from .workers import run_program
@@ -26,9 +26,8 @@ def structure(name: str, mesh: str, start: float, depth: int, cells: int) -> lis
             f"-{name}_body_element", "hex8", f"-{name}_body_material", "concrete"]
 
 
-def scene(first_cells: int, second_cells: int, depth: tuple, bar: bool) -> tuple:
-    """Two cubes of 1 m that meet at 1 m/s from the first step on, the first with a bar whose mass is
-    scaled if `bar`: words up to the end time, and the step."""
+def scene(first_cells: int, second_cells: int, depth: tuple) -> tuple:
+    """Two cubes of 1 m that meet at 1 m/s from the first step on: words up to the end time, and the step."""
     shortest = 1 / max(first_cells, second_cells, *depth)
     step = 0.3 * shortest / np.sqrt(YOUNG / DENSITY)
     words = ["-structures", "one,two", "-contacts", "joint", "-joint_secondary", "one:x_max",
@@ -36,11 +35,8 @@ def scene(first_cells: int, second_cells: int, depth: tuple, bar: bool) -> tuple
              "-probes", "back", "-back_structure", "one", "-back_group", "x_min", "-modes", 0,
              "-material_concrete_young", YOUNG, "-material_concrete_poisson", 0.2,
              "-material_concrete_density", DENSITY, "-time_step", repr(float(step)),
-             *structure("one", "stubbed_box" if bar else "box", -1, depth[0], first_cells),
+             *structure("one", "box", -1, depth[0], first_cells),
              *structure("two", "box", 0, depth[1], second_cells)]
-    if bar:
-        words += ["-one_stub_element", "bar", "-one_stub_material", "concrete", "-one_stub_area", 1e-3,
-                  "-one_mass_scaling", repr(1.2 * float(step))]
     return words + ["-end_time"], step
 
 
@@ -53,9 +49,9 @@ def run(build: Path, ranks: int, words: list, step: float, steps: int) -> dict:
             return json.load(file)
 
 
-def cost(build: Path, ranks: int, first: int, second: int, depth: tuple, bar: bool, rounds: int) -> dict:
+def cost(build: Path, ranks: int, first: int, second: int, depth: tuple, rounds: int) -> dict:
     """Medians of a pair of faces; what both a short and a long run do is left out."""
-    words, step = scene(first, second, depth, bar)
+    words, step = scene(first, second, depth)
     turns = []
     for _ in range(rounds):
         short, long = (run(build, ranks, words, step, n * STEPS) for n in (1, 2))
@@ -70,18 +66,13 @@ def cost(build: Path, ranks: int, first: int, second: int, depth: tuple, bar: bo
 
 
 def measure(build: Path, edges: list, ranks: list, rounds: int) -> list:
-    """Unmatched faces of so many nodes along an edge, and matched ones without and with a bar of
-    scaled mass."""
+    """Unmatched faces of so many nodes along an edge."""
     rows = []
     for count in ranks:
         for nodes in edges:
             depth = DEEP if nodes >= LARGE else SHALLOW
             second = max(1, round(0.77 * (nodes - 1)))
-            rows.append({"faces": "unmatched",
-                         **cost(build, count, nodes - 1, second, depth, False, rounds)})
-        for bar in (False, True):
-            rows.append({"faces": "matched, one scaled bar" if bar else "matched",
-                         **cost(build, count, 30, 30, SHALLOW, bar, rounds)})
+            rows.append(cost(build, count, nodes - 1, second, depth, rounds))
     for row in rows:
         # The largest building gives the cost of a dof.
         largest = max((other for other in rows if other["ranks"] == row["ranks"]),
@@ -94,12 +85,11 @@ def measure(build: Path, edges: list, ranks: list, rounds: int) -> list:
 def write(folder: Path, rows: list) -> str:
     """Writes faces.md and faces.csv; returns the table."""
     write_csv(folder / "faces.csv", rows)
-    head = ["faces", "rows", "of them coupled", "free dofs", "ranks", "contact, microseconds per step",
-            "the rest of the step", "contact over a step of 500,000 dofs", "complementarity residual",
-            "peak memory [MB]"]
-    text = markdown("Faces of bricks that close at once", head, [
-        [row["faces"], row["rows"], row["coupled_rows"], row["dofs"], row["ranks"],
-         row["contact_microseconds"], row["step_microseconds"], row["over_half_a_million_dofs"],
-         f"{row['residual']:.1e}", row["megabytes"]] for row in rows])
+    shown = [{**row, "residual": f"{row['residual']:.0e}"} for row in rows]
+    text = by_ranks("Faces of bricks that close at once", "coupled_rows", shown, {
+        "coupled rows": "coupled_rows", "free dofs": "dofs", "contact [µs per step]": "contact_microseconds",
+        "the rest of the step [µs]": "step_microseconds",
+        "contact over a step of 500,000 dofs": "over_half_a_million_dofs",
+        "complementarity residual": "residual", "peak memory [MB]": "megabytes"})
     write_text(folder / "faces.md", text)
     return text

@@ -2,6 +2,7 @@
 
 import re
 import subprocess
+import sys
 from collections import Counter
 from pathlib import Path
 from typing import NamedTuple
@@ -96,6 +97,7 @@ def measure(build: Path, scratch: Path, motion: Path, case: str, rounds: int, se
     time of the step."""
     if not COUNTING:
         raise MeasuringError("instructions are counted on x86-64 alone")
+    print(f"  {case}", file=sys.stderr, flush=True)
     model = CASES[case].model(scratch, motion)
     rows = []
     with Machine(build, [1]) as machine:

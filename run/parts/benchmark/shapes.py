@@ -1,11 +1,12 @@
 """Steps of plates and lattices of one kind of element and mesh: by elements, and with PETSc's matrices, in turns."""
 
+import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
-from parts.tables import markdown, write_csv
+from parts.tables import by_ranks, write_csv
 from pounding.files import write_text
 
 from .comparison import LABELS, check_agreement
@@ -88,6 +89,7 @@ class Measured:
 def measure(folder: Path, scratch: Path, motion: Path, name: str, ranks: int, rounds: int,
             lasting: float) -> list:
     """Every way once per round."""
+    print(f"  {name}, {ranks} ranks", file=sys.stderr, flush=True)
     model = SHAPES[name].model(scratch, motion)
     with Stepper(step_benchmark(folder, ranks, motion, model, WAYS)) as stepper:
         check_agreement({(way, ranks): told["displacement_square"]
@@ -107,16 +109,13 @@ def ratio(one: Measured, to: Measured) -> float:
 
 def write(folder: Path, measured: list) -> str:
     """Writes shapes.md and shapes.csv; returns the table."""
-    cases = list(dict.fromkeys((one.shape, one.ranks) for one in measured))
     found = {(one.shape, one.ranks, one.way): one for one in measured}
-    rows = []
-    for case in cases:
-        element = found[*case, "element"]
-        ratios = [ratio(found[*case, way], element) for way in WAYS[1:]]
-        rows.append([SHAPES[case[0]].label, element.dofs, case[1], element.nanoseconds_per_dof, *ratios])
-    text = markdown("Steps of concrete plates and lattices by kind of element and mesh: element by element, and times "
-                    "over that", ["elements", "dofs", "ranks", "ns per dof",
-                                  *(f"{LABELS[way]}, ×" for way in WAYS[1:])], rows)
+    rows = [{"elements": SHAPES[one.shape].label, "dofs": one.dofs, "ranks": one.ranks, "ns": one.nanoseconds_per_dof,
+             **{way: ratio(found[one.shape, one.ranks, way], one) for way in WAYS[1:]}}
+            for one in measured if one.way == "element"]
+    text = by_ranks("Steps of concrete plates and lattices by kind of element and mesh: element by element, and times "
+                    "over that", "elements", rows, {"elements": "elements", "free dofs": "dofs", "ns per dof": "ns",
+                                                    **{f"{LABELS[way]}, ×": way for way in WAYS[1:]}})
     write_text(folder / "shapes.md", text)
     write_csv(folder / "shapes.csv", [
         {"shape": one.shape, "ranks": one.ranks, "way": one.way, "dofs": one.dofs,
