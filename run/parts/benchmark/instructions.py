@@ -133,8 +133,8 @@ def units_of(build: Path) -> list:
 
 
 def bounds(row: dict) -> dict:
-    """Least time of a dof by what a core can begin in a cycle, and by the bytes of the state at the rate of a triad on as
-    many [ns]."""
+    """Least time of a dof by what a core can begin in a cycle (PER_CYCLE), and by the bytes of the state at the rate of a
+    triad on as many [ns]."""
     cycle = 1e9 * MULTIPLY_ADDS / row["flops_per_second"]
     return {**{kind: row[kind] / most * cycle for kind, most in PER_CYCLE.items()},
             "state": 1e9 * STATE_BYTES / row["bytes_per_second"]}
@@ -144,11 +144,11 @@ def write(folder: Path, rows: list) -> str:
     """Writes instructions.md and instructions.csv; returns the tables."""
     write_csv(folder / "instructions.csv", rows)
     whole = [row for row in rows if row["function"] == WHOLE]
-    text = markdown("A step on one rank: measured, and the least that its instructions take [ns per dof]",
-                    ["", "unit", "dofs", "measured", *(f"{kind}, {most} a cycle" for kind, most in PER_CYCLE.items()),
-                     f"{STATE_BYTES} bytes of the state"],
-                    [[CASES[row["case"]].label, row["unit"], row["dofs"], row["nanoseconds"], *bounds(row).values()]
-                     for row in whole])
+    least = [max((time, kind) for kind, time in bounds(row).items()) for row in whole]
+    text = markdown("Instructions of a step on one rank per dof, its time, and the least that they take [ns]",
+                    ["", "unit", "dofs", *KINDS, "measured", "least", "by"],
+                    [[CASES[row["case"]].label, row["unit"], row["dofs"], *(row[kind] for kind in KINDS), row["nanoseconds"],
+                      *most] for row, most in zip(whole, least)])
     for case in dict.fromkeys(row["case"] for row in whole):
         mine = [row for row in rows if row["case"] == case]
         best, *others = dict.fromkeys(row["unit"] for row in mine)

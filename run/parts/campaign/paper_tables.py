@@ -78,14 +78,3 @@ def time_step_table(summaries: dict) -> tuple[str, list[str], list[list[str]]]:
                          f"{structure['omega_max']:.3e}", f"{structure['stable_time_step_undamped']:.3e}",
                          f"{structure['stable_time_step']:.3e}"])
     return "Stable time step (Eq. 12); the smaller of the two structures governs", head, rows
-
-
-def as_text(title: str, head: list[str], rows: list[list[str]]) -> str:
-    widths = [max(len(row[i]) for row in [head] + rows) for i in range(len(head))]
-    lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths)) for row in [head] + rows]
-    return "\n".join([title, "", lines[0], "-" * len(lines[0])] + lines[1:]) + "\n"
-
-
-def as_markdown(title: str, head: list[str], rows: list[list[str]]) -> str:
-    lines = ["| " + " | ".join(row) + " |" for row in [head, ["---"] * len(head)] + rows]
-    return "\n".join([f"**{title}**", ""] + lines) + "\n"
