@@ -3,7 +3,9 @@
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import ClassVar
 
+from .cards import Fields, cut
 from .model import InputFault
 from .texts import lines_of, number, whole
 
@@ -11,26 +13,18 @@ BLOCKS = ("NBLOCK", "EBLOCK", "RLBLOCK", "CMBLOCK", "SECBLOCK", "ETBLOCK")
 
 
 @dataclass(slots=True)
-class Command:
+class Command(Fields):
     """Words of a line in capitals, the first the command's name; of a block its rows as (place, words) as well."""
 
     name: str
     words: list
     place: str
     rows: list = field(default_factory=list)
+    MISSING: ClassVar = ("value", 1)
 
-    def text(self, at: int) -> str:
-        return self.words[at] if at < len(self.words) else ""
-
-    def real(self, at: int, fallback: float = 0.0) -> float:
-        return number(self.text(at), f"{self.place}: {self.name}") if self.text(at) else fallback
-
-    def int(self, at: int, fallback: int | None = None) -> int:
-        if not self.text(at):
-            if fallback is None:
-                raise InputFault(f"{self.place}: {self.name} has no value {at + 1}")
-            return fallback
-        return whole(self.text(at), f"{self.place}: {self.name}")
+    @property
+    def fields(self) -> list:
+        return self.words
 
 
 def widths_of(line: str, place: str) -> list:
@@ -43,16 +37,6 @@ def widths_of(line: str, place: str) -> list:
     if 0 in found or not found or not line.strip().startswith("("):
         raise InputFault(f"{place}: '{line.strip()}' is no format")
     return found
-
-
-def cut(line: str, widths: list) -> list:
-    """Fields of these widths, as far as the line goes; more of the last width."""
-    fields, at = [], 0
-    while at < len(line.rstrip()):
-        width = widths[min(len(fields), len(widths) - 1)]
-        fields.append(line[at:at + width].strip())
-        at += width
-    return fields
 
 
 class Commands:

@@ -2,7 +2,9 @@
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import ClassVar
 
+from .cards import Fields
 from .model import InputFault
 from .texts import lines_of, number, whole
 
@@ -11,17 +13,12 @@ EIGHT = (8,) * 10
 
 
 @dataclass(slots=True)
-class Card:
+class Card(Fields):
     """Fields of a line."""
 
     fields: list
     place: str
-
-    def text(self, at: int) -> str:
-        return self.fields[at] if at < len(self.fields) else ""
-
-    def real(self, at: int, fallback: float = 0.0) -> float:
-        return number(self.text(at), self.place) if self.text(at) else fallback
+    NAMED: ClassVar = False
 
     def int(self, at: int, fallback: int = 0) -> int:
         text = self.text(at)
@@ -31,9 +28,6 @@ class Card:
             return int(text)
         value = number(text, self.place)  # 1.0 where a whole number is meant
         return int(value) if value == int(value) else whole(text, self.place)
-
-    def vector(self, at: int) -> tuple:
-        return tuple(self.real(at + k) for k in range(3))
 
 
 @dataclass(slots=True)

@@ -4,37 +4,24 @@ import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
+from typing import ClassVar
 
+from .cards import Fields
 from .model import InputFault
-from .texts import lines_of, number, whole, whole_range
+from .texts import lines_of, whole, whole_range
 from .vectors import applied, cross, difference, length, sum_of, unit
 
 GLOBAL = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 @dataclass(slots=True)
-class Card:
+class Card(Fields):
     """A card with its fields from the second on: the first has place 0 here."""
 
     name: str
     fields: list
     place: str
-
-    def text(self, at: int) -> str:
-        return self.fields[at] if at < len(self.fields) else ""
-
-    def real(self, at: int, fallback: float = 0.0) -> float:
-        return number(self.text(at), f"{self.place}: {self.name}") if self.text(at) else fallback
-
-    def int(self, at: int, fallback: int | None = None) -> int:
-        if not self.text(at):
-            if fallback is None:
-                raise InputFault(f"{self.place}: {self.name} has no field {at + 2}")
-            return fallback
-        return whole(self.text(at), f"{self.place}: {self.name}")
-
-    def vector(self, at: int) -> tuple:
-        return tuple(self.real(at + k) for k in range(3))
+    MISSING: ClassVar = ("field", 2)
 
     def list_from(self, at: int) -> list:
         """Whole numbers to the end, with THRU and BY."""
