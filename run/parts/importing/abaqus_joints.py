@@ -1,6 +1,7 @@
 """Supports and constraints of Abaqus and CalculiX decks."""
 
 from .abaqus_cards import Block
+from .joints import is_whole, share, turning_nodes
 from .model import ALL, BEAMS, RX, RY, RZ, TRANSLATIONS, X, Y, Z, InputFault
 from .texts import number, whole
 from .vectors import global_components
@@ -176,23 +177,16 @@ class JointReader:
 
     def finish(self) -> None:
         """Couplings and equations, once it is known which nodes turn."""
-        turning = {node for element in self.model.elements if element.kind == "shell" or element.kind in BEAMS
-                   for node in element.nodes}
+        turning = turning_nodes(self.model)
         for name, nodes, components, block in self.waiting:
-            if components is None or components == ALL or (components & TRANSLATIONS == TRANSLATIONS
-                                                           and not turning & set(nodes[1:])):
+            if components is None or is_whole(components, nodes[1:], turning):
                 self.model.rigid.append((name, nodes, block.place))
                 self.model.cards.use(block.keyword)
             else:
                 self.model.cards.lose(block.keyword, "couplings hold all components of nodes", block.place)
         for pair, (components, place, count) in self.equal.items():
-            nodes = set(pair)
-            if components == ALL and len(nodes) == 2:
-                self.model.rigid.append(("tied", sorted(nodes), place))
-            elif components & TRANSLATIONS == TRANSLATIONS and (components == TRANSLATIONS or not turning & nodes):
-                self.model.pins.append((nodes, place))
+            if share(self.model, "tied", pair, components, turning, place):
+                self.model.cards.use("EQUATION", count)
             else:
                 self.model.cards.lose("EQUATION", "equations join all displacements of two nodes that coincide", place,
                                       count)
-                continue
-            self.model.cards.use("EQUATION", count)

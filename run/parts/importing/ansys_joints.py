@@ -1,9 +1,9 @@
 """Supports, couplings and components of ANSYS archives."""
 
 from .ansys_cards import Command
-from .model import ALL, BEAMS, TRANSLATIONS, InputFault
+from .joints import hold_turned, share, turning_nodes
+from .model import ALL, InputFault
 from .texts import whole, whole_range
-from .vectors import global_components
 
 LABELS = {label: 1 << k for k, label in enumerate(("UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"))} | {"ALL": ALL}
 
@@ -89,20 +89,10 @@ class JointReader:
 
     def finish(self) -> None:
         for node, (components, place) in self.held.items():
-            axes = self.reader.turned.get(node)
-            held = components if axes is None else global_components(components, axes)
-            if held is None:
-                self.model.cards.lose("D", "supports hold along the global axes", place)
-            else:
-                self.model.hold(node, held)
-        turning = {node for element in self.model.elements if element.kind == "shell" or element.kind in BEAMS
-                   for node in element.nodes}
+            hold_turned(self.model, node, components, self.reader.turned.get(node), "D", place)
+        turning = turning_nodes(self.model)
         for nodes, (components, place, count) in self.sets.items():
-            if components == ALL:
-                self.model.rigid.append(("coupled", sorted(nodes), place))
-            elif components & TRANSLATIONS == TRANSLATIONS and (components == TRANSLATIONS or not turning & nodes):
-                self.model.pins.append((set(nodes), place))
+            if share(self.model, "coupled", nodes, components, turning, place):
+                self.model.cards.use("CP", count)
             else:
                 self.model.cards.lose("CP", "couplings join all displacements of nodes that coincide", place, count)
-                continue
-            self.model.cards.use("CP", count)

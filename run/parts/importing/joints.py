@@ -4,7 +4,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from .model import ALL, BEAMS, SHELL, TRANSLATIONS, Model
-from .vectors import length, sum_of
+from .vectors import global_components, length, sum_of
 
 NEAR = 1e-9  # of the model's size: nodes that coincide
 
@@ -33,6 +33,36 @@ class Sets:
         for node in sorted(self.parent):
             found.setdefault(self.root(node), []).append(node)
         return [nodes for nodes in found.values() if len(nodes) > 1]
+
+
+def turning_nodes(model: Model) -> set:
+    """Nodes whose rotations an element holds."""
+    return {node for element in model.elements if element.kind == SHELL or element.kind in BEAMS for node in element.nodes}
+
+
+def share(model: Model, name: str, nodes, components: int, turning: set, place: str) -> bool:
+    """Nodes that share components become a rigid body or a pin; false where they are neither."""
+    if components == ALL:
+        model.rigid.append((name, sorted(nodes), place))
+    elif components & TRANSLATIONS == TRANSLATIONS and (components == TRANSLATIONS or not turning & set(nodes)):
+        model.pins.append((set(nodes), place))
+    else:
+        return False
+    return True
+
+
+def hold_turned(model: Model, node: int, components: int, axes, card: str, place: str) -> None:
+    """Components in axes of the node's own, those of the space where it has none."""
+    held = components if axes is None else global_components(components, axes)
+    if held is None:
+        model.cards.lose(card, "supports hold along the global axes", place)
+    else:
+        model.hold(node, held)
+
+
+def is_whole(components: int, followers, turning: set) -> bool:
+    """Whether followers are held by these components as by all: where nothing turns, translations do."""
+    return components == ALL or (components & TRANSLATIONS == TRANSLATIONS and not turning & set(followers))
 
 
 class Joints:

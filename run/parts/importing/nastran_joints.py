@@ -2,9 +2,9 @@
 
 import re
 
-from .model import ALL, BEAMS, TRANSLATIONS, InputFault, components_of
+from .joints import hold_turned, is_whole, share, turning_nodes
+from .model import ALL, TRANSLATIONS, InputFault, components_of
 from .nastran_cards import Card
-from .vectors import global_components
 
 
 class JointReader:
@@ -126,24 +126,19 @@ class JointReader:
             self.model.said.append(f"sets {', '.join(map(str, sorted(unused)))} of SPC are not named by case control: "
                                    "not read")
         chosen = self._chosen("MPC", {*self.equal, *(key for key, _ in self.lost)})
-        turning = {node for element in self.model.elements if element.kind == "shell" or element.kind in BEAMS
-                   for node in element.nodes}
+        turning = turning_nodes(self.model)
         for key, place in self.lost:
             if key in chosen:
                 self.model.cards.lose("MPC", "equations join all displacements of two nodes that coincide", place)
         for key in chosen & set(self.equal):
             for pair, (components, place, count) in self.equal[key].items():
-                if components == ALL:
-                    self.model.rigid.append(("tied", sorted(pair), place))
-                elif components & TRANSLATIONS == TRANSLATIONS and (components == TRANSLATIONS or not turning & pair):
-                    self.model.pins.append((set(pair), place))
-                else:
+                if not share(self.model, "tied", pair, components, turning, place):
                     self.model.cards.lose("MPC", "equations join all displacements of two nodes that coincide", place,
                                           count)
         for name, first, others, components, card in self.waiting:
             for node in (first, *others):
                 self.model.at(node, card.place)
-            if components == ALL or (components & TRANSLATIONS == TRANSLATIONS and not turning & set(others)):
+            if is_whole(components, others, turning):
                 self.model.rigid.append((name, [first, *others], card.place))
                 self.model.cards.use(card.name)
             elif components == TRANSLATIONS and len({self.model.nodes[node] for node in (first, *others)}) == 1:
@@ -153,9 +148,4 @@ class JointReader:
                 self.model.cards.lose(card.name, "rigid elements couple all components of their nodes", card.place)
 
     def _apply(self, node: int, components: int, card: str, place: str) -> None:
-        held = global_components(components, self.reader.frame(node))
-        if held is None:
-            self.model.cards.lose(card if card != "GRID" else "PS OF GRID", "supports hold along the global axes",
-                                  place)
-        else:
-            self.model.hold(node, held)
+        hold_turned(self.model, node, components, self.reader.frame(node), card if card != "GRID" else "PS OF GRID", place)
