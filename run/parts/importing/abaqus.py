@@ -6,7 +6,6 @@ from pathlib import Path
 from .abaqus_cards import Block, Motion, Scope, blocks_of, motion_of
 from .abaqus_joints import JointReader
 from .abaqus_sections import SectionReader
-from .frames import normal_of
 from .model import BAR, AxialSpring, Element, InputFault, Material, Model, PointMass, Spring
 from .texts import numbers, whole, whole_range
 from .vectors import cross, difference, permutation, unit

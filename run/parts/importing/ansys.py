@@ -3,7 +3,6 @@
 import math
 from pathlib import Path
 
-from . import sections
 from .ansys_cards import Command, Commands
 from .ansys_joints import JointReader
 from .ansys_properties import Properties, SHELLS, solid_kind
