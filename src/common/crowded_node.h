@@ -18,9 +18,9 @@ bool crowded_node();
 /// (OMPI_MCA_mpi_yield_when_idle) stays.
 void yield_while_waiting();
 
-/// Whether more threads want to run on this node than it has processors, by what the kernel counts
+/// Whether more threads want to run on this node than it has processors, by the count of the kernel
 /// (/proc/loadavg): a rank that waits should sleep then, since giving its processor away still
-/// leaves it its share. False where the kernel does not tell. Local.
+/// leaves it its share. False where that file cannot be read. Local.
 class NodeLoad {
  public:
   /// Looks again after a fiftieth of a second.

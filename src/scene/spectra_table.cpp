@@ -15,8 +15,8 @@ constexpr Range below_one{0, 1, false, true};
 constexpr Preset preset(std::string_view text) {
   return {true, false, text};
 }
-constexpr Preset without(std::string_view what) {
-  return {false, false, what};
+constexpr Preset without(std::string_view text) {
+  return {false, false, text};
 }
 
 // clang-format off

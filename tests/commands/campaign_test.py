@@ -16,6 +16,8 @@ sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 sys.dont_write_bytecode = True
 from parts.campaign import cases, results  # noqa: E402
 
+PROCESSORS = 2  # it starts runs
+
 FIGURES = ("fig4_gaps", "fig5_drift_acceleration", "fig6_spectra", "fig7_treatments", "fig8_treated_spectra",
            "fig9_first_floor", "impact_places")
 REDUCED = ("--quick", "--gaps", "2,0", "--motions", "Kobe", "--no-tables")

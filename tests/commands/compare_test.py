@@ -11,6 +11,8 @@ import numpy as np
 import program
 import two_buildings
 
+PROCESSORS = 2  # runs on two ranks
+
 
 def rows_of(path):
     with open(path, newline="") as file:

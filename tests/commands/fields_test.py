@@ -13,6 +13,8 @@ import numpy as np
 import program
 import xdmf_file
 
+PROCESSORS = 2  # killed runs
+
 PAIR = [*program.COARSE_PAIR, "-modes", 3]
 # The first structure hits the second at once, in both floors; a probe on one node of it.
 STRUCK = [*program.COARSE_PAIR, "-modes", 0, "-s1_floor2_at", "3.36,0,5.22", "-s1_initial_velocity", "1.5,0,0", "-end_time", 0.04, "-fields_interval", 0.002]

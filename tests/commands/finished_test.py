@@ -18,6 +18,8 @@ from parts import finished  # noqa: E402
 from parts.fragility import design, study  # noqa: E402
 from parts.fragility import runs as members  # noqa: E402
 
+PROCESSORS = 2  # it starts runs
+
 class Kept(unittest.TestCase):
     """One member of a sweep whose inputs are named in every way there is."""
 

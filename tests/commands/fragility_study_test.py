@@ -16,6 +16,8 @@ import yaml
 from two_buildings import pounding
 from pounding import fragility
 
+PROCESSORS = 2  # it starts runs
+
 STUDY = {
     "scene": str(two_buildings.SCENE),
     # With columns that shear, the left roof moves up and down by less than a twentieth of its sway: no main channel.

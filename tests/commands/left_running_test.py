@@ -16,6 +16,8 @@ sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 sys.dont_write_bytecode = True
 from parts import folder_lock  # noqa: E402
 
+PROCESSORS = 2  # killed runs
+
 ENVIRONMENT = {**os.environ, "POUNDING_BUILD": os.path.abspath(program.BUILD)}
 # A run of a minute in the place of the program's, started as commands start theirs.
 SLEEPER = """

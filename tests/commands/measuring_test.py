@@ -21,6 +21,8 @@ from parts.benchmark.scaling_model import CostCurve, Messages, Model  # noqa: E4
 from parts.benchmark.series import Series  # noqa: E402
 from parts.benchmark.workers import MeasuringError, block_cells, slab_cells, storey_dofs  # noqa: E402
 
+PROCESSORS = 2  # it measures on two ranks
+
 PROGRAM_WAYS = ["element", "assembled"]
 WAYS = ["element", "assembled", "aij", "baij", "sbaij", "scipy", "octave"]
 SHORT = ["--quick", "--rounds", "1", "--seconds", "0.02"]

@@ -6,6 +6,8 @@ import unittest
 
 import program
 
+PROCESSORS = 2  # it starts runs
+
 
 class PlantStudy(unittest.TestCase):
     def study(self, folder, *words):

@@ -6,6 +6,8 @@ import unittest
 
 import program
 
+PROCESSORS = 2  # it starts runs
+
 
 def stability(*words):
     return program.command("stability", *words)

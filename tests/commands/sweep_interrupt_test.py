@@ -15,6 +15,8 @@ from parts import stop_when_terminated  # noqa: E402
 from parts.study import run_side_by_side  # noqa: E402
 from pounding import runs  # noqa: E402
 
+PROCESSORS = 2  # it starts runs
+
 
 class Interrupt(unittest.TestCase):
     def setUp(self):

@@ -16,6 +16,8 @@ from two_buildings import pounding
 sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 from parts.sweep import members, table  # noqa: E402
 
+PROCESSORS = 2  # it starts runs
+
 FIXED = " ".join(f"-{name} {value}" for name, value in two_buildings.SHORT.items()) + " -probes left_roof"
 GAPS = "floor1_gap,floor2_gap=0.01,0.06"
 

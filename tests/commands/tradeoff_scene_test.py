@@ -9,6 +9,8 @@ import program
 import two_buildings
 from two_buildings import pounding
 
+PROCESSORS = 2  # it starts runs
+
 
 class SceneStudy(unittest.TestCase):
     """A second of the two small buildings: full order, half the step, and 50 modes."""

@@ -8,6 +8,8 @@ from pathlib import Path
 
 import program
 
+PROCESSORS = 2  # runs on two ranks
+
 PAGE = os.path.join(program.SOURCE, "docs", "tutorial.md")
 
 

@@ -7,6 +7,8 @@ import unittest.mock
 
 import program
 
+PROCESSORS = 2  # it starts tests
+
 PROBLEM = '''"""A made-up problem."""
 import unittest
 

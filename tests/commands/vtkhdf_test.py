@@ -15,6 +15,8 @@ import program
 import vtkhdf_file
 import xdmf_file
 
+PROCESSORS = 2  # killed runs
+
 STRUCK = [*program.COARSE_PAIR, "-modes", 0, "-s1_floor2_at", "3.36,0,5.22", "-s1_initial_velocity", "1.5,0,0", "-end_time", 0.02,
           "-fields_interval", 0.002]
 XDMF_TYPES = {2: 1, 4: 3}  # polyvertex and polyline

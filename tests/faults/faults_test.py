@@ -17,6 +17,8 @@ import h5py
 
 import program
 
+PROCESSORS = 2  # killed ranks
+
 TRIES = int(os.environ.get("POUNDING_FAULTS", "3"))
 SECONDS = 60  # a job that has not ended by then hangs, also on a busy machine
 RANKS = 2

@@ -12,6 +12,8 @@ import numpy
 
 import program
 
+PROCESSORS = 2  # it builds
+
 COARSE = ["-s1_mesh_set", "cells_x=7,cells_y=5,column_elements=2", "-s2_mesh_set",
           "cells_x=5,cells_y=5,column_elements=2", "-end_time", "0.02", "-modes", "1", "-spectra_frequencies", "10,20"]
 DEMO = os.path.join("petsc-options", "azalee", "demo.yaml")

@@ -9,6 +9,8 @@ import yaml
 
 import program
 
+PROCESSORS = 2  # it builds
+
 TOP = Path(program.SOURCE)
 PACKAGE = TOP / "packaging" / "spack" / "packages" / "pounding" / "package.py"
 # Spack's names of the libraries that CMakeLists.txt and petsc.cmake name.

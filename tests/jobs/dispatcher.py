@@ -35,6 +35,10 @@ class Died(Exception):
     """A rank is gone."""
 
 
+class NotStarted(Exception):
+    """The ranks do not come up; it holds what mpirun said."""
+
+
 class Connection:
     """A socket, line by line."""
 
@@ -86,9 +90,14 @@ class Ranks:
                                             cwd=SOURCE, stdin=subprocess.DEVNULL, stdout=self.said, stderr=self.said,
                                             start_new_session=True)
             found = {}
-            while len(found) < RANKS:
-                connection = Connection(listening.accept()[0])
-                found[int(connection.receive(PATIENCE))] = connection
+            self.connections = []
+            try:
+                while len(found) < RANKS:
+                    connection = Connection(listening.accept()[0])
+                    self.connections.append(connection)
+                    found[int(connection.receive(PATIENCE))] = connection
+            except (TimeoutError, Died) as error:
+                raise NotStarted(self.kill()) from error
         self.connections = [found[rank] for rank in range(RANKS)]
 
     def kill(self):
@@ -123,7 +132,10 @@ class Dispatcher:
     def run(self, job):
         """The answer to a client."""
         for alone in (False, True):
-            ticket = self.enter(job, alone)
+            try:
+                ticket = self.enter(job, alone)
+            except NotStarted as error:
+                return {"crashed": True, "stdout": "", "stderr": f"the ranks did not start: {error}"}
             try:
                 return self.run_on_ranks(ticket, job)
             except TimeoutError:
@@ -145,11 +157,15 @@ class Dispatcher:
             self.waiting.append(ticket)
             while self.waiting[0] is not ticket or not self.has_room(ticket):
                 self.turn.wait()
+            self.waiting.popleft()
             if self.ranks is None:
-                self.ranks = Ranks(self.place)
+                try:
+                    self.ranks = Ranks(self.place)
+                except NotStarted:
+                    self.turn.notify_all()
+                    raise
                 self.free = set(range(RANKS))
                 self.starts += 1
-            self.waiting.popleft()
             self.number += 1
             ticket.update(number=self.number, ranks=sorted(self.free)[:job["ranks"]], on=self.ranks,
                           out=self.place / f"out-{self.number}", err=self.place / f"err-{self.number}")

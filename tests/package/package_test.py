@@ -14,6 +14,8 @@ import program
 import two_buildings
 from two_buildings import pounding
 
+PROCESSORS = 2  # runs on two ranks
+
 
 class Scenes(unittest.TestCase):
     def setUp(self):

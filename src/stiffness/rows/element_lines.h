@@ -21,8 +21,8 @@ class ElementLines {
   /// All dofs of the chain's nodes, those included to which the elements do not add, if they are
   /// owned and follow each other; else an empty range.
   virtual DofRange chain_range(std::size_t place) const = 0;
-  /// Decides for every chain whether its forces, final as they are, are handed over, not added to q;
-  /// only for those with a range. Call once.
+  /// Decides for every chain whether its forces, final as they are, are handed over and not added
+  /// to q; only for those with a range. Call once.
   virtual void set_handed_over(const std::vector<char>& handed_over) = 0;
 
   /// q += K w on the owned dofs that these elements touch, but for forces that are handed over.
