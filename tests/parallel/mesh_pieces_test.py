@@ -98,8 +98,16 @@ class Same(unittest.TestCase):
             self.assertTrue(same(values, pieces[item]), (name, ranks, item))
         for item in ("partition", "structures", "impacts", "warnings", "time_step", "energy"):
             self.assertEqual(json.dumps(whole_summary.get(item)), json.dumps(summary.get(item)), (name, ranks, item))
-        self.assertEqual(summary["memory"]["mesher"], 0, "Gmsh has no work")
         return summary
+
+    def test_gmsh_has_no_work(self):
+        """By the memory of all processes that a rank has started."""
+        with tempfile.TemporaryDirectory(prefix="pounding-") as place:
+            scene = [*SCENES["pair"], *SHORT, "-partition", "elements"]
+            cut(self, scene, 2, f"{place}/pieces")
+            for more, works in (([], True), (["-mesh_pieces", f"{place}/pieces"], False)):
+                program.well_ended(self, program.launch([*scene, *more, "-output", f"{place}/results"], 2))
+                self.assertEqual(program.summary(f"{place}/results")["memory"]["mesher"] > 0, works)
 
     def test_every_scene_on_two_ranks(self):
         touched = 0
