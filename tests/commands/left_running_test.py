@@ -93,8 +93,8 @@ import program
 
 class Long(unittest.TestCase):
     def test_it(self):
-        program.run(["-options_file", PLACE + "/two-buildings.yaml", "-probes", "left_roof", "-end_time", 900,
-                     "-output", PLACE + "/out/run"], RANKS)
+        program.launch(["-options_file", PLACE + "/two-buildings.yaml", "-probes", "left_roof", "-end_time", 900,
+                        "-output", PLACE + "/out/run"], RANKS)
 """
 
 

@@ -14,6 +14,7 @@ import collections
 import json
 import os
 import pathlib
+import select
 import shutil
 import signal
 import socket
@@ -33,6 +34,10 @@ PATIENCE = 60  # s for ranks to start
 
 class Died(Exception):
     """A rank is gone."""
+
+
+class Gone(Died):
+    """The client is gone: nobody waits for the job."""
 
 
 class NotStarted(Exception):
@@ -64,6 +69,13 @@ class Connection:
         if not line.endswith(b"\n"):
             raise Died
         return line.decode()
+
+    def end(self):
+        """Nothing goes either way any more, whoever waits at it sees so."""
+        try:
+            self.socket.shutdown(socket.SHUT_RDWR)
+        except OSError:
+            pass
 
     def close(self):
         for thing in (self.lines, self.socket):
@@ -103,7 +115,7 @@ class Ranks:
     def kill(self):
         """Ends the ranks; returns what mpirun said."""
         for connection in self.connections:
-            connection.close()
+            connection.end()
         try:
             self.process.wait(2)
         except subprocess.TimeoutExpired:
@@ -129,18 +141,21 @@ class Dispatcher:
         self.number = 0
         self.starts = 0
 
-    def run(self, job):
-        """The answer to a client."""
+    def run(self, job, client):
+        """The answer to a client; Died where it has not waited for it."""
         for alone in (False, True):
             try:
                 ticket = self.enter(job, alone)
             except NotStarted as error:
                 return {"crashed": True, "stdout": "", "stderr": f"the ranks did not start: {error}"}
             try:
-                return self.run_on_ranks(ticket, job)
+                return self.run_on_ranks(ticket, job, client)
             except TimeoutError:
                 self.restart(ticket)
                 return {"late": True}
+            except Gone:
+                self.restart(ticket)
+                raise
             except Died:
                 said = self.restart(ticket)
                 if ticket["was_alone"]:
@@ -181,7 +196,7 @@ class Dispatcher:
             return not self.running
         return len(self.running) < PROCESSORS
 
-    def run_on_ranks(self, ticket, job):
+    def run_on_ranks(self, ticket, job, client):
         for path in (ticket["out"], ticket["err"]):
             path.touch()
         words = {"ranks": ticket["ranks"], "number": ticket["number"], "words": job["words"], "folder": job["folder"],
@@ -190,7 +205,15 @@ class Dispatcher:
         for connection in chosen:
             connection.send(json.dumps(words))
         end = time.monotonic() + job["timeout"]
-        statuses = [int(connection.receive(max(0.01, end - time.monotonic()))) for connection in chosen]
+        statuses = []
+        for connection in chosen:
+            # A client says nothing more, so that a word from it is its end; what a rank says is one line.
+            while not (said := select.select([connection.socket, client.socket], [], [], max(0.01, end - time.monotonic()))[0]):
+                if time.monotonic() > end:
+                    raise TimeoutError
+            if connection.socket not in said:
+                raise Gone
+            statuses.append(int(connection.receive(PATIENCE)))
         return {"statuses": statuses, "stdout": ticket["out"].read_text(errors="replace"),
                 "stderr": ticket["err"].read_text(errors="replace")}
 
@@ -214,7 +237,7 @@ class Dispatcher:
     def answer(self, connection):
         try:
             job = json.loads(connection.receive())
-            connection.send(json.dumps(self.run(job)))
+            connection.send(json.dumps(self.run(job, connection)))
         except Died:
             pass
         finally:

@@ -1,10 +1,13 @@
 """Ranks that run one job after the other (tests/jobs) leave no trace of it in the next: a run among others has the bits of
 one in processes of its own; output, status, folder and variables are those of the job; a crash costs nobody else."""
+import json
 import os
 import shutil
+import socket
 import subprocess
 import tempfile
 import threading
+import time
 import unittest
 
 import h5py
@@ -77,6 +80,16 @@ class Jobs(unittest.TestCase):
         beside.join()
         again = self.run_by(program.run, "again", 1)
         self.assertEqual(records(ended["beside"][1]), records(again[1]))
+
+    def test_a_job_that_nobody_waits_for_ends(self):
+        job = {"ranks": 1, "words": [str(word) for word in [*POUNDING, "-end_time", 1000, "-output", os.path.join(self.folder, "left")]],
+               "folder": program.SOURCE, "environment": {}, "timeout": 900}
+        with socket.socket(socket.AF_UNIX) as asked:
+            asked.connect(os.path.join(program.jobs_place(), "jobs"))
+            asked.sendall(json.dumps(job).encode() + b"\n")
+            while not os.path.exists(os.path.join(self.folder, "left", "history.h5")):
+                time.sleep(0.05)
+        self.assertEqual(program.run(["-version"], 3, timeout=60).returncode, 0)  # it has all ranks
 
 
 if __name__ == "__main__":
