@@ -104,8 +104,9 @@ class Same(unittest.TestCase):
         """By the memory of all processes that a rank has started."""
         with tempfile.TemporaryDirectory(prefix="pounding-") as place:
             scene = [*SCENES["pair"], *SHORT, "-partition", "elements"]
-            cut(self, scene, 2, f"{place}/pieces")
-            for more, works in (([], True), (["-mesh_pieces", f"{place}/pieces"], False)):
+            scene += ["-mesh_pieces", f"{place}/pieces"]
+            program.well_ended(self, program.launch([*scene, "-write_mesh_pieces", 2], 1))
+            for more, works in ((["-mesh_pieces", "none"], True), ([], False)):
                 program.well_ended(self, program.launch([*scene, *more, "-output", f"{place}/results"], 2))
                 self.assertEqual(program.summary(f"{place}/results")["memory"]["mesher"] > 0, works)
 
