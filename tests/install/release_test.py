@@ -81,7 +81,7 @@ class Spack(unittest.TestCase):
         words = self.notes.words()
         exec(compile(PACKAGE.read_text().replace("from spack.package import *", ""), str(PACKAGE), "exec"), words)
         self.package = words["Pounding"]()
-        self.cmake = "".join((TOP / name).read_text() for name in ("CMakeLists.txt", "cmake/petsc.cmake"))
+        self.cmake = "".join((TOP / name).read_text() for name in ("CMakeLists.txt", "cmake/petsc.cmake", "cmake/vector_units.cmake"))
 
     def test_version_is_that_of_the_program(self):
         version = re.search(r"project\(pounding VERSION (\S+)", self.cmake)[1]

@@ -59,14 +59,14 @@ class RestartCase(unittest.TestCase):
         self.addCleanup(shutil.rmtree, folder)
         return folder
 
-    def complete(self, arguments, ranks=program.RANKS, folder=None):
+    def complete(self, arguments, ranks=2, folder=None):
         """Runs to the end; the folder of the results."""
         folder = folder or self.folder()
         result = program.run(list(arguments) + ["-output", folder], ranks)
         self.assertEqual(result.returncode, 0, result.stdout[-2000:] + result.stderr[-2000:])
         return folder
 
-    def cut(self, arguments, step, time_step, ranks=program.RANKS):
+    def cut(self, arguments, step, time_step, ranks=2):
         """A run whose only checkpoint stands at a step, and which goes on a little."""
         end_time = (step + step // 20) * time_step
         folder = self.complete([*arguments, "-checkpoint_steps", step, "-end_time", end_time], ranks)
