@@ -81,8 +81,8 @@ def run(arguments, ranks=RANKS, timeout=900, folder=SOURCE, environment=None):
     line = words(arguments, ranks)
     if ALL or ranks > 3 or not "".join(line).isascii():
         return launch(arguments, ranks, timeout, folder, environment)
-    variables = {name: value for name, value in (environment or ENVIRONMENT).items() if ENVIRONMENT.get(name) != value}
-    variables.update({name: None for name in ENVIRONMENT if environment and name not in environment})
+    given = environment or ENVIRONMENT
+    variables = {name: given.get(name) for name in {*ENVIRONMENT, *given} if given.get(name) != ENVIRONMENT.get(name)}
     job = {"ranks": ranks, "words": line[line.index(PROGRAM) + 1:], "folder": os.path.abspath(folder), "timeout": timeout,
            "environment": variables}
     with socket.socket(socket.AF_UNIX) as asked:

@@ -1,7 +1,7 @@
 """One motion on 1, 2 and 3 ranks, for every feature: the scenes are the dictionaries ON_RANKS of the other tests, beside
 the problems that they are of. An entry is a name with the words of a run, or with a function that gives them; or with a
 pair of it and options of `Alike`."""
-import importlib.util
+import importlib
 import pathlib
 import shutil
 import sys
@@ -20,11 +20,7 @@ CHEAP = ["-modes", 1, "-spectra_frequencies", 10]
 
 def module_of(path):
     sys.path.insert(0, str(path.parent))
-    specification = importlib.util.spec_from_file_location(path.stem, path)
-    module = importlib.util.module_from_spec(specification)
-    sys.modules.setdefault(path.stem, module)
-    specification.loader.exec_module(module)
-    return module
+    return importlib.import_module(path.stem)
 
 
 def scenes():
