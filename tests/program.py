@@ -35,8 +35,11 @@ ENVIRONMENT = environment()
 
 def words(arguments, ranks):
     """The command that runs `pounding` on some ranks; arguments are words after the program's name.
-    The small scenes of tests would not be cut on their own: they are, where nothing else is said."""
-    line = ["mpirun", "-n", str(ranks), PROGRAM] + [str(word) for word in arguments]
+    The small scenes of tests would not be cut on their own: they are, where nothing else is said. Results are in this
+    process's own folder where nothing else is said, as tests run side by side."""
+    words_given = [str(word) for word in arguments]
+    own = [] if "-output" in words_given else ["-output", os.path.join(PLACE.name, "results")]
+    line = ["mpirun", "-n", str(ranks), PROGRAM, *own, *words_given]
     return line + ["-partition", "elements"] if ranks > 1 and "-partition" not in line else line
 
 
