@@ -10,19 +10,11 @@
 namespace pounding {
 namespace {
 
-using Block = OptionBlock;
-using Kind = OptionKind;
+using namespace option_words;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr Range any{};
-constexpr Range positive{0, infinity, true, false};
-constexpr Range not_negative{0, infinity, false, false};
-constexpr Range at_least_1{1, infinity, false, false};
 constexpr Range fraction{0, 1, true, false};
-constexpr Range damping_ratio{0, 1, false, true};
 constexpr Range uniform_ratio{0, 0.3, false, false};
 constexpr Range eigen_tolerance{1e-10, 0.1, false, false};
-constexpr Range csv_digits{6, 17, false, false};
 constexpr Range rank_count{0, 99999, false, false};
 constexpr Range filter_count{1, 8, false, false};
 constexpr Range dashpot_power{0.01, 2, false, false};
@@ -57,12 +49,6 @@ constexpr Comparisons free_in_ensemble{ensemble};
 constexpr Comparisons free_on_restart{restart};
 
 constexpr Preset required{false, true, "required"};
-constexpr Preset value(std::string_view text) {
-  return {true, false, text};
-}
-constexpr Preset absent(std::string_view when) {
-  return {false, false, when};
-}
 
 // clang-format off
 constexpr std::array option_rows{

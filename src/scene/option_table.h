@@ -131,3 +131,27 @@ bool may_differ(std::string_view name, Comparison comparison);
 std::string help_text();
 
 }  // namespace pounding
+
+/// Words in which the rows of all option tables are written.
+namespace pounding::option_words {
+
+using Block = OptionBlock;
+using Kind = OptionKind;
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr Range any{};
+inline constexpr Range positive{0, infinity, true, false};
+inline constexpr Range not_negative{0, infinity, false, false};
+inline constexpr Range at_least_1{1, infinity, false, false};
+inline constexpr Range damping_ratio{0, 1, false, true};
+inline constexpr Range csv_digits{6, 17, false, false};
+
+constexpr Preset value(std::string_view text) {
+  return {true, false, text};
+}
+/// No value; `when` says when it is owed, or the meaning of its absence.
+constexpr Preset absent(std::string_view when) {
+  return {false, false, when};
+}
+
+}  // namespace pounding::option_words

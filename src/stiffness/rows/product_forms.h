@@ -11,9 +11,7 @@ struct ProductForms {
   bool beams = true;       ///< from their local stiffnesses; else sparse rows
   // Bricks and rectangles in rows:
   bool best_axis = true;  ///< rows along the axis that takes least time; else along axis 0
-  bool hand_over =
-      true;  ///< forces of a chain that is alone are handed over when it is done; else with
-             ///< the last
+  bool hand_over = true;  ///< a chain that is alone hands its forces over; else with the last
   // Bricks in rows:
   bool best_thickness = true;  ///< pairs along the better axis; else along the one after the next
   bool both_sides = true;      ///< bricks before and behind a pair in one step
