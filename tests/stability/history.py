@@ -1,16 +1,13 @@
-"""A run of the program with all that it recorded, and the scenes of run/stability."""
+"""A run of the program with all that it recorded."""
 import os
 import shutil
-import sys
 import tempfile
 
 import h5py
 import numpy
 
 import program
-
-sys.path.append(os.path.join(program.SOURCE, "run"))
-from parts.stability import scenes  # noqa: E402, F401  (for the tests of this folder)
+import scenes  # noqa: F401  (for the tests of this folder)
 
 
 class History:

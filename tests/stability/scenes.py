@@ -5,9 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from .bench import program  # finds the parts of tests
-
-from decks import box_of, contacts, material, probes, section  # noqa: I001
+import program
+from decks import box_of, contacts, material, probes, section
 
 CONCRETE = (30e9, 0.2, 2400.0)
 PULSE = 2.6  # frequency of the ground motion of the pair, between those of its two structures [Hz]
