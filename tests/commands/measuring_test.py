@@ -23,8 +23,7 @@ from parts.benchmark.workers import MeasuringError, block_cells, slab_cells, sto
 
 PROCESSORS = 2  # it measures on two ranks
 
-PROGRAM_WAYS = ["element", "assembled"]
-WAYS = ["element", "assembled", "aij", "baij", "sbaij", "scipy", "octave"]
+WAYS = ["element", "aij", "sbaij", "octave"]
 SHORT = ["--quick", "--rounds", "1", "--seconds", "0.02"]
 
 
@@ -56,8 +55,6 @@ class Measured(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr[-3000:])
         with open(os.path.join(self.folder, "table.md")) as file:
             self.assertIn(file.read(), result.stdout)
-        with open(os.path.join(self.folder, f"{name}.png"), "rb") as file:
-            self.assertGreater(len(file.read()), 10000)
         with open(os.path.join(self.folder, f"{name}.json")) as file:
             return rows_of(os.path.join(self.folder, "table.csv")), json.load(file)
 
@@ -71,7 +68,7 @@ class Benchmark(Measured):
         rows, result = self.run_script("benchmark", "--sizes", "3k")
         dofs = 3 * 22 * 23 * 2
         self.assertEqual([(int(row["dofs"]), int(row["ranks"]), row["way"]) for row in rows],
-                         [(dofs, 1, way) for way in WAYS] + [(dofs, 2, way) for way in WAYS[:5]])
+                         [(dofs, 1, way) for way in WAYS] + [(dofs, 2, way) for way in WAYS[:3]])
         for row in rows:
             if row["way"] == "octave" and row["note"].startswith("not installed"):
                 continue
@@ -79,11 +76,11 @@ class Benchmark(Measured):
                                  "highest", "ratio_to_element", "ratio_to_triad")
             self.assertAlmostEqual(float(row["microseconds_per_step"]) * 1e3 / dofs,
                                    float(row["nanoseconds_per_dof"]), delta=1e-6 * dofs)
-            if row["way"] in PROGRAM_WAYS:
+            if row["way"] == "element":
                 self.assert_positive(row, "memory_per_dof")
         machine = result["machine"]
         self.assertEqual(sorted(machine["multiply_adds"]), ["1", "2"])
-        self.assertEqual(len(machine["triad"]), 3 * 2)
+        self.assertEqual(len(machine["triad"]), 2)
         for figure in [*machine["multiply_adds"].values(), *machine["triad"]]:
             self.assertTrue(all(value > 0 for value in figure["rounds"]), figure)
 
@@ -190,7 +187,7 @@ class Shapes(unittest.TestCase):
         rows = rows_of(os.path.join(folder, "shapes.csv"))
         self.assertEqual([(row["shape"], row["way"]) for row in rows],
                          [(shape, way) for shape in ("rectangles", "triangles", "skewed")
-                          for way in ("element", "assembled", "aij", "sbaij")])
+                          for way in ("element", "aij", "sbaij")])
         for row in rows:
             self.assertGreater(float(row["nanoseconds_per_dof"]), 0, row)
             self.assertGreater(float(row["ratio_to_element"]), 0, row)

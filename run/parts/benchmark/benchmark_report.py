@@ -1,17 +1,13 @@
-"""The comparison of the ways to step as Markdown, CSV, JSON and a figure."""
+"""The comparison of the ways to step as Markdown, CSV and JSON."""
 
 import json
 from pathlib import Path
 
-from parts.plot.style import log_scale, plt
 from parts.tables import by_ranks, markdown, number, write_csv
 from pounding.files import write_text
 
 from .comparison import BYTES_PER_DOF, LABELS
 from .machine import Machine
-
-COLOURS = {"element": "#08519C", "assembled": "#B2182B", "aij": "#E69F00", "baij": "#C2A5CF",
-           "sbaij": "#762A83", "scipy": "#1B7837", "octave": "#555555"}
 
 
 def figures(rows: list) -> list:
@@ -79,9 +75,8 @@ NOTES = f"""\
 - `× triad`: over the time in which the triad of this run, on arrays of the same size, moves
   {BYTES_PER_DOF} bytes per dof: reading and writing the two arrays of the state. Masses,
   coordinates and element matrices can be shared by congruent bricks and are not counted.
-- `element by element` and `assembled` are the program's own step with its energy ledger; the
-  others are the same scheme written out around one product without a ledger. All have moved the
-  brick alike to 1e-9 after their first steps.
+- `element by element` is the program's own step with its energy ledger; the others are the same scheme written out around
+  one product without a ledger. All have moved the brick alike to 1e-9 after their first steps.
 - Memory: growth of the resident set from an empty process to a stepping one, mesh and all included,
   over the ranks together.
 - What is compared is linear elasticity on congruent bricks, for which the first is specialised;
@@ -90,46 +85,8 @@ NOTES = f"""\
 """
 
 
-def draw(listed: list, path: Path) -> None:
-    figure, axes = plt.subplots(figsize=(10, 5.5))
-    for way, label in LABELS.items():
-        for ranks in sorted({one["ranks"] for one in listed}):
-            found = [one for one in listed if one["way"] == way and one["ranks"] == ranks
-                     and one["nanoseconds_per_dof"] is not None]
-            if found:
-                draw_way(axes, found, COLOURS[way], f"{label}, {ranks} rank{'s' if ranks > 1 else ''}")
-    for ranks in sorted({one["ranks"] for one in listed}):
-        found = [one for one in listed if one["way"] == "element" and one["ranks"] == ranks
-                 and one["ratio_to_triad"]]
-        if found:
-            axes.plot([one["dofs"] for one in found],
-                      [one["nanoseconds_per_dof"] / one["ratio_to_triad"] for one in found],
-                      "-" if ranks == 1 else "--", color="#AAAAAA",
-                      label=f"triad, {BYTES_PER_DOF} B per dof, {ranks} rank{'s' if ranks > 1 else ''}")
-    log_scale(axes, "y", [one["nanoseconds_per_dof"] or 0 for one in listed])
-    axes.set_xscale("log")
-    axes.set_xticks(sorted({one["dofs"] for one in listed}), minor=False)
-    axes.xaxis.set_major_formatter(lambda value, _: f"{value:.0f}")
-    axes.xaxis.set_minor_formatter(lambda value, _: "")
-    axes.set(xlabel="dofs", ylabel="ns per dof and step", title="One step")
-    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-    figure.savefig(path)
-    plt.close(figure)
-
-
-def draw_way(axes, found: list, colour: str, label: str) -> None:
-    """Medians with the range of single rounds; hollow for several ranks."""
-    middle = [one["nanoseconds_per_dof"] for one in found]
-    reach = ([one["nanoseconds_per_dof"] - one["lowest"] for one in found],
-             [one["highest"] - one["nanoseconds_per_dof"] for one in found])
-    single = found[0]["ranks"] == 1
-    axes.errorbar([one["dofs"] for one in found], middle, reach, color=colour, capsize=2, marker="o",
-                  markersize=5, markerfacecolor=colour if single else "none",
-                  linestyle="-" if single else "--", label=label)
-
-
 def write(folder: Path, rows: list, machine: Machine, about: dict) -> str:
-    """Writes table.md, table.csv, benchmark.json and benchmark.png; returns the table."""
+    """Writes table.md, table.csv and benchmark.json; returns the table."""
     listed = figures(rows)
     text = "\n".join([step_table(listed), machine_table(machine),
                       f"{about['processor']}, {about['cores']} cores, {about['date']}\n", NOTES])
@@ -137,8 +94,6 @@ def write(folder: Path, rows: list, machine: Machine, about: dict) -> str:
     write_csv(folder / "table.csv", listed)
     measured = [{**one, "seconds_per_step": row.seconds.as_json() if row.seconds.values else None}
                 for one, row in zip(listed, rows)]
-    write_text(folder / "benchmark.json", 
-        json.dumps({**about, "bytes_per_dof": BYTES_PER_DOF, "steps": measured,
-                    "machine": machine.as_json()}, indent=1) + "\n")
-    draw(listed, folder / "benchmark.png")
+    write_text(folder / "benchmark.json", json.dumps(
+        {**about, "bytes_per_dof": BYTES_PER_DOF, "steps": measured, "machine": machine.as_json()}, indent=1) + "\n")
     return text

@@ -14,13 +14,11 @@ from .workers import (ELEMENT_MEMORY, MOTION_STEP, SOURCE, MeasuringError, Stepp
 
 BYTES_PER_DOF = 32  # read and write of two state arrays; masses, coordinates, elements are shared
 SLAB_UP_TO = 60_000  # dofs
-LABELS = {"element": "element by element", "assembled": "assembled (AIJ)",
-          "aij": "PETSc AIJ, written out", "baij": "PETSc BAIJ, blocks of 3",
-          "sbaij": "PETSc SBAIJ, blocks of 3", "scipy": "SciPy CSR, K(u + βv)",
+LABELS = {"element": "element by element", "aij": "PETSc AIJ, written out", "sbaij": "PETSc SBAIJ, blocks of 3",
           "octave": "Octave, K u and C v"}
-MATRIX_WAYS = ["assembled", "aij", "baij", "sbaij"]
+MATRIX_WAYS = ["aij", "sbaij"]
 # Memory of each program while it is built, the most [B per dof].
-NEEDED = {"element": ELEMENT_MEMORY, "matrices": 3000, "scipy": 1500, "octave": 5500}
+NEEDED = {"element": ELEMENT_MEMORY, "matrices": 3000, "octave": 5500}
 
 
 @dataclass
@@ -69,7 +67,7 @@ class Comparison(ExitStack):
             if self._fits("matrices", MATRIX_WAYS, ranks):
                 words = ["-export", self.scratch] if ranks == 1 else []
                 self._start_program(MATRIX_WAYS, ranks, *words)
-        self._start_others()
+        self._start_octave()
         self.rows.sort(key=lambda row: (row.ranks, list(LABELS).index(row.way)))
         check_agreement(self.squares)
 
@@ -96,18 +94,15 @@ class Comparison(ExitStack):
             (self.scratch / "model.json").write_text(
                 json.dumps({**kept, "motion": str(self.motion), "motion_step": MOTION_STEP}))
 
-    def _start_others(self) -> None:
-        """SciPy and Octave on the matrix that the program left."""
-        commands = {"scipy": ["/usr/bin/python3", SOURCE / "run/parts/benchmark/scipy_step.py", self.scratch],
-                    "octave": ["octave-cli", "--norc", "--quiet",
-                               SOURCE / "run/parts/benchmark/octave_step.m", self.scratch]}
-        for way, command in commands.items():
-            if ("assembled", 1) not in self.steppers:
-                self._skip(way, 1, "there is no matrix of one rank")
-            elif shutil.which(command[0]) is None:
-                self._skip(way, 1, f"not installed: apt-get install --no-install-recommends {way}")
-            elif self._fits(way, [way], 1):
-                self._enter([way], 1, command)
+    def _start_octave(self) -> None:
+        """Octave on the matrix that the program left."""
+        if ("aij", 1) not in self.steppers:
+            self._skip("octave", 1, "there is no matrix of one rank")
+        elif shutil.which("octave-cli") is None:
+            self._skip("octave", 1, "not installed: apt-get install --no-install-recommends octave")
+        elif self._fits("octave", ["octave"], 1):
+            self._enter(["octave"], 1, ["octave-cli", "--norc", "--quiet",
+                                        SOURCE / "run/parts/benchmark/octave_step.m", self.scratch])
         for name in ("stiffness.petsc", "mass.petsc"):
             (self.scratch / name).unlink(missing_ok=True)
 
@@ -124,7 +119,6 @@ class Comparison(ExitStack):
     def measure(self, machine: Machine, rounds: int, lasting: float) -> None:
         """Every way once per round, and the triad on as many bytes as a step must move."""
         name = f"{BYTES_PER_DOF} B × {self.dofs} dofs"
-        machine.measure_memory_levels(lasting)
         measured = [row for row in self.rows if (row.way, row.ranks) in self.steppers]
         triads = {ranks: Series() for ranks in self.ranks}
         turns = [(series, ranks, partial(machine.measure_triad, name, ranks,

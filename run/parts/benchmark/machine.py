@@ -7,25 +7,13 @@ from datetime import datetime, timezone
 from pathlib import Path
 
 from .series import QUIET, Series
-from .workers import Worker, available_memory, mpirun
-
-LEVEL_2, LEVEL_3 = 2**19, 2**25  # caches of a system that does not tell [B]
-
-
-def cache_size(level: int, otherwise: int) -> int:
-    """Bytes of one cache of this level; `otherwise` if the system does not tell."""
-    for cache in Path("/sys/devices/system/cpu/cpu0/cache").glob("index*"):
-        size = (cache / "size").read_text().strip()
-        if (cache / "level").read_text().strip() == str(level) and size.endswith("K"):
-            return 1024 * int(size[:-1])
-    return otherwise
+from .workers import Worker, mpirun
 
 
 def description() -> dict:
     model = [line.split(":", 1)[1].strip() for line in Path("/proc/cpuinfo").read_text().splitlines()
              if line.startswith("model name")]
     return {"processor": model[0] if model else platform.machine(), "cores": len(model),
-            "level_2_cache": cache_size(2, LEVEL_2), "level_3_cache": cache_size(3, LEVEL_3),
             "date": datetime.now(timezone.utc).isoformat(timespec="seconds")}
 
 
@@ -77,14 +65,6 @@ class Machine(ExitStack):
         rate = self.workers[ranks].ask(f"triad {total_bytes} {lasting}")["bytes_per_second"]
         self.triad.setdefault((name, ranks), Series()).add(rate)
         return rate
-
-    def measure_memory_levels(self, lasting: float) -> None:
-        """The triad in half of the second-level caches, and well outside of the last one."""
-        cache = cache_size(2, LEVEL_2) / 2
-        memory = min(8 * cache_size(3, LEVEL_3), available_memory() / 8)
-        for number in self.ranks:
-            self.measure_triad(f"L2, {cache / 1024:.0f} kB per rank", number, cache * number, lasting)
-            self.measure_triad(f"memory, {memory / 2**20:.0f} MB", number, memory, lasting)
 
     def measure_messages(self) -> None:
         """Between two ranks of the largest worker, which must have two."""

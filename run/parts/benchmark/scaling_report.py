@@ -1,9 +1,8 @@
-"""Scaling, measured and modelled, as Markdown, CSV, JSON and a figure."""
+"""Scaling, measured and modelled, as Markdown, CSV and JSON."""
 
 import json
 from pathlib import Path
 
-from parts.plot.style import log_scale, plt
 from parts.tables import markdown, number, write_csv
 from pounding.files import write_text
 
@@ -11,7 +10,6 @@ from .machine import Machine
 from .scaling_model import Messages
 
 PARTS = ("compute", "halo", "gather", "rows")
-COLOURS = ("#08519C", "#B2182B", "#1B7837", "#762A83", "#E69F00", "#555555")
 
 
 def measured_rows(points: list) -> list:
@@ -102,36 +100,9 @@ NOTES = """\
 """
 
 
-def draw(measured: list, modelled: list, path: Path) -> None:
-    figure, (times, efficiency) = plt.subplots(1, 2, figsize=(14, 4.8))
-    cases = list(dict.fromkeys((row["kind"], row["case"]) for row in measured + modelled
-                               if row["kind"] != "apart"))
-    for index, (kind, case) in enumerate(cases):
-        colour = COLOURS[index % len(COLOURS)]
-        for rows, fill, line in ((modelled, "none", ":"), (measured, colour, "-")):
-            found = [row for row in rows if (row["kind"], row["case"]) == (kind, case)]
-            if not found:
-                continue
-            ranks = [row["ranks"] for row in found]
-            look = {"color": colour, "marker": "o", "markersize": 5, "markerfacecolor": fill,
-                    "linestyle": line, "label": f"{kind}, {case} ({found[0]['source']})"}
-            times.plot(ranks, [row["microseconds_per_step"] for row in found], **look)
-            efficiency.plot(ranks, [row["efficiency"] for row in found], **look)
-    for axes in (times, efficiency):
-        axes.set_xscale("log", base=2)
-        axes.set_xticks(sorted({row["ranks"] for row in measured + modelled}))
-        axes.xaxis.set_major_formatter(lambda value, _: f"{value:.0f}")
-    log_scale(times, "y", [row["microseconds_per_step"] for row in measured + modelled])
-    times.set(xlabel="ranks", ylabel="µs per step", title="Step time (filled: measured, hollow: modelled)")
-    efficiency.set(xlabel="ranks", ylabel="efficiency", title="Parallel efficiency", ylim=(0, None))
-    efficiency.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-    figure.savefig(path)
-    plt.close(figure)
-
-
 def write(folder: Path, points: list, studies: list, machine: Machine, messages: Messages,
           about: dict) -> str:
-    """Writes table.md, table.csv, scaling.json and scaling.png; returns the tables."""
+    """Writes table.md, table.csv and scaling.json; returns the tables."""
     measured, modelled = measured_rows(points), modelled_rows(studies, points)
     tables = [measured_table(measured), modelled_table(modelled), machine_table(machine, messages)]
     tables += [f"- {reason}" for reason in about["skipped"]]
@@ -144,5 +115,4 @@ def write(folder: Path, points: list, studies: list, machine: Machine, messages:
         {**about, "measured": rounds, "modelled": modelled,
          "partitions": [{"case": case, "parts": parts} for case, _, parts in studies],
          "machine": machine.as_json()}, indent=1) + "\n")
-    draw(measured, modelled, folder / "scaling.png")
     return text

@@ -12,7 +12,7 @@ from pounding.files import write_text
 from .comparison import LABELS, check_agreement
 from .workers import SOURCE, Stepper, slab_cells, step_benchmark
 
-WAYS = ["element", "assembled", "aij", "sbaij"]
+WAYS = ["element", "aij", "sbaij"]
 CELLS = slab_cells(60_000)
 # One scene for the meshes of tests/meshes.
 SCENE = """\
