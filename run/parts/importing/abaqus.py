@@ -6,9 +6,9 @@ from pathlib import Path
 from .abaqus_cards import Block, Motion, Scope, blocks_of, motion_of
 from .abaqus_joints import JointReader
 from .abaqus_sections import SectionReader
-from .model import BAR, AxialSpring, Element, InputFault, Material, Model, PointMass, Spring
-from .texts import numbers, whole, whole_range
-from .vectors import cross, difference, permutation, unit
+from .cards import names_of, numbers, whole, whole_range
+from .geometry import cross, difference, permutation, unit
+from .model import BAR, AxialSpring, Element, InputFault, Material, Model, PointMass, Reading
 
 ELEMENTS = {"C3D8": ("hex8_full", 8), "C3D8I": ("hex8", 8), "C3D8R": ("hex8", 8), "C3D6": ("wedge6", 6),
             "C3D4": ("tet4", 4), "S4": ("shell", 4), "S4R": ("shell", 4), "S4RS": ("shell", 4), "S4RSW": ("shell", 4),
@@ -18,29 +18,31 @@ POINTS = {"MASS": 1, "ROTARYI": 1, "SPRING1": 1, "DASHPOT1": 1, "SPRING2": 2, "D
           "DASHPOTA": 2}
 # Nodes of elements that are counted and lost, so that their data are not taken for more elements.
 LOST = {"C3D20": 20, "C3D20R": 20, "C3D20H": 20, "C3D10": 10, "C3D10M": 10, "C3D15": 15, "C3D8H": 8, "C3D8RH": 8,
-        "S8": 8,
-        "S8R": 8, "S6": 6, "STRI65": 6, "B32": 3, "B32R": 3, "B32H": 3, "B31OS": 2, "B31H": 2, "T3D3": 3, "M3D4": 4,
-        "M3D4R": 4, "M3D3": 3, "SC8R": 8, "SC6R": 6, "CONN3D2": 2, "GAPUNI": 2, "CPS4": 4, "CPE4": 4, "CPS3": 3,
-        "CAX4": 4,
-        "R3D4": 4, "R3D3": 3, "SFM3D4": 4, "C3D5": 5}
+        "S8": 8, "S8R": 8, "S6": 6, "STRI65": 6, "B32": 3, "B32R": 3, "B32H": 3, "B31OS": 2, "B31H": 2, "T3D3": 3,
+        "M3D4": 4, "M3D4R": 4, "M3D3": 3, "SC8R": 8, "SC6R": 6, "CONN3D2": 2, "GAPUNI": 2, "CPS4": 4, "CPE4": 4,
+        "CPS3": 3, "CAX4": 4, "R3D4": 4, "R3D3": 3, "SFM3D4": 4, "C3D5": 5}
 FACES = {8: ((0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)),
          6: ((0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)),
          4: ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0))}
-PLOTS = {"HEADING", "PREPRINT", "RESTART", "OUTPUT", "NODE OUTPUT", "ELEMENT OUTPUT", "CONTACT OUTPUT", "ENERGY OUTPUT",
-         "NODE PRINT", "EL PRINT", "NODE FILE", "EL FILE", "ENERGY PRINT", "ENERGY FILE", "CONTACT PRINT",
-         "CONTACT FILE",
-         "SECTION PRINT", "MODAL OUTPUT", "MODAL FILE", "MONITOR", "FILE FORMAT", "TIME POINTS", "DIAGNOSTICS", "PRINT",
-         "SURFACE OUTPUT", "INTEGRATED OUTPUT", "FILTER"}
-STEPS = {"STEP", "END STEP", "STATIC", "DYNAMIC", "FREQUENCY", "COMPLEX FREQUENCY", "BUCKLE", "MODAL DYNAMIC", "VISCO",
-         "STEADY STATE DYNAMICS", "RESPONSE SPECTRUM", "RANDOM RESPONSE", "CONTROLS", "AMPLITUDE", "CLOAD", "DLOAD",
-         "DSLOAD",
-         "DSFLUX", "BASE MOTION", "TEMPERATURE", "FIELD", "INITIAL CONDITIONS", "SELECT EIGENMODES", "MODAL DAMPING",
-         "GLOBAL DAMPING", "PHYSICAL CONSTANTS", "BULK VISCOSITY", "FIXED MASS SCALING", "VARIABLE MASS SCALING",
-         "SOLVER CONTROLS", "SPECTRUM", "PSD-DEFINITION", "CORRELATION", "LOAD CASE", "END LOAD CASE", "NO ANALYSIS"}
-THERMAL = {"EXPANSION", "CONDUCTIVITY", "SPECIFIC HEAT", "LATENT HEAT", "FRICTION", "SURFACE INTERACTION",
-           "SURFACE BEHAVIOR",
-           "CONTACT DAMPING", "CONTACT CONTROLS", "CONTACT INITIALIZATION DATA", "CONTACT FORMULATION", "ORIENTATION",
-           "TRANSFORM", "SECTION CONTROLS", "HOURGLASS STIFFNESS", "FAIL STRESS", "FAIL STRAIN"}
+# Reason to pass over cards -> their names.
+NOTED = {
+    "titles and output": names_of("""
+    HEADING, PREPRINT, RESTART, OUTPUT, NODE OUTPUT, ELEMENT OUTPUT, CONTACT OUTPUT, ENERGY OUTPUT, NODE PRINT,
+    EL PRINT, NODE FILE, EL FILE, ENERGY PRINT, ENERGY FILE, CONTACT PRINT, CONTACT FILE, SECTION PRINT, MODAL OUTPUT,
+    MODAL FILE, MONITOR, FILE FORMAT, TIME POINTS, DIAGNOSTICS, PRINT, SURFACE OUTPUT, INTEGRATED OUTPUT, FILTER
+    """),
+    "loads and steps are not part of the model": names_of("""
+    STEP, END STEP, STATIC, DYNAMIC, FREQUENCY, COMPLEX FREQUENCY, BUCKLE, MODAL DYNAMIC, VISCO, STEADY STATE DYNAMICS,
+    RESPONSE SPECTRUM, RANDOM RESPONSE, CONTROLS, AMPLITUDE, CLOAD, DLOAD, DSLOAD, DSFLUX, BASE MOTION, TEMPERATURE,
+    FIELD, INITIAL CONDITIONS, SELECT EIGENMODES, MODAL DAMPING, GLOBAL DAMPING, PHYSICAL CONSTANTS, BULK VISCOSITY,
+    FIXED MASS SCALING, VARIABLE MASS SCALING, SOLVER CONTROLS, SPECTRUM, PSD-DEFINITION, CORRELATION, LOAD CASE,
+    END LOAD CASE, NO ANALYSIS
+    """),
+    "says nothing of stiffness, mass or supports here": names_of("""
+    EXPANSION, CONDUCTIVITY, SPECIFIC HEAT, LATENT HEAT, FRICTION, SURFACE INTERACTION, SURFACE BEHAVIOR,
+    CONTACT DAMPING, CONTACT CONTROLS, CONTACT INITIALIZATION DATA, CONTACT FORMULATION, ORIENTATION, TRANSFORM,
+    SECTION CONTROLS, HOURGLASS STIFFNESS, FAIL STRESS, FAIL STRAIN
+    """)}
 
 
 @dataclass(slots=True)
@@ -55,11 +57,11 @@ class Raw:
     at: int = -1
 
 
-class Reader:
+class Reader(Reading):
     """The whole deck. `model` is the result."""
 
     def __init__(self, path: Path):
-        self.model = Model(path.stem)
+        super().__init__(Model(path.stem))
         self.parts: dict = {}
         self.deck = Scope()
         self.blocks = self._flatten(blocks_of(path))
@@ -70,14 +72,12 @@ class Reader:
         self.valued: set = set()  # masses and springs that have a value
         self.sections = SectionReader(self)
         self.joints = JointReader(self)
-        self.handlers = {
-            "MATERIAL": self._name_material, "ELASTIC": self._elastic, "DENSITY": self._density,
-            "DAMPING": self._damping,
-            "SOLID SECTION": self.sections.solid, "SHELL SECTION": self.sections.shell,
-            "BEAM SECTION": self.sections.beam,
-            "BEAM GENERAL SECTION": self.sections.general, "NONSTRUCTURAL MASS": self.sections.added_mass,
-            "SPRING": self._spring, "DASHPOT": self._spring, "MASS": self._mass, "ROTARY INERTIA": self._mass,
-            **self.joints.handlers}
+        self.handlers = {"MATERIAL": self._name_material, "ELASTIC": self._elastic, "DENSITY": self._density,
+                         "DAMPING": self._damping, "SOLID SECTION": self.sections.solid,
+                         "SHELL SECTION": self.sections.shell, "BEAM SECTION": self.sections.beam,
+                         "BEAM GENERAL SECTION": self.sections.general, "NONSTRUCTURAL MASS": self.sections.added_mass,
+                         "SPRING": self._spring, "DASHPOT": self._spring, "MASS": self._mass,
+                         "ROTARY INERTIA": self._mass, **self.joints.handlers}
         for wanted in (("NODE",), ("ELEMENT",), ("NSET", "ELSET"), ("SURFACE",), ("TRANSFORM", "ORIENTATION")):
             for block, scope, motion in self.blocks:
                 if block.keyword in wanted:
@@ -91,11 +91,11 @@ class Reader:
 
     # What became of a block.
 
-    def use(self, block: Block) -> None:
-        self.model.cards.use(block.keyword)
+    def use_block(self, block: Block) -> None:
+        self.use(block.keyword)
 
-    def lose(self, block: Block, why: str) -> None:
-        self.model.cards.lose(block.keyword, why, block.place)
+    def lose_block(self, block: Block, why: str) -> None:
+        self.lose(block.keyword, why, block.place)
 
     def followers(self, block: Block) -> list:
         """The blocks right behind this one that belong to it."""
@@ -112,21 +112,15 @@ class Reader:
     def _handle(self, block: Block, scope: Scope, motion: Motion) -> None:
         keyword = block.keyword
         for parameter in block.strangers():
-            self.model.cards.lose(f"{keyword} {parameter}", "this parameter is not known", block.place)
+            self.lose(f"{keyword} {parameter}", "this parameter is not known", block.place)
         if keyword in self.handlers:
             self.handlers[keyword](block, scope, motion)
         elif keyword in ("NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "PART", "END PART", "ASSEMBLY", "END ASSEMBLY",
                          "INSTANCE", "END INSTANCE", "INCLUDE"):
             if keyword != "ELEMENT":
-                self.use(block)
-        elif keyword in PLOTS:
-            self.model.cards.note(keyword, "titles and output")
-        elif keyword in STEPS:
-            self.model.cards.note(keyword, "loads and steps are not part of the model")
-        elif keyword in THERMAL:
-            self.model.cards.note(keyword, "says nothing of stiffness, mass or supports here")
+                self.use_block(block)
         else:
-            self.lose(block, "not known")
+            self.pass_over(keyword, block.place, NOTED)
 
     def _check_points(self) -> None:
         """Masses and springs that no block gives a value."""
@@ -135,7 +129,7 @@ class Reader:
                 for raw in scope.elements.values():
                     if raw.type in POINTS and id(raw) not in self.valued:
                         self.valued.add(id(raw))
-                        self.model.cards.lose(f"ELEMENT TYPE={raw.type}", "it has no value", raw.place)
+                        self.lose(f"ELEMENT TYPE={raw.type}", "it has no value", raw.place)
 
     # Parts and instances.
 
@@ -217,9 +211,9 @@ class Reader:
                 self.model.elements.append(raw.element)
             elif kind not in POINTS:
                 why = "elements of second order are not known" if width and width > 8 else "this type is not known"
-                self.model.cards.lose(f"ELEMENT TYPE={kind}", why, place)
+                self.lose(f"ELEMENT TYPE={kind}", why, place)
         if kind in ELEMENTS or kind in POINTS:
-            self.model.cards.use(f"ELEMENT TYPE={kind}", len(rows))
+            self.use(f"ELEMENT TYPE={kind}", len(rows))
         if "ELSET" in block.parameters:
             self._store(scope, "element_sets", block.name("ELSET"), members)
 
@@ -363,7 +357,7 @@ class Reader:
     def _name_material(self, block: Block, _scope, _motion) -> None:
         self.material = block.name("NAME")
         self.model.materials[self.material] = Material(0.0, 0.0, 0.0, place=block.place)
-        self.use(block)
+        self.use_block(block)
 
     def _property(self, block: Block) -> tuple:
         if self.material is None or not block.data:
@@ -375,22 +369,22 @@ class Reader:
 
     def _elastic(self, block: Block, _scope, _motion) -> None:
         if block.name("TYPE", "ISOTROPIC") not in ("ISO", "ISOTROPIC"):
-            return self.lose(block, "materials are isotropic")
+            return self.lose_block(block, "materials are isotropic")
         material, values = self._property(block)
         material.young, material.poisson = (values + [0.0])[:2]
-        return self.use(block)
+        return self.use_block(block)
 
     def _density(self, block: Block, _scope, _motion) -> None:
         material, values = self._property(block)
         material.density = values[0]
-        self.use(block)
+        self.use_block(block)
 
     def _damping(self, block: Block, _scope, _motion) -> None:
         if self.material is None or set(block.parameters) - {"ALPHA", "BETA"}:
-            return self.lose(block, "damping is alpha M + beta K of a material")
+            return self.lose_block(block, "damping is alpha M + beta K of a material")
         material = self.model.materials[self.material]
         material.alpha, material.beta = block.number("ALPHA", 0.0), block.number("BETA", 0.0)
-        return self.use(block)
+        return self.use_block(block)
 
     # Points and springs.
 
@@ -402,7 +396,7 @@ class Reader:
         if "ORIENTATION" in block.parameters or (wanted == "ROTARYI" and any(values[3:])) or (
                 wanted == "MASS" and block.parameters.get("TYPE", "ISOTROPIC").upper() != "ISOTROPIC"):
             self.valued |= {id(raw) for raw in self.elements_of(block.name("ELSET"), scope, block.place)}
-            return self.lose(block, "masses are the same along all axes, inertias about the global ones")
+            return self.lose_block(block, "masses are the same along all axes, inertias about the global ones")
         name = block.name("ELSET")
         for raw in self.elements_of(name, scope, block.place):
             if raw.type != wanted:
@@ -411,7 +405,7 @@ class Reader:
             mass = PointMass(raw.nodes[0], values[0], name=name, place=raw.place) if wanted == "MASS" else PointMass(
                 raw.nodes[0], 0.0, tuple(values[:3]), name=name, place=raw.place)
             self.model.masses.append(mass)
-        return self.use(block)
+        return self.use_block(block)
 
     def _spring(self, block: Block, scope: Scope, _motion) -> None:
         """*SPRING and *DASHPOT: a line of components, which SPRINGA leaves empty, and one of the value."""
@@ -422,35 +416,33 @@ class Reader:
         if "ORIENTATION" in block.parameters:
             axes = self.orientations.get(block.name("ORIENTATION"))
             if axes is None or permutation(axes) is None:
-                return self.lose(block, "springs act along and about the global axes")
+                return self.lose_block(block, "springs act along and about the global axes")
         if "NONLINEAR" in block.parameters or len(block.data) > 2 or any(any(fields[1:]) for _,
                                                                          fields in block.data[1:]):
-            return self.lose(block, "springs and dashpots are linear")
+            return self.lose_block(block, "springs and dashpots are linear")
         along_line = all(raw.type.endswith("A") for raw in raws)  # their first line is empty
         if not block.data or (len(block.data) < 2 and not along_line):
             raise InputFault(f"{block.place}: *{family} has a line of components and one of the value")
         (where, dofs), (place, fields) = block.data[0], block.data[-1]
         value = numbers(fields[:1], place)[0]
+        both = (value, 0.0) if family == "SPRING" else (0.0, value)
         for raw in raws:
             if not raw.type.startswith(family):
                 raise InputFault(f"{block.place}: *{family} of element {raw.number}, which is a {raw.type}")
             if raw.type.endswith("A"):
-                stiffness, dashpot = (value, 0.0) if family == "SPRING" else (0.0, value)
-                self.model.axial_springs.append(AxialSpring(raw.nodes, stiffness, dashpot, name, family, raw.place))
+                self.model.axial_springs.append(AxialSpring(raw.nodes, *both, name, family, raw.place))
                 continue
             along = [whole(text, where) for text in dofs if text]
             if not along or not all(1 <= dof <= 6 for dof in along):
                 raise InputFault(f"{where}: components of a spring are from 1 to 6")
             if any(self.axes.get(node) and permutation(self.axes[node]) != (0, 1, 2) for node in raw.nodes):
-                return self.lose(block, "springs act along and about the global axes")
+                return self.lose_block(block, "springs act along and about the global axes")
             if len(raw.nodes) == 2 and len(set(along)) != 1:
-                return self.lose(block, "springs join the same component of two nodes")
+                return self.lose_block(block, "springs join the same component of two nodes")
             dof = along[0] - 1
             dof = permutation(axes)[dof % 3] + dof // 3 * 3 if axes else dof
-            six = tuple(value if k == dof else 0.0 for k in range(6))
-            both = (six, (0.0,) * 6) if family == "SPRING" else ((0.0,) * 6, six)
-            self.model.springs.append(Spring(raw.nodes, *both, name, raw.place))
-        return self.use(block)
+            self.model.add_spring(raw.nodes, dof, *both, name, raw.place)
+        return self.use_block(block)
 
 
 def read(path: Path) -> Model:

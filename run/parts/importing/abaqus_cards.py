@@ -4,9 +4,9 @@ import math
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from .cards import lines_of, number, numbers
+from .geometry import cross, difference, dot, sum_of, unit
 from .model import InputFault
-from .texts import lines_of, number, numbers
-from .vectors import cross, difference, dot, sum_of, unit
 
 # Parameters of keywords that are read, or say nothing of a model; any other one is a loss.
 PARAMETERS = {

@@ -1,10 +1,9 @@
 """Supports and constraints of Abaqus and CalculiX decks."""
 
 from .abaqus_cards import Block
-from .joints import is_whole, share, turning_nodes
-from .model import ALL, BEAMS, RX, RY, RZ, TRANSLATIONS, X, Y, Z, InputFault
-from .texts import number, whole
-from .vectors import global_components
+from .cards import number, whole
+from .joints import Shared, hold_turned, is_whole, turning_nodes
+from .model import ALL, BEAMS, RX, RY, RZ, TRANSLATIONS, X, Y, Z, InputFault, Reading
 
 NAMED = {"ENCASTRE": ALL, "PINNED": TRANSLATIONS, "XSYMM": X | RY | RZ, "YSYMM": Y | RX | RZ, "ZSYMM": Z | RX | RY,
          "XASYMM": Y | Z | RX, "YASYMM": X | Z | RY, "ZASYMM": X | Y | RZ}
@@ -19,12 +18,13 @@ def span_of(values, place: str) -> int:
     return sum(1 << (dof - 1) for dof in range(first, min(last, 6) + 1))
 
 
-class JointReader:
+class JointReader(Reading):
     """`reader` is the whole deck's."""
 
     def __init__(self, reader):
-        self.reader, self.model = reader, reader.model
-        self.equal: dict = {}  # pair of nodes -> components that they share, place, number of equations
+        super().__init__(reader.model, reader)
+        self.equal = Shared(self.model, "tied", "EQUATION",
+                            "equations join all displacements of two nodes that coincide")
         self.waiting: list = []  # (name, reference, nodes, components or None, block)
         self.handlers = {"BOUNDARY": self._boundary, "RIGID BODY": self._rigid, "COUPLING": self._coupling,
                          "KINEMATIC COUPLING": self._kinematic, "MPC": self._mpc, "EQUATION": self._equation,
@@ -32,7 +32,7 @@ class JointReader:
 
     def _boundary(self, block: Block, scope, motion) -> None:
         if block.name("TYPE", "DISPLACEMENT") != "DISPLACEMENT":
-            return self.model.cards.note(block.keyword, "motions of the ground are told in the scene")
+            return self.note(block.keyword, "motions of the ground are told in the scene")
         if block.name("OP", "MOD") == "NEW" and block.data:
             self.model.said.append(f"{block.place}: supports of all steps are taken together")
         for place, fields in block.data:
@@ -45,7 +45,7 @@ class JointReader:
                 first = whole(fields[1], place)
                 last = whole(fields[2], place) if len(fields) > 2 and fields[2] else first
                 if first > 6:  # temperature and the like
-                    self.model.cards.note("BOUNDARY", "")
+                    self.note("BOUNDARY", "")
                     continue
                 components = span_of((first, last), place)
                 if len(fields) > 3 and fields[3] and number(fields[3], place) != 0:
@@ -54,11 +54,9 @@ class JointReader:
                 axes = self.reader.axes.get(node)
                 if axes is None and motion.axis:
                     axes = tuple(motion.turn(axis) for axis in ((1, 0, 0), (0, 1, 0), (0, 0, 1)))
-                held = components if axes is None else global_components(components, axes)
-                if held is None:
-                    return self.model.cards.lose("BOUNDARY", "supports hold along the global axes", place)
-                self.model.hold(node, held)
-        return self.reader.use(block)
+                if not hold_turned(self.model, node, components, axes, "BOUNDARY", place):
+                    return None
+        return self.reader.use_block(block)
 
     def _rigid(self, block: Block, scope, _motion) -> None:
         nodes = list(self.reader.nodes_of(block.name("REF NODE"), scope, block.place))
@@ -72,9 +70,9 @@ class JointReader:
             for raw in self.reader.elements_of(block.name("ELSET"), scope, block.place):
                 nodes += raw.nodes
         if "ANALYTICAL SURFACE" in block.parameters:
-            return self.reader.lose(block, "analytical surfaces are not known")
+            return self.reader.lose_block(block, "analytical surfaces are not known")
         self.model.rigid.append(("rigid", sorted(set(nodes)), block.place))
-        return self.reader.use(block)
+        return self.reader.use_block(block)
 
     def _coupling(self, block: Block, scope, _motion) -> None:
         reference = self.reader.nodes_of(block.name("REF NODE"), scope, block.place)
@@ -82,8 +80,7 @@ class JointReader:
         followers = self.reader.followers(block)
         if not followers or followers[0].keyword != "KINEMATIC":
             what = followers[0] if followers else block
-            return self.model.cards.lose(f"COUPLING {what.keyword}", "couplings that distribute forces are not known",
-                                         block.place)
+            return self.lose(f"COUPLING {what.keyword}", "couplings that distribute forces are not known", block.place)
         components = self._ranges(followers[0])
         self.waiting.append((block.parameters.get("CONSTRAINT NAME", "coupling"), [*reference, *nodes], components,
                              block))
@@ -118,9 +115,9 @@ class JointReader:
             elif kind == "PIN":
                 self.model.pins.append((set(nodes), place))
             else:
-                self.model.cards.lose(f"MPC {kind}", "this constraint is not known", place)
+                self.lose(f"MPC {kind}", "this constraint is not known", place)
                 continue
-            self.model.cards.use("MPC")
+            self.use("MPC")
 
     def _equation(self, block: Block, scope, _motion) -> None:
         rows = iter(block.data)
@@ -140,11 +137,9 @@ class JointReader:
                 pairs = [self.reader.nodes_of(part[0], scope, place) for part in parts]
                 if len(pairs[0]) == len(pairs[1]):
                     for pair in zip(*pairs):
-                        held = self.equal.setdefault(frozenset(pair), [0, place, 0])
-                        held[0] |= 1 << (parts[0][1] - 1)
-                        held[2] += 1
+                        self.equal.add(pair, 1 << (parts[0][1] - 1), place)
                     continue
-            self.model.cards.lose("EQUATION", "equations join all displacements of two nodes that coincide", place)
+            self.lose("EQUATION", self.equal.why, place)
 
     def _tie(self, block: Block, scope, _motion) -> None:
         for place, fields in block.data:
@@ -152,12 +147,12 @@ class JointReader:
                 raise InputFault(f"{place}: *TIE has two surfaces")
             first, second = (text.upper() for text in fields[:2])
             if second not in self.model.facet_sets:
-                self.model.cards.lose("TIE", "the second surface of a tie is one of elements", place)
+                self.lose("TIE", "the second surface of a tie is one of elements", place)
                 continue
             if first not in self.model.facet_sets:
                 self.model.node_sets.setdefault(first, self.reader.surface_nodes(first, scope, place))
             self.model.ties.append((first, second))
-            self.reader.use(block)
+            self.reader.use_block(block)
 
     def _release(self, block: Block, scope, _motion) -> None:
         for place, fields in block.data:
@@ -168,12 +163,11 @@ class JointReader:
                 if raw.element is None or raw.element.kind not in BEAMS:
                     raise InputFault(f"{place}: element {raw.number} is no beam")
                 if what not in WHOLE_RELEASES:
-                    self.model.cards.lose(f"RELEASE {what}", "a hinge lets all three rotations go; allowed, it does "
-                                                             "here", place)
+                    self.lose(f"RELEASE {what}", "a hinge lets all three rotations go; allowed, it does here", place)
                 ends = list(raw.element.hinged)
                 ends[int(end[1]) - 1] = True
                 raw.element.hinged = tuple(ends)
-            self.reader.use(block)
+            self.reader.use_block(block)
 
     def finish(self) -> None:
         """Couplings and equations, once it is known which nodes turn."""
@@ -181,12 +175,7 @@ class JointReader:
         for name, nodes, components, block in self.waiting:
             if components is None or is_whole(components, nodes[1:], turning):
                 self.model.rigid.append((name, nodes, block.place))
-                self.model.cards.use(block.keyword)
+                self.use(block.keyword)
             else:
-                self.model.cards.lose(block.keyword, "couplings hold all components of nodes", block.place)
-        for pair, (components, place, count) in self.equal.items():
-            if share(self.model, "tied", pair, components, turning, place):
-                self.model.cards.use("EQUATION", count)
-            else:
-                self.model.cards.lose("EQUATION", "equations join all displacements of two nodes that coincide", place,
-                                      count)
+                self.lose(block.keyword, "couplings hold all components of nodes", block.place)
+        self.equal.finish()

@@ -2,10 +2,9 @@
 
 from . import sections
 from .abaqus_cards import Block
-from .frames import axis_between, frame_about, normal_of, size_of
-from .model import BAR, BEAMS, SHELL, SOLIDS, InputFault, Material, Property, Section
-from .texts import number, numbers
-from .vectors import applied, scaled
+from .cards import number, numbers
+from .geometry import applied, axis_between, frame_about, normal_of, scaled, size_of
+from .model import BAR, BEAMS, SHELL, SOLIDS, InputFault, Material, Property, Reading, Section
 
 # Shear areas over the area that the manual of Abaqus gives its Timoshenko beams.
 SHEAR = {"RECT": 0.85, "CIRC": 0.89, "PIPE": 0.53, "BOX": 0.44, "I": 0.44, "GENERAL": 1.0}
@@ -43,11 +42,11 @@ def shape_of(block: Block, shape: str) -> tuple:
     return sections.with_shear(one, SHEAR[shape], SHEAR[shape]), centroid
 
 
-class SectionReader:
+class SectionReader(Reading):
     """Gives elements their properties; `reader` is the whole deck's."""
 
     def __init__(self, reader):
-        self.reader, self.model = reader, reader.model
+        super().__init__(reader.model, reader)
 
     def _new(self, block: Block, material, **more) -> str:
         name = block.parameters.get("ELSET", "section").strip('"').rpartition(".")[2]
@@ -68,18 +67,18 @@ class SectionReader:
 
     def solid(self, block: Block, scope, _motion) -> None:
         if "COMPOSITE" in block.parameters:
-            return self.reader.lose(block, "composites are not known")
+            return self.reader.lose_block(block, "composites are not known")
         area = number(block.data[0][1][0] or "0", block.data[0][0]) if block.data and block.data[0][1][0] else 0.0
         key = self._new(block, block.name("MATERIAL"), area=area)
         for element in self._members(block, scope, *SOLIDS, BAR):
             element.property = key
-        return self.reader.use(block)
+        return self.reader.use_block(block)
 
     def shell(self, block: Block, scope, _motion) -> None:
         for word in ("COMPOSITE", "NODAL THICKNESS", "SHELL THICKNESS"):
             if word in block.parameters:
                 self._members(block, scope, SHELL)
-                return self.reader.lose(block, f"{word.lower()} is not known")
+                return self.reader.lose_block(block, f"{word.lower()} is not known")
         if not block.data:
             raise InputFault(f"{block.place}: *SHELL SECTION has no thickness")
         place, fields = block.data[0]
@@ -93,20 +92,20 @@ class SectionReader:
                 arm = scaled(normal_of([self.model.at(node, block.place) for node in element.nodes], element.place),
                              -offset * thickness)
                 element.arms = (arm,) * len(element.nodes)
-        return self.reader.use(block)
+        return self.reader.use_block(block)
 
     def beam(self, block: Block, scope, motion) -> None:
         shape = block.name("SECTION")
         if shape not in SHEAR or shape == "GENERAL":
             self._members(block, scope, *BEAMS)
-            return self.reader.lose(block, f"cross-section {shape} is not known; give its numbers in *BEAM GENERAL "
-                                           "SECTION")
+            return self.reader.lose_block(block, f"cross-section {shape} is not known; give its numbers in "
+                                                 "*BEAM GENERAL SECTION")
         section, centroid = shape_of(block, shape)
         key = self._new(block, block.name("MATERIAL"), section=section)
         direction = self._direction(block, 1, motion)
         for element in self._members(block, scope, *BEAMS):
             self._orient(element, key, direction, (0.0, centroid))
-        return self.reader.use(block)
+        return self.reader.use_block(block)
 
     def general(self, block: Block, scope, motion) -> None:
         shape = block.name("SECTION", "GENERAL")
@@ -117,12 +116,12 @@ class SectionReader:
             area, i11, i12, i22, torsion = (numbers(rows[0][1], rows[0][0]) + [0.0] * 5)[:5]
             section = Section(area, i22, i11, torsion, area, area)
             if i12:
-                self.reader.lose(block, "a product of inertia is not known; give principal axes")
+                self.reader.lose_block(block, "a product of inertia is not known; give principal axes")
         elif shape in SHEAR:
             section = shape_of(block, shape)[0]
         else:
             self._members(block, scope, *BEAMS)
-            return self.reader.lose(block, f"cross-section {shape} is not known")
+            return self.reader.lose_block(block, f"cross-section {shape} is not known")
         place, fields = rows[2] if len(rows) > 2 else (block.place, [])
         young, shear = (numbers(fields, place) + [0.0] * 2)[:2]
         material = f"{block.name('ELSET')} material"
@@ -137,16 +136,16 @@ class SectionReader:
             elif follower.keyword == "CENTROID" and len(values) >= 2:
                 centroid = tuple(values[:2])
             elif follower.keyword == "SHEAR CENTER" and tuple((values + [0.0] * 2)[:2]) != centroid:
-                self.reader.lose(follower, "the shear centre is taken to be the centroid")
+                self.reader.lose_block(follower, "the shear centre is taken to be the centroid")
                 continue
-            self.reader.use(follower)
+            self.reader.use_block(follower)
         if bears:
             section.shear_y, section.shear_z = bears
         key = self._new(block, material, section=section)
         direction = self._direction(block, 1, motion)
         for element in self._members(block, scope, *BEAMS):
             self._orient(element, key, direction, centroid)
-        return self.reader.use(block)
+        return self.reader.use_block(block)
 
     def _direction(self, block: Block, row: int, motion) -> tuple:
         if len(block.data) > row and any(block.data[row][1]):
@@ -177,7 +176,8 @@ class SectionReader:
             sizes = [size_of([self.model.at(node, block.place) for node in element.nodes]) for element in raws]
             value, kinds = value / sum(sizes), (SHELL, *BEAMS, BAR)
         if kinds is None or any(element.kind not in kinds for element in raws):
-            return self.reader.lose(block, f"non-structural mass of {units.lower()} on these elements is not known")
+            return self.reader.lose_block(block, f"non-structural mass of {units.lower()} on these elements is not "
+                                                 "known")
         for element in raws:
             element.added += value
-        return self.reader.use(block)
+        return self.reader.use_block(block)

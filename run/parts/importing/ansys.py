@@ -6,35 +6,33 @@ from pathlib import Path
 from .ansys_cards import Command, Commands
 from .ansys_joints import JointReader
 from .ansys_properties import Properties, SHELLS, solid_kind
-from .collapse import shape_of
-from .frames import axis_between, frame_about, normal_of, turned_z
-from .model import BAR, AxialSpring, Element, InputFault, Model, PointMass, Property, Section, Spring
-from .texts import number, whole
-from .vectors import applied, cross, difference, dot, scaled
+from .cards import names_of, number, whole
+from .geometry import applied, axis_between, cross, difference, dot, frame_about, normal_of, scaled, shape_of, turned_z
+from .model import BAR, AxialSpring, Element, InputFault, Model, PointMass, Property, Reading, Section
 
-CONTROL = {"NUMOFF", "DOF", "FINISH", "EXTOPT", "MPTEMP", "TREF", "TOFFST", "ANTYPE", "MODOPT", "MXPAND", "LUMPM",
-           "KUSE", "TIME",
-           "TUNIF", "TOTAL", "ERESX", "SSTIF", "SHPP", "SOLVE", "NLGEOM", "OUTRES", "OUTPR", "AUTOTS", "NSUBST", "KBC",
-           "ERNORM",
-           "EQSLV", "PRED", "CNVTOL", "NEQIT", "LNSRCH", "CSYS", "LOCAL", "CSCIR", "CLOCAL", "DSYS", "ALLSEL", "NSEL",
-           "ESEL",
-           "TYPE", "MAT", "REAL", "SECNUM", "ESYS", "RATE", "CMSEL", "EXPASS", "NUMEXP", "BCSOPTION", "RESCONTROL",
-           "DMPRAT",
-           "MDAMP", "DMPSTR", "PSTRES", "TINTP", "TRNOPT", "LSCLEAR", "CMEDIT", "WPSTYL", "LSWRITE", "UNITS"}
-LOADS = {"F", "SF", "SFE", "SFL", "SFA", "SFGRAD", "BF", "BFE", "BFUNIF", "ACEL", "OMEGA", "DOMEGA", "CGLOC", "CGOMGA",
-         "DCGOMG",
-         "CMOMEGA", "CMDOMEGA", "CMACEL", "FK", "IC", "INISTATE", "SFCUM", "FCUM", "BFCUM", "BFECUM", "LDREAD"}
+# Reason to pass over cards -> their names.
+NOTED = {
+    "titles, output and control": names_of("""
+    NUMOFF DOF FINISH EXTOPT MPTEMP TREF TOFFST ANTYPE MODOPT MXPAND LUMPM KUSE TIME TUNIF TOTAL ERESX SSTIF SHPP SOLVE
+    NLGEOM OUTRES OUTPR AUTOTS NSUBST KBC ERNORM EQSLV PRED CNVTOL NEQIT LNSRCH CSYS LOCAL CSCIR CLOCAL DSYS ALLSEL
+    NSEL ESEL TYPE MAT REAL SECNUM ESYS RATE CMSEL EXPASS NUMEXP BCSOPTION RESCONTROL DMPRAT MDAMP DMPSTR PSTRES TINTP
+    TRNOPT LSCLEAR CMEDIT WPSTYL LSWRITE UNITS
+    """),
+    "loads and steps are not part of the model": names_of("""
+    F SF SFE SFL SFA SFGRAD BF BFE BFUNIF ACEL OMEGA DOMEGA CGLOC CGOMGA DCGOMG CMOMEGA CMDOMEGA CMACEL FK IC INISTATE
+    SFCUM FCUM BFCUM BFECUM LDREAD
+    """)}
 # Nodes that an element of a type cannot do without.
 NEEDED = {185: 8, 45: 8, 181: 3, 63: 3, 43: 3, 188: 2, 4: 2, 180: 2, 8: 2, 184: 2}
 SECOND_ORDER = {186: "SOLID186", 187: "SOLID187", 95: "SOLID95", 92: "SOLID92", 281: "SHELL281", 93: "SHELL93",
                 189: "BEAM189"}
 
 
-class Reader:
+class Reader(Reading):
     """The whole archive. `model` is the result."""
 
     def __init__(self, path: Path):
-        self.model = Model(path.stem)
+        super().__init__(Model(path.stem))
         self.commands = Commands(path).found
         self.properties = Properties(self.model)
         self.turned: dict = {}  # node -> axes of its displacements where they are not the global ones
@@ -43,7 +41,7 @@ class Reader:
         for command in self.commands:
             if command.name in self.properties.handlers:
                 if self.properties.handlers[command.name](command) is not False:
-                    self.model.cards.use(command.name)
+                    self.use(command.name)
             elif command.name == "NBLOCK":
                 self._nodes(command)
             elif command.name == "N" and command.text(1).upper() == "LOC":
@@ -60,20 +58,18 @@ class Reader:
         name = command.name
         if name in self.joints.handlers:
             if self.joints.handlers[name](command) is not False:
-                self.model.cards.use(name)
+                self.use(name)
         elif name in ("NBLOCK", "EBLOCK"):
-            self.model.cards.use(name)
+            self.use(name)
         elif name in self.properties.handlers or (name == "N" and command.text(1).upper() == "LOC"):
             return
-        elif name[0] in "/*_" or "=" in name or name in CONTROL:
-            self.model.cards.note(name.partition("=")[0], "titles, output and control")
-        elif name in LOADS:
-            self.model.cards.note(name, "loads and steps are not part of the model")
+        elif name[0] in "/*_" or "=" in name:
+            self.note(name.partition("=")[0], "titles, output and control")
         elif name in ("ALPHAD", "BETAD"):
             setattr(self.model, "alpha" if name == "ALPHAD" else "beta", command.real(0))
-            self.model.cards.use(name)
+            self.use(name)
         else:
-            self.model.cards.lose(name, "not known", command.place)
+            self.pass_over(name, command.place, NOTED)
 
     # Nodes.
 
@@ -148,14 +144,12 @@ class Reader:
         elif type_ == 184 and keys.get(1, 0) == 1:
             self.model.rigid.append((f"rigid_{own}", nodes[:2], place))
         elif type_ == 200:
-            self.model.cards.note("ELEMENT MESH200", "it has no stiffness")
-            return
+            return self.note("ELEMENT MESH200", "it has no stiffness")
         else:
             card = f"ELEMENT {SECOND_ORDER.get(type_, type_)}"
-            self.model.cards.lose(card, "elements of second order are not known" if type_ in SECOND_ORDER else
+            return self.lose(card, "elements of second order are not known" if type_ in SECOND_ORDER else
                                   "this type is not known", place)
-            return
-        self.model.cards.use(f"ELEMENT {type_}")
+        self.use(f"ELEMENT {type_}")
 
     def _add(self, kind: str, nodes, common, **more) -> None:
         key, own, place = common[0], common[6], common[7]
@@ -171,17 +165,15 @@ class Reader:
         shape, nodes = shape_of((nodes + nodes[-1:] * 8)[:8] if len(nodes) != 4 else [*nodes[:3], nodes[2],
                                                                                       *[nodes[3]] * 4])
         if kind is None or shape is None:
-            self.model.cards.lose(f"ELEMENT {type_} {'LAYERED' if kind is None else 'PYRAMID'}", "this shape is not "
+            return self.lose(f"ELEMENT {type_} {'LAYERED' if kind is None else 'PYRAMID'}", "this shape is not "
                                                                                                  "known", common[7])
-            return
         self._property(common, common[2])
         self._add(kind if shape == "brick" else shape, nodes, common)
 
     def _shell(self, type_: int, keys: dict, nodes: list, common) -> None:
         _, _, material, _, section, reals, own, place = common
         if SHELLS[type_] is None or keys.get(1):
-            self.model.cards.lose(f"ELEMENT {type_} KEYOPT 1", "membranes and plates alone are not known", place)
-            return
+            return self.lose(f"ELEMENT {type_} KEYOPT 1", "membranes and plates alone are not known", place)
         added, offset = 0.0, 0.0
         if section in self.properties.sections and type_ == 181:
             thickness, material, offset = self.properties.shell_section(section, material, place)
@@ -194,7 +186,7 @@ class Reader:
             rest = reals + [0.0] * 20
             added = rest[5] if type_ == 181 else rest[17] if type_ == 63 else rest[7]
             if type_ == 63 and rest[4]:
-                self.model.cards.lose("EFS OF SHELL63", "foundations of shells are not known", place)
+                self.lose("EFS OF SHELL63", "foundations of shells are not known", place)
         nodes = nodes[:3] if len(nodes) > 3 and nodes[2] == nodes[3] else nodes
         self._property(common, material, thickness=thickness, added=added)
         arms = None
@@ -225,7 +217,7 @@ class Reader:
         else:
             area, izz, iyy, _, _, theta, strain, ixx, shear_z, shear_y, _, added = (reals + [0.0] * 12)[:12]
             if strain:
-                self.model.cards.lose("ISTRN OF BEAM4", "initial strains are not known", place)
+                self.lose("ISTRN OF BEAM4", "initial strains are not known", place)
             angle = math.radians(theta)
             one = Section(area, iyy, izz, ixx or iyy + izz, area / shear_z if shear_z else 0.0,
                           area / shear_y if shear_y else 0.0)
@@ -239,11 +231,10 @@ class Reader:
         else:
             area, added, one_way = (reals + [0.0] * 3)[:3]
             if one_way and type_ == 180:
-                self.model.cards.lose("TENSKEY OF LINK180",
-                                      "bars of one direction are told in the scene: tension_only", place)
+                self.lose("TENSKEY OF LINK180", "bars of one direction are told in the scene: tension_only", place)
             if type_ == 8:
                 if added:
-                    self.model.cards.lose("ISTRN OF LINK8", "initial strains are not known", place)
+                    self.lose("ISTRN OF LINK8", "initial strains are not known", place)
                 added = 0.0
         self._property(common, material, area=area, added=added)
         self._add(BAR, nodes[:2], common)
@@ -254,16 +245,14 @@ class Reader:
         along = keys.get(2, 0)
         ends = tuple(node for node in nodes[:2] if node)
         if quadratic or along > 6 or (along == 0 and keys.get(3, 0) == 1) or (along and set(ends) & set(self.turned)):
-            self.model.cards.lose("ELEMENT 14 KEYOPT OR CV2", "springs act along and about the global axes, or "
-                                                              "between two "
-                                  "nodes, linearly", place)
+            self.lose("ELEMENT 14 KEYOPT OR CV2",
+                      "springs act along and about the global axes, or between two nodes, linearly", place)
         elif along == 0 and len(ends) < 2:
             raise InputFault(f"{place}: a spring along its line has two nodes")
         elif along == 0:
             self.model.axial_springs.append(AxialSpring(ends, stiffness, dashpot, name, "ELEMENT 14", place))
         else:
-            six = [tuple(value if k == along - 1 else 0.0 for k in range(6)) for value in (stiffness, dashpot)]
-            self.model.springs.append(Spring(ends, *six, name, place))
+            self.model.add_spring(ends, along - 1, stiffness, dashpot, name, place)
 
     def _mass(self, keys: dict, nodes: list, common) -> None:
         name, reals, place = common[1], (common[5] + [0.0] * 6)[:6], common[7]
@@ -272,10 +261,9 @@ class Reader:
         elif keys.get(3, 0) == 0:
             mass, inertia = reals[0], tuple(reals[3:6])
             if len(set(reals[:3])) > 1 or (any(inertia) and keys.get(2)):
-                self.model.cards.lose("ELEMENT 21 OF DIRECTIONS", "a mass is the same along all axes", place)
+                self.lose("ELEMENT 21 OF DIRECTIONS", "a mass is the same along all axes", place)
         else:
-            self.model.cards.lose(f"ELEMENT 21 KEYOPT 3 = {keys.get(3)}", "masses are of three dimensions", place)
-            return
+            return self.lose(f"ELEMENT 21 KEYOPT 3 = {keys.get(3)}", "masses are of three dimensions", place)
         self.model.masses.append(PointMass(nodes[0], mass, inertia, None, name, place))
 
 

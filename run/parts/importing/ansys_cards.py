@@ -5,9 +5,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import ClassVar
 
-from .cards import Fields, cut
+from .cards import Fields, cut, lines_of, number, whole
 from .model import InputFault
-from .texts import lines_of, number, whole
 
 BLOCKS = ("NBLOCK", "EBLOCK", "RLBLOCK", "CMBLOCK", "SECBLOCK", "ETBLOCK")
 
@@ -65,31 +64,26 @@ class Commands:
         self.at += 1
         return self.lines[self.at - 1]
 
-    def _rows(self, command: Command, is_end) -> None:
+    def _widths(self) -> list:
         place, line = self._next()
-        widths = widths_of(line, place)
+        return widths_of(line, place)
+
+    def _read_nblock(self, command: Command) -> None:
+        """Rows up to the line -1; of nodes up to the command N as well."""
+        widths = self._widths()
         while True:
             place, line = self._next()
-            if is_end(line.strip()):
+            if line.strip() == "-1" or command.name == "NBLOCK" and line.strip().startswith("N,"):
                 return
             if not line.strip():
                 raise InputFault(f"{place}: an empty line in the block of {command.name}")
             command.rows.append((place, cut(line, widths)))
 
-    def _read_nblock(self, command: Command) -> None:
-        self._rows(command, lambda line: line.startswith("N,") or line == "-1")
-
-    def _read_eblock(self, command: Command) -> None:
-        self._rows(command, lambda line: line == "-1")
-
-    def _read_etblock(self, command: Command) -> None:
-        self._rows(command, lambda line: line == "-1")
+    _read_eblock = _read_etblock = _read_nblock
 
     def _read_cmblock(self, command: Command) -> None:
         """Numbers, as many as the header says."""
-        count = command.int(2)
-        place, line = self._next()
-        widths = widths_of(line, place)
+        count, widths = command.int(2), self._widths()
         found: list = []
         while len(found) < count:
             place, line = self._next()
@@ -101,10 +95,7 @@ class Commands:
 
     def _read_rlblock(self, command: Command) -> None:
         """Sets of real constants: number -> values."""
-        formats = []
-        for _ in range(2):
-            place, line = self._next()
-            formats.append(widths_of(line, place))
+        formats = [self._widths(), self._widths()]
         for _ in range(command.int(0)):
             place, line = self._next()
             fields = cut(line, formats[0])

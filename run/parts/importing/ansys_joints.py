@@ -1,22 +1,22 @@
 """Supports, couplings and components of ANSYS archives."""
 
 from .ansys_cards import Command
-from .joints import hold_turned, share, turning_nodes
-from .model import ALL, InputFault
-from .texts import whole, whole_range
+from .cards import whole, whole_range
+from .joints import Shared, hold_turned
+from .model import ALL, InputFault, Reading
 
 LABELS = {label: 1 << k for k, label in enumerate(("UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"))} | {"ALL": ALL}
 
 OTHER_LABELS = {"TEMP", "VOLT", "MAG", "PRES", "AX", "AY", "AZ", "CURR", "EMF", "CONC", "ENKE", "ENDS"}
 
 
-class JointReader:
+class JointReader(Reading):
     """`reader` is the whole archive's."""
 
     def __init__(self, reader):
-        self.reader, self.model = reader, reader.model
+        super().__init__(reader.model, reader)
         self.components: dict = {}  # name -> nodes
-        self.sets: dict = {}  # nodes of CP -> [components, place, cards]
+        self.coupled = Shared(self.model, "coupled", "CP", "couplings join all displacements of nodes that coincide")
         self.selects = any(command.name in ("NSEL", "CMSEL", "NSLE") for command in reader.commands)
         self.held: dict = {}  # node -> [components, place]
         self.handlers = {"D": self._support, "CMBLOCK": self._component, "CP": self._couple}
@@ -35,15 +35,12 @@ class JointReader:
         """D, node, label, value, value2, last node, step, more labels."""
         labels = [text.upper() for text in (command.text(1), *command.words[6:]) if text]
         if set(labels) & OTHER_LABELS:
-            self.model.cards.note(f"D {labels[0]}", "says nothing of displacements")
-            return False
+            return self.note(f"D {labels[0]}", "says nothing of displacements")
         if not labels or set(labels) - set(LABELS):
-            self.model.cards.lose(f"D {' '.join(labels)}", "supports hold UX to ROTZ, or ALL", command.place)
-            return False
+            return self.lose(f"D {' '.join(labels)}", "supports hold UX to ROTZ, or ALL", command.place)
         if command.text(0).upper() in ("ALL", "") and self.selects:
-            self.model.cards.lose("D OF SELECTED NODES", "selections are not followed; name the nodes or a component",
+            return self.lose("D OF SELECTED NODES", "selections are not followed; name the nodes or a component",
                                   command.place)
-            return False
         if command.text(2).upper() not in ("", "%_FIX%") and command.real(2):
             self.model.said.append(f"{command.place}: a displacement of {command.text(2)} is held at zero")
         nodes = self._nodes(command.text(0), command.place)
@@ -75,24 +72,14 @@ class JointReader:
     def _couple(self, command: Command) -> bool:
         label = command.text(1).upper()
         if label in OTHER_LABELS:
-            self.model.cards.note(f"CP {label}", "says nothing of displacements")
-            return False
+            return self.note(f"CP {label}", "says nothing of displacements")
         if label not in LABELS:
-            self.model.cards.lose(f"CP {label}", "couplings are of UX to ROTZ, or ALL", command.place)
-            return False
-        nodes = frozenset(node for at in range(2, len(command.words)) if command.text(at) for node in self._nodes(
-            command.text(at), command.place))
-        held = self.sets.setdefault(nodes, [0, command.place, 0])
-        held[0] |= LABELS[label]
-        held[2] += 1
+            return self.lose(f"CP {label}", "couplings are of UX to ROTZ, or ALL", command.place)
+        nodes = [node for text in command.words[2:] if text for node in self._nodes(text, command.place)]
+        self.coupled.add(nodes, LABELS[label], command.place)
         return False
 
     def finish(self) -> None:
         for node, (components, place) in self.held.items():
             hold_turned(self.model, node, components, self.reader.turned.get(node), "D", place)
-        turning = turning_nodes(self.model)
-        for nodes, (components, place, count) in self.sets.items():
-            if share(self.model, "coupled", nodes, components, turning, place):
-                self.model.cards.use("CP", count)
-            else:
-                self.model.cards.lose("CP", "couplings join all displacements of nodes that coincide", place, count)
+        self.coupled.finish()

@@ -3,7 +3,7 @@ the program."""
 
 from . import sections
 from .ansys_cards import Command
-from .model import InputFault, Material, Section
+from .model import InputFault, Material, Reading, Section
 
 # Name -> what becomes of it; solids of KEYOPT are in `solid_kind`.
 SHELLS = {181: 0, 63: 0, 43: 0, 41: None}
@@ -20,11 +20,11 @@ def solid_kind(type_: int, keys: dict) -> str | None:
     return {45: "hex8_full" if keys.get(1) else "hex8"}.get(type_)
 
 
-class Properties:
+class Properties(Reading):
     """Tables that commands fill; `model` gets the materials."""
 
     def __init__(self, model):
-        self.model = model
+        super().__init__(model)
         self.types: dict = {}  # number -> type of element
         self.keys: dict = {}  # number -> option -> value
         self.reals: dict = {}  # set -> values
@@ -96,17 +96,14 @@ class Properties:
 
     def _control(self, command: Command) -> bool:
         if any(command.real(at) for at in range(len(command.words))):
-            self.model.cards.lose("SECCONTROL", "stiffnesses and masses in place of those of the section",
-                                  command.place)
-            return False
+            return self.lose("SECCONTROL", "stiffnesses and masses in place of those of the section", command.place)
         return True
 
     def _material(self, command: Command) -> None:
         words = command.words[:]
         if words and words[0].upper().startswith("R") and "." in words[0]:  # MPDATA,R5.0, 1,EX  , 1, 1, 2e11
-            label = next((at for at in range(1, min(4, len(words)))
-                          if words[at][:1].isalpha() and words[at].upper() != "UNBL"),
-                         None)
+            label = next((at for at in range(1, min(4, len(words))) if words[at][:1].isalpha()
+                          and words[at].upper() != "UNBL"), None)
             if label is None:
                 raise InputFault(f"{command.place}: {command.name} names no property")
             words = words[label:]
@@ -129,7 +126,7 @@ class Properties:
             for name, value, where in values.get("others", []):
                 same = young if name[0] == "E" else shear if name[0] == "G" else poisson
                 if value and same is not None and abs(value - same) > 1e-9 * abs(same):
-                    self.model.cards.lose("MP OF OTHER AXES", "materials are isotropic", where)
+                    self.lose("MP OF OTHER AXES", "materials are isotropic", where)
             if young is None:
                 continue
             if poisson is None and not shear:
@@ -145,8 +142,7 @@ class Properties:
             raise InputFault(f"{place}: section {number_} is no BEAM of SECTYPE")
         _, shape, _, values, (where, way), own = self.sections[number_]
         if shape not in BEAM_SHAPES:
-            self.model.cards.lose(f"SECTYPE BEAM {shape}", "this cross-section is not known; give its numbers as ASEC",
-                                  own)
+            self.lose(f"SECTYPE BEAM {shape}", "this cross-section is not known; give its numbers as ASEC", own)
             return None
         if len(values) < BEAM_SHAPES[shape]:
             raise InputFault(f"{own}: a section {shape} has {BEAM_SHAPES[shape]} dimensions")
@@ -163,16 +159,16 @@ class Properties:
         elif shape == "ASEC":
             area, iyy, iyz, izz, _, torsion, *rest = values
             if any(rest[:4]):
-                self.model.cards.lose("SECTYPE BEAM ASEC", "a centroid or shear centre off the node", own)
+                self.lose("SECTYPE BEAM ASEC", "a centroid or shear centre off the node", own)
             found = Section(area, iyy, izz, torsion, 5 / 6 * area, 5 / 6 * area, iyz)
         else:
-            self.model.cards.lose(f"SECTYPE BEAM {shape}", "walls of different thickness, or flanges that differ", own)
+            self.lose(f"SECTYPE BEAM {shape}", "walls of different thickness, or flanges that differ", own)
             return None
         centroid = (0.0, 0.0)
         if where == "USER" and shape in ("RECT", "CSOLID", "CTUBE"):
             centroid = (-way[0], -way[1])
         elif where not in ("", "CENT", "SHRC") and not (where == "ORIGIN" and shape in ("RECT", "CSOLID", "CTUBE")):
-            self.model.cards.lose(f"SECOFFSET {where} OF {shape}", "the origin of this section is not known", own)
+            self.lose(f"SECOFFSET {where} OF {shape}", "the origin of this section is not known", own)
         turned, angle = sections.principal(found)
         return turned, angle, centroid
 
@@ -183,8 +179,8 @@ class Properties:
         _, _, _, layers, (where, _), own = self.sections[number_]
         materials = {int(layer[1]) if len(layer) > 1 and layer[1] else material for layer in layers}
         if not layers or len(materials) != 1:
-            self.model.cards.lose("SECTYPE SHELL", "layers of one material", own)
+            self.lose("SECTYPE SHELL", "layers of one material", own)
             materials.add(material)
         if where not in ("", "MID", "TOP", "BOT"):
-            self.model.cards.lose(f"SECOFFSET {where} OF SHELL", "offsets of shells are MID, TOP, BOT", own)
+            self.lose(f"SECOFFSET {where} OF SHELL", "offsets of shells are MID, TOP, BOT", own)
         return sum(layer[0] for layer in layers), sorted(materials)[0], {"TOP": -0.5, "BOT": 0.5}.get(where, 0.0)

@@ -4,12 +4,10 @@ program, its t axis is -y."""
 from pathlib import Path
 
 from . import sections
-from .collapse import shape_of
 from .dyna_cards import EIGHT, Card, Keyword, keywords_of
 from .dyna_joints import JointReader
-from .frames import axis_between, frame_about, normal_of
-from .model import BAR, AxialSpring, Element, InputFault, Material, Model, PointMass, Property, Section, Spring
-from .vectors import applied, difference, length, scaled, unit
+from .geometry import applied, axis_between, difference, frame_about, length, normal_of, scaled, shape_of, unit
+from .model import BAR, AxialSpring, Element, InputFault, Material, Model, PointMass, Property, Reading, Section, Spring
 
 NODE = (8, 16, 16, 16, 8, 8)
 MASS = (8, 8, 16, 8)
@@ -23,11 +21,11 @@ SOLID_FORMS = {2: "hex8_full", 18: "hex8_full"}
 SECOND_ORDER = (16, 17, 23, 24)
 
 
-class Reader:
+class Reader(Reading):
     """The whole deck. `model` is the result."""
 
     def __init__(self, path: Path):
-        self.model = Model(path.stem)
+        super().__init__(Model(path.stem))
         self.keywords = keywords_of(path)
         self.parts: dict = {}  # part -> (title, section, material, place)
         self.materials: dict = {}  # material -> (keyword, its cards)
@@ -45,11 +43,10 @@ class Reader:
             elif keyword.name.startswith("SECTION_"):
                 self._section(keyword)
         self.handlers = {"ELEMENT_SOLID": self._solids, "ELEMENT_SHELL": self._shells,
-                         "ELEMENT_SHELL_THICKNESS": self._shells,
-                         "ELEMENT_SHELL_OFFSET": self._shells, "ELEMENT_BEAM": self._beams,
-                         "ELEMENT_BEAM_ORIENTATION": self._beams, "ELEMENT_BEAM_OFFSET": self._beams,
-                         "ELEMENT_DISCRETE": self._discrete, "ELEMENT_MASS": self._masses,
-                         "ELEMENT_INERTIA": self._inertias,
+                         "ELEMENT_SHELL_THICKNESS": self._shells, "ELEMENT_SHELL_OFFSET": self._shells,
+                         "ELEMENT_BEAM": self._beams, "ELEMENT_BEAM_ORIENTATION": self._beams,
+                         "ELEMENT_BEAM_OFFSET": self._beams, "ELEMENT_DISCRETE": self._discrete,
+                         "ELEMENT_MASS": self._masses, "ELEMENT_INERTIA": self._inertias,
                          "ELEMENT_INERTIA_OFFSET": self._inertias, "DAMPING_GLOBAL": self._damping,
                          **self.joints.handlers}
         for keyword in self.keywords:
@@ -64,20 +61,20 @@ class Reader:
         name = keyword.name
         if name in self.handlers:
             if self.handlers[name](keyword) is not False and not name.startswith("ELEMENT_"):
-                self.model.cards.use(name)  # elements are counted one by one
+                self.use(name)  # elements are counted one by one
         elif name in ("PART", "NODE", "DEFINE_SD_ORIENTATION") or name.startswith(("SECTION_", "INCLUDE")):
-            self.model.cards.use(name, len(keyword.lines) if name == "NODE" else 1)
+            self.use(name, len(keyword.lines) if name == "NODE" else 1)
         elif name.startswith("MAT_"):
             self.joints.material(keyword)
         elif name.startswith(TITLES):
-            self.model.cards.note(name, "titles, output and control")
+            self.note(name, "titles, output and control")
         elif name.startswith(LOADS):
-            self.model.cards.note(name, "loads and steps are not part of the model")
+            self.note(name, "loads and steps are not part of the model")
         elif name.startswith(DAMPING):
-            self.model.cards.note(name, "damping is told in the scene")
+            self.note(name, "damping is told in the scene")
         else:
             count = len(keyword.lines) if name.startswith("ELEMENT_") else 1
-            self.model.cards.lose(name, "not known", keyword.place, max(1, count))
+            self.lose(name, "not known", keyword.place, max(1, count))
 
     # Tables.
 
@@ -105,8 +102,7 @@ class Reader:
     def _way(self, keyword: Keyword) -> None:
         for card in keyword.cards():
             if card.int(1) not in (0, 2):
-                self.model.cards.lose("DEFINE_SD_ORIENTATION", "springs act along a vector, or from node to node",
-                                      card.place)
+                self.lose("DEFINE_SD_ORIENTATION", "springs act along a vector, or from node to node", card.place)
             elif card.int(1) == 2:
                 ends = [self.model.at(card.int(k), card.place) for k in (5, 6)]
                 self.ways[card.int(0)] = difference(ends[1], ends[0])
@@ -151,25 +147,23 @@ class Reader:
                     raise InputFault(f"{card.place}: element {card.int(0)} has no card of nodes")
                 nodes = [second.int(k) for k in range(8)]
                 if second.int(8) or second.int(9):
-                    self.model.cards.lose("ELEMENT_SOLID of second order", "elements of second order are not known",
-                                          card.place)
+                    self.lose("ELEMENT_SOLID of second order", "elements of second order are not known", card.place)
                     continue
             title, (form, _), material, part = self.part_of(card, 1, "SOLID")
             if form.int(1, 1) in SECOND_ORDER:
-                self.model.cards.lose(f"SECTION_SOLID ELFORM {form.int(1)}", "elements of second order are not known",
-                                      card.place)
+                self.lose(f"SECTION_SOLID ELFORM {form.int(1)}", "elements of second order are not known", card.place)
                 continue
             nodes = [node for node in nodes if node]
             nodes += nodes[-1:] * (8 - len(nodes))
             shape, nodes = shape_of(nodes)
             if shape is None:
-                self.model.cards.lose("ELEMENT_SOLID PYRAMID", "this shape is not known", card.place)
+                self.lose("ELEMENT_SOLID PYRAMID", "this shape is not known", card.place)
                 continue
             self.elastic(material, card.place)
             self.model.properties.setdefault(part, Property(title, material, place=card.place))
             kind = SOLID_FORMS.get(form.int(1, 1), "hex8") if shape == "brick" else shape
             self._add(kind, card.int(0), nodes, part, card.place, part)
-            self.model.cards.use(keyword.name)
+            self.use(keyword.name)
 
     def _shells(self, keyword: Keyword) -> None:
         rows = iter(keyword.cards(*EIGHT))
@@ -191,8 +185,7 @@ class Reader:
                 thicknesses = [more.real(k) for k in range(4)]
             given = {value for value in thicknesses[:len(nodes)] if value}
             if len(given) > 1:
-                self.model.cards.lose("THICKNESS THAT VARIES", "a shell has one thickness; allowed, the largest holds",
-                                      card.place)
+                self.lose("THICKNESS THAT VARIES", "a shell has one thickness; allowed, the largest holds", card.place)
             if not given:
                 raise InputFault(f"{card.place}: element {card.int(0)} has no thickness")
             thickness = max(given)
@@ -205,7 +198,7 @@ class Reader:
             arms = (scaled(normal_of(places, f"{card.place}: element {card.int(0)}"),
                            arm),) * len(nodes) if arm else None
             self._add("shell", card.int(0), nodes, key, card.place, part, arms=arms)
-            self.model.cards.use(keyword.name)
+            self.use(keyword.name)
 
     def _beams(self, keyword: Keyword) -> None:
         rows = iter(keyword.cards(*EIGHT))
@@ -220,7 +213,7 @@ class Reader:
             if form == 6:
                 self._discrete_beam(card, title, second, material, nodes, part)
                 continue
-            self.model.cards.use(keyword.name)
+            self.use(keyword.name)
             self.elastic(material, card.place)
             added = first.real(6)
             if form == 3:
@@ -230,7 +223,7 @@ class Reader:
                 continue
             section, off = self._cross_section(form, first, second)
             if section is None:
-                self.model.cards.lose(f"SECTION_BEAM ELFORM {form}", "this form is not known", first.place)
+                self.lose(f"SECTION_BEAM ELFORM {form}", "this form is not known", first.place)
             who = f"{card.place}: element {card.int(0)}"
             axis = axis_between(ends, who)
             if keyword.name == "ELEMENT_BEAM_ORIENTATION":
@@ -250,17 +243,15 @@ class Reader:
             self.model.properties.setdefault(part, Property(title, material, section=section, added=added,
                                                             place=card.place))
             long = tuple(arm if length(arm) > 0 else None for arm in arms)
-            self._add("beam", card.int(0), nodes, part, card.place, part, z_axis=frame[2],
-                      arms=long if any(long) else None,
-                      hinged=tuple(hinged))
+            self._add("beam", card.int(0), nodes, part, card.place, part, z_axis=frame[2], arms=long if any(long)
+                      else None, hinged=tuple(hinged))
 
     def _released(self, card: Card, at: int) -> bool:
         """Whether an end turns on its own, by its codes of translations and rotations."""
         moves, turns = card.int(at), card.int(at + 1)
         if moves or turns not in (0, 7):
-            self.model.cards.lose("RELEASES OF ELEMENT_BEAM", "a hinge lets all three rotations go; allowed, it does "
-                                                              "here, where "
-                                  "it has one of them", card.place)
+            self.lose("RELEASES OF ELEMENT_BEAM", "a hinge lets all three rotations go; allowed, it does here, where "
+                                                  "it has one of them", card.place)
         return turns != 0
 
     def _cross_section(self, form: int, first: Card, second: Card) -> tuple:
@@ -268,7 +259,7 @@ class Reader:
         if form in (1, 4, 5, 11):
             s, t = second.real(0), second.real(2)
             if second.real(1, s) not in (0.0, s) or second.real(3, t) not in (0.0, t):
-                self.model.cards.lose("SECTION_BEAM THAT TAPERS", "beams that taper are not known; allowed, end 1 "
+                self.lose("SECTION_BEAM THAT TAPERS", "beams that taper are not known; allowed, end 1 "
                                                                   "holds", second.place)
             if first.int(4) == 1:
                 one = sections.ring(s / 2, t / 2)
@@ -281,8 +272,7 @@ class Reader:
         if form in (2, 12, 13):
             area, about_s, about_t, torsion, shear = (second.real(k) for k in range(5))
             if second.real(5):
-                self.model.cards.lose("IST OF SECTION_BEAM", "a product of inertia is not known; give principal axes",
-                                      second.place)
+                self.lose("IST OF SECTION_BEAM", "a product of inertia is not known; give principal axes", second.place)
             return Section(area, about_t, about_s, torsion or about_s + about_t, shear, shear), (0.0, 0.0)
         return None, (0.0, 0.0)
 
@@ -290,8 +280,7 @@ class Reader:
         """Form 6 with *MAT_LINEAR_ELASTIC_DISCRETE_BEAM in the global axes."""
         keyword = self.materials.get(material)
         if keyword is None or keyword.name not in ("MAT_LINEAR_ELASTIC_DISCRETE_BEAM", "MAT_066"):
-            self.model.cards.lose("SECTION_BEAM ELFORM 6", "discrete beams are linear and elastic", card.place)
-            return
+            return self.lose("SECTION_BEAM ELFORM 6", "discrete beams are linear and elastic", card.place)
         values, dampers = keyword.card(0), keyword.card(1) if len(keyword.lines) > 1 else Card([], keyword.place)
         stiffness = tuple(values.real(2 + k) for k in range(6))
         dashpot = tuple(dampers.real(k) for k in range(6))
@@ -299,16 +288,14 @@ class Reader:
         size = length(way)
         across = [k for k in range(3) if size > 0 and abs(way[k]) < (1 - 1e-9) * size and (stiffness[k] or dashpot[k])]
         if second.int(2) or across:
-            self.model.cards.lose("SECTION_BEAM ELFORM 6", "discrete beams act along the global axes, between nodes "
-                                                           "that "
-                                  "coincide or along their line", card.place)
-            return
+            return self.lose("SECTION_BEAM ELFORM 6", "discrete beams act along the global axes, between nodes that "
+                                                      "coincide or along their line", card.place)
         self.model.springs.append(Spring(nodes, stiffness, dashpot, title, card.place))
         mass, inertia = values.real(1) * second.real(0) / 2, values.real(1) * second.real(1) / 2
         for node in nodes:
             if mass or inertia:
                 self.model.masses.append(PointMass(node, mass, (inertia,) * 3, None, f"{title}_mass", card.place))
-        self.model.cards.use("ELEMENT_BEAM")
+        self.use("ELEMENT_BEAM")
 
     def _discrete(self, keyword: Keyword) -> None:
         for card in keyword.cards(*DISCRETE):
@@ -316,53 +303,49 @@ class Reader:
             law = self.materials.get(material)
             kind = law.name if law else ""
             if kind not in ("MAT_SPRING_ELASTIC", "MAT_S01", "MAT_DAMPER_VISCOUS", "MAT_S02"):
-                self.model.cards.lose("ELEMENT_DISCRETE", "springs and dampers are linear", card.place)
+                self.lose("ELEMENT_DISCRETE", "springs and dampers are linear", card.place)
                 continue
-            self.model.cards.use(keyword.name)
+            self.use(keyword.name)
             value = law.card(0).real(1) * (card.real(5) or 1.0)
-            spring = kind in ("MAT_SPRING_ELASTIC", "MAT_S01")
+            both = (value, 0.0) if kind in ("MAT_SPRING_ELASTIC", "MAT_S01") else (0.0, value)
             nodes = tuple(node for node in (card.int(2), card.int(3)) if node)
             torsional, way = first.int(1), self.ways.get(card.int(4))
             if card.int(4) == 0 and len(nodes) == 2 and not torsional:
-                self.model.axial_springs.append(AxialSpring(nodes, *((value, 0.0) if spring else (0.0, value)), title,
-                                                            "ELEMENT_DISCRETE", card.place))
+                self.model.axial_springs.append(AxialSpring(nodes, *both, title, "ELEMENT_DISCRETE", card.place))
                 continue
             if way is None and len(nodes) == 2:
                 way = difference(self.model.at(nodes[1], card.place), self.model.at(nodes[0], card.place))
             direction = unit(way) if way else None
             along = [k for k in range(3) if direction and abs(abs(direction[k]) - 1) < 1e-9]
             if not along:
-                self.model.cards.lose("ELEMENT_DISCRETE", "springs act along and about the global axes, or between "
+                self.lose("ELEMENT_DISCRETE", "springs act along and about the global axes, or between "
                                                           "two nodes", card.place)
                 continue
-            six = tuple(value if k == along[0] + 3 * torsional else 0.0 for k in range(6))
-            both = (six, (0.0,) * 6) if spring else ((0.0,) * 6, six)
-            self.model.springs.append(Spring(nodes, *both, title, card.place))
+            self.model.add_spring(nodes, along[0] + 3 * torsional, *both, title, card.place)
 
     # Masses and damping.
 
     def _masses(self, keyword: Keyword) -> None:
         for card in keyword.cards(*MASS):
             self.model.masses.append(PointMass(card.int(1), card.real(2), name="mass", place=card.place))
-            self.model.cards.use(keyword.name)
+            self.use(keyword.name)
 
     def _inertias(self, keyword: Keyword) -> None:
         step = 3 if keyword.name.endswith("OFFSET") else 2
         for at in range(0, len(keyword.lines), step):
             card, values = keyword.card(at, *EIGHT), keyword.card(at + 1)
             if card.int(2) or any(values.real(k) for k in (1, 2, 4)):
-                self.model.cards.lose("ELEMENT_INERTIA", "rotary inertia is about the global axes, without products",
-                                      card.place)
+                self.lose("ELEMENT_INERTIA", "rotary inertia is about the global axes, without products", card.place)
                 continue
             arm = keyword.card(at + 2).vector(0) if step == 3 else None
             self.model.masses.append(PointMass(card.int(1), values.real(6), (values.real(0), values.real(3),
                                                                              values.real(5)),
                                                arm if arm and length(arm) > 0 else None, "inertia", card.place))
-            self.model.cards.use(keyword.name)
+            self.use(keyword.name)
 
     def _damping(self, keyword: Keyword) -> None:
         if keyword.card(0).int(0):
-            self.model.cards.note("DAMPING_GLOBAL", "damping that changes in time is told in the scene")
+            self.note("DAMPING_GLOBAL", "damping that changes in time is told in the scene")
         self.model.alpha = keyword.card(0).real(1)
 
 

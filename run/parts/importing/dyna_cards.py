@@ -4,9 +4,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import ClassVar
 
-from .cards import Fields
+from .cards import Fields, cut, lines_of, number, whole
 from .model import InputFault
-from .texts import lines_of, number, whole
 
 TEN = (10,) * 8
 EIGHT = (8,) * 10
@@ -40,24 +39,14 @@ class Keyword:
 
     def cards(self, *widths) -> list:
         """All lines, cut into fields of these widths; those between commas where there are some."""
-        return [cut(line, place, widths or TEN) for place, line in self.lines]
+        return [self.card(at, *widths) for at in range(len(self.lines))]
 
     def card(self, at: int, *widths) -> Card:
         """Throws InputFault where there are fewer."""
         if at >= len(self.lines):
             raise InputFault(f"{self.place}: *{self.name} has no card {at + 1}")
         place, line = self.lines[at]
-        return cut(line, place, widths or TEN)
-
-
-def cut(line: str, place: str, widths) -> Card:
-    if "," in line:
-        return Card([word.strip() for word in line.split(",")], place)
-    fields, at = [], 0
-    for width in widths:
-        fields.append(line[at:at + width].strip())
-        at += width
-    return Card(fields, place)
+        return Card([word.strip() for word in line.split(",")] if "," in line else cut(line, widths or TEN), place)
 
 
 def keywords_of(path: Path, seen=()) -> list:

@@ -1,7 +1,7 @@
 """Supports, sets, rigid bodies and materials of LS-DYNA decks."""
 
 from .dyna_cards import Card, Keyword
-from .model import X, Y, Z, InputFault
+from .model import X, Y, Z, InputFault, Reading
 
 CODES = (0, X, Y, Z, X | Y, Y | Z, Z | X, X | Y | Z)
 ELASTIC = ("MAT_ELASTIC", "MAT_001")
@@ -11,21 +11,20 @@ OTHERS = ("MAT_SPRING_ELASTIC", "MAT_S01", "MAT_DAMPER_VISCOUS", "MAT_S02", "MAT
 FAMILIES = {"SET_BEAM": ("beam", "bar"), "SET_SHELL": ("shell",), "SET_SOLID": ("hex8", "hex8_full", "wedge6", "tet4")}
 
 
-class JointReader:
+class JointReader(Reading):
     """`reader` is the whole deck's."""
 
     def __init__(self, reader):
-        self.reader, self.model = reader, reader.model
+        super().__init__(reader.model, reader)
         self.sets: dict = {}  # set of nodes -> nodes
         self.of_part: dict = {}  # rigid part -> its nodes
         self.waiting: list = []  # what is done when all sets are known
         self.handlers = {"BOUNDARY_SPC_NODE": self._node, "BOUNDARY_SPC_SET": self._set, "SET_NODE": self._nodes,
                          "SET_NODE_LIST": self._nodes, "SET_NODE_LIST_GENERATE": self._nodes,
-                         "SET_SEGMENT": self._segments,
-                         "CONSTRAINED_NODAL_RIGID_BODY": self._body, "CONSTRAINED_EXTRA_NODES_SET": self._extra,
-                         "CONSTRAINED_EXTRA_NODES_NODE": self._extra, "CONSTRAINED_RIGID_BODIES": self._merge,
-                         "CONSTRAINED_NODE_SET": self._pin, "BOUNDARY_PRESCRIBED_MOTION_SET": self._moved,
-                         "BOUNDARY_PRESCRIBED_MOTION_NODE": self._moved,
+                         "SET_SEGMENT": self._segments, "CONSTRAINED_NODAL_RIGID_BODY": self._body,
+                         "CONSTRAINED_EXTRA_NODES_SET": self._extra, "CONSTRAINED_EXTRA_NODES_NODE": self._extra,
+                         "CONSTRAINED_RIGID_BODIES": self._merge, "CONSTRAINED_NODE_SET": self._pin,
+                         "BOUNDARY_PRESCRIBED_MOTION_SET": self._moved, "BOUNDARY_PRESCRIBED_MOTION_NODE": self._moved,
                          **{name + end: self._elements for name in FAMILIES for end in ("", "_LIST")}}
         self.merged: list = []
 
@@ -39,8 +38,7 @@ class JointReader:
         """Six flags behind a coordinate system."""
         components = sum(1 << k for k in range(6) if card.int(2 + k))
         if card.int(1) and (components & 7 not in (0, 7) or components >> 3 not in (0, 7)):
-            self.model.cards.lose("BOUNDARY_SPC", "supports hold along the global axes", card.place)
-            return
+            return self.lose("BOUNDARY_SPC", "supports hold along the global axes", card.place)
         self.waiting.append(lambda: [self.model.hold(node, components) for node in nodes_of()])
 
     def _node(self, keyword: Keyword) -> None:
@@ -84,9 +82,8 @@ class JointReader:
 
     def _elements(self, keyword: Keyword) -> None:
         families = FAMILIES[keyword.name.removesuffix("_LIST")]
-        found = [self.reader.elements[kind, card.int(k)]
-                 for card in keyword.cards()[1:] for k in range(8) for kind in families
-                 if (kind, card.int(k)) in self.reader.elements]
+        found = [self.reader.elements[kind, card.int(k)] for card in keyword.cards()[1:] for k in range(8)
+                 for kind in families if (kind, card.int(k)) in self.reader.elements]
         name = keyword.name[4:].removesuffix("_LIST").lower()
         self.model.element_sets[f"{name}_set_{keyword.card(0).int(0)}"] = found
 
@@ -94,7 +91,7 @@ class JointReader:
         lost = False
         for card in keyword.cards():
             if card.int(5) or card.int(6):
-                self.model.cards.lose(keyword.name, "rigid bodies couple all components of their nodes", card.place)
+                self.lose(keyword.name, "rigid bodies couple all components of their nodes", card.place)
                 lost = True
                 continue
             number, where, name, extra = card.int(2) or card.int(0), card.place, f"rigid_{card.int(0)}", card.int(3)
@@ -122,8 +119,7 @@ class JointReader:
     def _pin(self, keyword: Keyword) -> bool | None:
         card = keyword.card(0)
         if card.int(1) != 7:
-            self.model.cards.lose(keyword.name, "nodes share all three displacements", card.place)
-            return False
+            return self.lose(keyword.name, "nodes share all three displacements", card.place)
         self.waiting.append(lambda: self.model.pins.append((set(self.nodes(card.int(0), card.place)), card.place)))
         return None
 
@@ -132,7 +128,7 @@ class JointReader:
         for card in keyword.cards():
             dof, number, place = card.int(1), card.int(0), card.place
             if dof not in (1, 2, 3, 5, 6, 7):
-                self.model.cards.lose(keyword.name, "supports hold along the global axes", place)
+                self.lose(keyword.name, "supports hold along the global axes", place)
                 continue
             components = 1 << (dof - 1 if dof < 4 else dof - 2)
             by_set = keyword.name.endswith("SET")
@@ -151,26 +147,25 @@ class JointReader:
             if card.real(0) > 0:
                 held = CODES[card.int(1) % 8] | CODES[card.int(2) % 8] << 3
             elif card.real(0) < 0:
-                self.model.cards.lose("CMO OF MAT_RIGID", "supports hold along the global axes", card.place)
+                self.lose("CMO OF MAT_RIGID", "supports hold along the global axes", card.place)
             for part in parts:
                 self.of_part.setdefault(part, set()).update(self.reader.members.get(part, ()))
                 if held == 63:
                     for node in self.of_part[part]:
                         self.model.hold(node, held)
                 elif held:
-                    self.model.cards.lose("CMO OF MAT_RIGID", "a rigid body is clamped as a whole or not at all",
-                                          card.place)
+                    self.lose("CMO OF MAT_RIGID", "a rigid body is clamped as a whole or not at all", card.place)
         elif keyword.name in ELASTIC:
             card = keyword.card(0)
             if card.real(4) or card.real(5):
                 self.model.said.append(f"{card.place}: damping DA, DB is not read; damping is told in the scene")
         elif keyword.name not in OTHERS:
             if parts:
-                self.model.cards.lose(keyword.name, "materials are elastic", keyword.place)
+                self.lose(keyword.name, "materials are elastic", keyword.place)
             else:
-                self.model.cards.note(keyword.name, "no part has this material")
+                self.note(keyword.name, "no part has this material")
             return
-        self.model.cards.use(keyword.name)
+        self.use(keyword.name)
 
     def finish(self) -> None:
         for later in self.waiting:

@@ -3,8 +3,8 @@
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .model import ALL, BEAMS, SHELL, TRANSLATIONS, Model
-from .vectors import global_components, length, sum_of
+from .geometry import global_components, length, sum_of
+from .model import ALL, BEAMS, SHELL, TRANSLATIONS, Model, Reading
 
 NEAR = 1e-9  # of the model's size: nodes that coincide
 
@@ -37,27 +37,44 @@ class Sets:
 
 def turning_nodes(model: Model) -> set:
     """Nodes whose rotations an element holds."""
-    return {node for element in model.elements if element.kind == SHELL or element.kind in BEAMS for node in element.nodes}
+    return {node for element in model.elements if element.kind in (SHELL, *BEAMS) for node in element.nodes}
 
 
-def share(model: Model, name: str, nodes, components: int, turning: set, place: str) -> bool:
-    """Nodes that share components become a rigid body or a pin; false where they are neither."""
-    if components == ALL:
-        model.rigid.append((name, sorted(nodes), place))
-    elif components & TRANSLATIONS == TRANSLATIONS and (components == TRANSLATIONS or not turning & set(nodes)):
-        model.pins.append((set(nodes), place))
-    else:
-        return False
-    return True
+class Shared(Reading):
+    """Nodes that share components, each told by a card: rigid bodies or pins once all cards are known, or lost. `used`:
+    whether the cards that are kept have been counted before."""
+
+    def __init__(self, model: Model, name: str, card: str, why: str, used: bool = False):
+        super().__init__(model)
+        self.name, self.card, self.why, self.used = name, card, why, used
+        self.found: dict = {}  # nodes -> [components, place, cards]
+
+    def add(self, nodes, components: int, place: str) -> None:
+        held = self.found.setdefault(frozenset(nodes), [0, place, 0])
+        held[0] |= components
+        held[2] += 1
+
+    def finish(self) -> None:
+        turning = turning_nodes(self.model)
+        for nodes, (components, place, count) in self.found.items():
+            if components == ALL:
+                self.model.rigid.append((self.name, sorted(nodes), place))
+            elif components & TRANSLATIONS == TRANSLATIONS and (components == TRANSLATIONS or not turning & nodes):
+                self.model.pins.append((set(nodes), place))
+            else:
+                self.lose(self.card, self.why, place, count)
+                continue
+            if not self.used:
+                self.use(self.card, count)
 
 
-def hold_turned(model: Model, node: int, components: int, axes, card: str, place: str) -> None:
-    """Components in axes of the node's own, those of the space where it has none."""
+def hold_turned(model: Model, node: int, components: int, axes, card: str, place: str) -> bool:
+    """Components in axes of the node's own, those of the space where it has none. False where they are lost."""
     held = components if axes is None else global_components(components, axes)
     if held is None:
-        model.cards.lose(card, "supports hold along the global axes", place)
-    else:
-        model.hold(node, held)
+        return model.cards.lose(card, "supports hold along the global axes", place)
+    model.hold(node, held)
+    return True
 
 
 def is_whole(components: int, followers, turning: set) -> bool:
@@ -171,8 +188,7 @@ class Joints:
             if held:
                 first = next(node for node in nodes if self.model.supports.get(node, 0))
                 self.model.cards.lose("SUPPORT OF A RIGID BODY", "a rigid body, or a node with rigid arms, is clamped "
-                                                                 "as a "
-                                      "whole or not at all", f"node {first}")
+                                                                 "as a whole or not at all", f"node {first}")
             elif len(own) > 1:
                 name = next((names[node] for node in nodes if node in names), None)
                 roots = {self.joined[node] for node in own if node in self.joined}
@@ -222,13 +238,11 @@ class Joints:
                 for node in own:
                     self.model.hold(node, TRANSLATIONS)
             elif held:
-                self.model.cards.lose("HINGE AT A SUPPORT", "of nodes that share their displacements all three are "
-                                                            "held, or "
-                                      "none", place)
+                self.model.cards.lose("HINGE AT A SUPPORT",
+                                      "of nodes that share their displacements all three are held, or none", place)
             elif set(nodes) & self.following:
-                self.model.cards.lose("HINGE AT A RIGID BODY", "a hinge cannot be at a node of a rigid body or at an "
-                                                               "arm",
-                                      place)
+                self.model.cards.lose("HINGE AT A RIGID BODY",
+                                      "a hinge cannot be at a node of a rigid body or at an arm", place)
             elif len(own) > 1:
                 self.pins.append(own)
 

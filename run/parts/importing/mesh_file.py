@@ -69,8 +69,7 @@ class MeshFile:
         lines += ["$EndEntities", "$Nodes", f"1 {len(used)} {used[0]} {used[-1]}",
                   f"{first[0]} {entities[first]} 0 {len(used)}", *map(str, used)]
         lines += [" ".join(map(repr, nodes[node])) for node in used]
-        lines += ["$EndNodes", "$Elements",
-                  f"{len(blocks)} {len(self.cells)} {min(numbers)} {max(numbers)}"]
+        lines += ["$EndNodes", "$Elements", f"{len(blocks)} {len(self.cells)} {min(numbers)} {max(numbers)}"]
         for (dimension, entity, kind), cells in blocks.items():
             lines.append(f"{dimension} {entity} {kind} {len(cells)}")
             lines += [" ".join(map(str, (numbers[at], *self.cells[at][1]))) for at in cells]

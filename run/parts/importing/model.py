@@ -124,15 +124,19 @@ class Cards:
     def use(self, card: str, count: int = 1) -> None:
         self.read[card] += count
 
-    def note(self, card: str, why: str = "", count: int = 1) -> None:
+    def note(self, card: str, why: str = "", count: int = 1) -> bool:
+        """False, which handlers return where the card is not read."""
         self.noted[card] += count
         if why:
             self.why.setdefault(card, why)
+        return False
 
-    def lose(self, card: str, why: str, place: str, count: int = 1) -> None:
+    def lose(self, card: str, why: str, place: str, count: int = 1) -> bool:
+        """False, as `note`."""
         self.lost[card] += count
         self.why.setdefault(card, why)
         self.first.setdefault(card, place)
+        return False
 
 
 @dataclass
@@ -163,11 +167,29 @@ class Model:
     def hold(self, node: int, components: int) -> None:
         self.supports[node] = self.supports.get(node, 0) | components
 
+    def add_spring(self, nodes: tuple, component: int, stiffness: float, dashpot: float, name: str, place: str) -> None:
+        """Along or about one global axis; components are counted from 0."""
+        six = [tuple(value if k == component else 0.0 for k in range(6)) for value in (stiffness, dashpot)]
+        self.springs.append(Spring(nodes, *six, name, place))
+
     def at(self, node: int, place: str) -> tuple:
         """Coordinates of a node; throws InputFault where there is none."""
         if node not in self.nodes:
             raise InputFault(f"{place}: node {node} is not in the file")
         return self.nodes[node]
+
+
+class Reading:
+    """Readers of all formats and their parts: the model, and what becomes of cards. `reader`: of the whole file."""
+
+    def __init__(self, model: Model, reader=None):
+        self.model, self.reader = model, reader
+        self.use, self.note, self.lose = model.cards.use, model.cards.note, model.cards.lose
+
+    def pass_over(self, card: str, place: str, reasons: dict) -> None:
+        """Notes a card that no handler takes by the reason that knows its name, or loses it."""
+        why = next((why for why, names in reasons.items() if card in names), None)
+        self.lose(card, "not known", place) if why is None else self.note(card, why)
 
 
 def components_of(digits: str, place: str) -> int:

@@ -3,35 +3,36 @@
 import re
 from pathlib import Path
 
-from .frames import axis_between, frame_about, normal_of, turned_z
-from .model import BAR, AxialSpring, Element, InputFault, Model, PointMass, Property, Spring
+from .cards import names_of
+from .geometry import (along_global_axes, applied, axis_between, difference, frame_about, length, normal_of,
+                       permutation, scaled, sum_of, turned_z)
+from .model import BAR, AxialSpring, Element, InputFault, Model, PointMass, Property, Reading, Spring
 from .nastran_cards import GLOBAL, Card, Systems, deck_of
 from .nastran_joints import JointReader
 from .nastran_properties import PropertyReader
-from .vectors import along_global_axes, applied, difference, length, permutation, scaled, sum_of
 
 SOLIDS = {"CHEXA": ("hex8", 8, 20), "CPENTA": ("wedge6", 6, 15), "CTETRA": ("tet4", 4, 10)}
 PLATES = {"CQUAD4": 4, "CQUADR": 4, "CTRIA3": 3, "CTRIAR": 3}
 BEAMS = ("CBAR", "CBEAM")
-TITLES = {"PLOTEL", "SET1", "SET3", "PARAM", "ENDDATA", "SUPORT", "SUPORT1", "EIGR", "EIGRL", "EIGB", "EIGC", "EIGP",
-          "TSTEP",
-          "TSTEPNL", "NLPARM", "NLPCI", "ASET", "ASET1", "OMIT", "OMIT1", "MONPNT1", "DTI", "TABDMP1", "FREQ", "FREQ1",
-          "FREQ2",
-          "FREQ3", "FREQ4", "FREQ5", "RANDPS", "RANDT1", "TABRND1", "TABLED1", "TABLED2", "TABLED3", "TABLED4",
-          "TABLEM1",
-          "DESVAR", "DCONSTR", "DRESP1", "DVPREL1", "DEFORM", "TF"}
-LOADS = {"FORCE", "FORCE1", "FORCE2", "MOMENT", "MOMENT1", "MOMENT2", "PLOAD", "PLOAD1", "PLOAD2", "PLOAD4", "GRAV",
-         "LOAD",
-         "RFORCE", "ACCEL", "ACCEL1", "TEMP", "TEMPD", "TEMPP1", "TEMPRB", "DLOAD", "TLOAD1", "TLOAD2", "RLOAD1",
-         "RLOAD2",
-         "DAREA", "DELAY", "DPHASE", "LSEQ", "SPCD", "SLOAD", "TIC", "NOLIN1", "SPCR"}
+# Reason to pass over cards -> their names.
+NOTED = {
+    "titles, output and control": names_of("""
+    PLOTEL SET1 SET3 PARAM ENDDATA SUPORT SUPORT1 EIGR EIGRL EIGB EIGC EIGP TSTEP TSTEPNL NLPARM NLPCI ASET ASET1 OMIT
+    OMIT1 MONPNT1 DTI TABDMP1 FREQ FREQ1 FREQ2 FREQ3 FREQ4 FREQ5 RANDPS RANDT1 TABRND1 TABLED1 TABLED2 TABLED3 TABLED4
+    TABLEM1 DESVAR DCONSTR DRESP1 DVPREL1 DEFORM TF
+    """),
+    "loads and steps are not part of the model": names_of("""
+    FORCE FORCE1 FORCE2 MOMENT MOMENT1 MOMENT2 PLOAD PLOAD1 PLOAD2 PLOAD4 GRAV LOAD RFORCE ACCEL ACCEL1 TEMP TEMPD
+    TEMPP1 TEMPRB DLOAD TLOAD1 TLOAD2 RLOAD1 RLOAD2 DAREA DELAY DPHASE LSEQ SPCD SLOAD TIC NOLIN1 SPCR
+    """)}
 
 
-class Reader:
+class Reader(Reading):
     """The whole deck. `model` is the result."""
 
     def __init__(self, path: Path):
-        self.model, self.name = Model(path.stem), path.name
+        super().__init__(Model(path.stem))
+        self.name = path.name
         control, cards = deck_of(path)
         self.cards = cards
         self.systems = Systems(self.position)
@@ -64,7 +65,7 @@ class Reader:
         for card in cards:  # properties first, since offsets and axes hang on them
             if card.name in self.properties.handlers:
                 self.properties.handlers[card.name](card)
-                self.model.cards.use(card.name)
+                self.use(card.name)
         for card in cards:
             self._handle(card)
         self.joints.finish()
@@ -79,15 +80,11 @@ class Reader:
             self._beam(card)
         elif name in self.handlers:
             if self.handlers[name](card) is not False:
-                self.model.cards.use(name)
+                self.use(name)
         elif name in ("GRID", "GRDSET", "BAROR", "BEAMOR") or name.startswith("CORD"):
-            self.model.cards.use(name)
-        elif name in LOADS:
-            self.model.cards.note(name, "loads and steps are not part of the model")
-        elif name in TITLES:
-            self.model.cards.note(name, "titles, output and control")
+            self.use(name)
         elif name not in self.properties.handlers:
-            self.model.cards.lose(name, "not known", card.place)
+            self.pass_over(name, card.place, NOTED)
 
     # Grid points.
 
@@ -118,13 +115,12 @@ class Reader:
         for node in nodes:
             self.model.at(node, card.place)
         self.model.elements.append(Element(kind, card.int(0), tuple(nodes), key, place=card.place, **more))
-        self.model.cards.use(card.name)
+        self.use(card.name)
 
     def _solid(self, card: Card) -> None:
         kind, count, more = SOLIDS[card.name]
         if any(card.text(2 + k) for k in range(count, more)):
-            return self.model.cards.lose(f"{card.name} of second order", "elements of second order are not known",
-                                         card.place)
+            return self.lose(f"{card.name} of second order", "elements of second order are not known", card.place)
         return self._add(card, kind, [card.int(2 + k) for k in range(count)], card.int(1))
 
     def _plate(self, card: Card) -> None:
@@ -135,9 +131,8 @@ class Reader:
         key = card.int(1, card.int(0))
         if thicknesses:
             if len(thicknesses) < count or max(thicknesses) - min(thicknesses) > 1e-9 * max(thicknesses):
-                self.model.cards.lose(f"T1 TO T{count} OF {card.name}", "a thickness that varies within an element; "
-                                                                        "allowed, the "
-                                      "first holds", card.place)
+                self.lose(f"T1 TO T{count} OF {card.name}",
+                          "a thickness that varies within an element; allowed, the first holds", card.place)
             own = self.model.properties.get(key)
             if own is not None and thicknesses[0] != own.thickness:
                 fresh = f"{key} {thicknesses[0]!r}"
@@ -158,8 +153,7 @@ class Reader:
         source = card if any(card.text(k) for k in (4, 5, 6)) else default
         kind = (card.text(7) or default.text(7) or "GGG").upper()
         if kind[:3] != "GGG" and not re.fullmatch(r"[\d.]+|1", kind):
-            self.model.cards.lose(f"OFFT {kind} OF {card.name}", "vectors are in the axes of displacements, GGG",
-                                  card.place)
+            self.lose(f"OFFT {kind} OF {card.name}", "vectors are in the axes of displacements, GGG", card.place)
         arms = [applied(self.frame(node), card.vector(at)) for node, at in zip(nodes, (10, 13))]
         start = [sum_of(x, arm) for x, arm in zip(ends, arms)]
         if source.text(4) and "." not in source.text(4) and not source.text(5) and not source.text(6):
@@ -179,9 +173,8 @@ class Reader:
                 digits = "".join(sorted(text.strip()))
                 hinged[end] = "5" in digits or "6" in digits or "4" in digits
                 if digits != "456":
-                    self.model.cards.lose(f"PINS {digits} OF {card.name}", "a hinge lets all three rotations go; "
-                                                                           "allowed, it does "
-                                          "here, where it has one of them", card.place)
+                    self.lose(f"PINS {digits} OF {card.name}", "a hinge lets all three rotations go; allowed, it does "
+                                                               "here, where it has one of them", card.place)
         long = [arm if length(arm) > 0 else None for arm in arms]
         self._add(card, "beam", nodes, key, z_axis=tuple(towards), arms=tuple(long) if any(long) else None,
                   hinged=tuple(hinged))
@@ -190,7 +183,7 @@ class Reader:
         if card.name == "CONROD":
             key = f"CONROD {card.int(3)} {card.real(4)!r} {card.real(7)!r}"
             if card.real(5):
-                self.model.cards.lose("J OF CONROD", "bars do not twist", card.place)
+                self.lose("J OF CONROD", "bars do not twist", card.place)
             self.model.properties.setdefault(key, Property("conrod", card.int(3), area=card.real(4),
                                                            added=card.real(7) * self.mass_factor, place=card.place))
             self._add(card, BAR, (card.int(1), card.int(2)), key)
@@ -211,20 +204,17 @@ class Reader:
             value = card.real(1)
         ends = [(card.int(at), card.int(at + 1, 0)) for at in (2, 4) if card.text(at)]
         if not ends or any(not 1 <= component <= 6 for _, component in ends):
-            self.model.cards.lose(card.name, "springs act on components of grid points", card.place)
-            return False
+            return self.lose(card.name, "springs act on components of grid points", card.place)
         found = []
         for node, component in ends:
             self.model.at(node, card.place)
             places = permutation(self.frame(node))
             found.append(None if places is None else places[(component - 1) % 3] + (component - 1) // 3 * 3)
         if None in found or len(set(found)) > 1:
-            self.model.cards.lose(card.name, "springs act along the global axes, on the same component of both nodes",
+            return self.lose(card.name, "springs act along the global axes, on the same component of both nodes",
                                   card.place)
-            return False
-        six = tuple(value if k == found[0] else 0.0 for k in range(6))
-        both = (six, (0.0,) * 6) if family == "PELAS" else ((0.0,) * 6, six)
-        self.model.springs.append(Spring(tuple(node for node, _ in ends), *both, card.name.lower(), card.place))
+        both = (value, 0.0) if family == "PELAS" else (0.0, value)
+        self.model.add_spring(tuple(node for node, _ in ends), found[0], *both, card.name.lower(), card.place)
         return None
 
     def _bush(self, card: Card) -> bool | None:
@@ -256,14 +246,12 @@ class Reader:
             axes = (x, z, scaled(y, -1.0))  # y of the bushing lies in the plane of the vector
         six = [along_global_axes(values, axes) for values in (stiffness, dashpot)]
         if None in six:
-            self.model.cards.lose("CBUSH", "bushings act along and about the global axes", card.place)
-            return False
+            return self.lose("CBUSH", "bushings act along and about the global axes", card.place)
         across = [k for k in range(3) if apart and abs(way[k]) < (1 - 1e-9) * length(way) and (six[0][k] or six[1][k])]
         if across:
-            self.model.cards.lose("CBUSH", "a force across the length of a bushing makes moments; its nodes have to "
+            return self.lose("CBUSH", "a force across the length of a bushing makes moments; its nodes have to "
                                            "coincide",
                                   card.place)
-            return False
         self.model.springs.append(Spring(nodes, *six, name, card.place))
         return None
 
@@ -275,7 +263,7 @@ class Reader:
         inertia = [card.real(k) for k in (8, 10, 13)]
         about = along_global_axes((*inertia, 0.0, 0.0, 0.0), axes)
         if any(card.real(k) for k in (9, 11, 12)) or about is None:
-            self.model.cards.lose("I OF CONM2", "rotary inertia is about the global axes, without products", card.place)
+            self.lose("I OF CONM2", "rotary inertia is about the global axes, without products", card.place)
             about = (0.0,) * 3
         self.model.masses.append(PointMass(node, card.real(3) * self.mass_factor, scaled(about[:3], self.mass_factor),
                                            arm if length(arm) > 0 else None, "conm2", card.place))

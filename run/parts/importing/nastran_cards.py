@@ -6,10 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from .cards import Fields
+from .cards import Fields, lines_of, whole, whole_range
+from .geometry import applied, cross, difference, length, sum_of, unit
 from .model import InputFault
-from .texts import lines_of, whole, whole_range
-from .vectors import applied, cross, difference, length, sum_of, unit
 
 GLOBAL = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 

@@ -2,26 +2,27 @@
 
 import re
 
-from .joints import hold_turned, is_whole, share, turning_nodes
-from .model import ALL, TRANSLATIONS, InputFault, components_of
+from .joints import Shared, hold_turned, is_whole, turning_nodes
+from .model import ALL, TRANSLATIONS, InputFault, Reading, components_of
 from .nastran_cards import Card
 
+EQUATIONS = "equations join all displacements of two nodes that coincide"
 
-class JointReader:
+
+class JointReader(Reading):
     """`reader` is the whole deck's; `control`: lines before the bulk data, whose case control names the sets."""
 
     def __init__(self, reader, control):
-        self.reader, self.model = reader, reader.model
+        super().__init__(reader.model, reader)
         self.permanent: list = []  # components that GRID holds
         self.sets: dict = {}  # set of SPC -> (node, components, place)
         self.sums: dict = {}  # SPCADD and MPCADD: set -> its sets
-        self.equal: dict = {}  # set of MPC -> pair of nodes -> [components, place, cards]
+        self.equal: dict = {}  # set of MPC -> Shared
         self.lost: list = []  # cards of MPC that join otherwise: (set, place)
         self.waiting: list = []  # (name, independent, dependent, components, card)
         self.wanted = {word: self._named(control, word) for word in ("SPC", "MPC")}
         self.handlers = {"SPC": self._spc, "SPC1": self._spc1, "SPCADD": self._add, "MPCADD": self._add,
-                         "MPC": self._mpc,
-                         "RBE2": self._rbe2, "RBAR": self._rbar}
+                         "MPC": self._mpc, "RBE2": self._rbe2, "RBAR": self._rbar}
 
     @staticmethod
     def _named(control, word: str) -> tuple:
@@ -63,9 +64,8 @@ class JointReader:
         digits = {term[1] for term in terms}
         factors = [Card("MPC", term, card.place).real(2) for term in terms]
         if len(terms) == 2 and len(nodes) == 2 and len(digits) == 1 and factors[0] == -factors[1] != 0:
-            held = self.equal.setdefault(card.int(0), {}).setdefault(frozenset(nodes), [0, card.place, 0])
-            held[0] |= components_of(digits.pop(), card.place)
-            held[2] += 1
+            shared = self.equal.setdefault(card.int(0), Shared(self.model, "tied", "MPC", EQUATIONS, used=True))
+            shared.add(nodes, components_of(digits.pop(), card.place), card.place)
         else:
             self.lost.append((card.int(0), card.place))
 
@@ -84,8 +84,7 @@ class JointReader:
         depends = card.text(6).strip("0")
         components = components_of(depends, card.place) if depends else ALL
         if not whole:
-            self.model.cards.lose("RBAR", "rigid bars couple all components, those of the first node independent",
-                                  card.place)
+            self.lose("RBAR", "rigid bars couple all components, those of the first node independent", card.place)
         else:
             self.waiting.append((f"rbar_{card.int(0)}", card.int(1), [card.int(2)], components, card))
         return False
@@ -95,15 +94,13 @@ class JointReader:
         named, place = self.wanted[word]
         if len(named) > 1:
             raise InputFault(f"{place}: case control names the sets {', '.join(map(str, sorted(named)))} of {word}; a "
-                             "scene has "
-                             "one: leave one")
+                             "scene has one: leave one")
         if not named:
             free = set(there) - {one for (kind, _), sets in self.sums.items() if kind == word for one in sets}
             named = {key for kind, key in self.sums if kind == word} or free
             if len(named) > 1:
                 raise InputFault(f"{self.reader.name}: sets {', '.join(map(str, sorted(named)))} of {word}, and no "
-                                 "case control names one: say "
-                                 f"{word} = one of them before BEGIN BULK")
+                                 f"case control names one: say {word} = one of them before BEGIN BULK")
         found: set = set()
         for one in named:
             found |= set(self.sums.get((word, one), [one]))
@@ -129,23 +126,20 @@ class JointReader:
         turning = turning_nodes(self.model)
         for key, place in self.lost:
             if key in chosen:
-                self.model.cards.lose("MPC", "equations join all displacements of two nodes that coincide", place)
+                self.lose("MPC", EQUATIONS, place)
         for key in chosen & set(self.equal):
-            for pair, (components, place, count) in self.equal[key].items():
-                if not share(self.model, "tied", pair, components, turning, place):
-                    self.model.cards.lose("MPC", "equations join all displacements of two nodes that coincide", place,
-                                          count)
+            self.equal[key].finish()
         for name, first, others, components, card in self.waiting:
             for node in (first, *others):
                 self.model.at(node, card.place)
             if is_whole(components, others, turning):
                 self.model.rigid.append((name, [first, *others], card.place))
-                self.model.cards.use(card.name)
+                self.use(card.name)
             elif components == TRANSLATIONS and len({self.model.nodes[node] for node in (first, *others)}) == 1:
                 self.model.pins.append(({first, *others}, card.place))
-                self.model.cards.use(card.name)
+                self.use(card.name)
             else:
-                self.model.cards.lose(card.name, "rigid elements couple all components of their nodes", card.place)
+                self.lose(card.name, "rigid elements couple all components of their nodes", card.place)
 
     def _apply(self, node: int, components: int, card: str, place: str) -> None:
         hold_turned(self.model, node, components, self.reader.frame(node), card if card != "GRID" else "PS OF GRID", place)

@@ -2,7 +2,7 @@
 program, its z axis is -y: so v is the `z_axis`, I1 the inertia_y, K1 bears along z."""
 
 from . import sections
-from .model import InputFault, Material, Property, Section
+from .model import InputFault, Material, Property, Reading, Section
 from .nastran_cards import Card
 
 SHAPES = {"ROD": 1, "TUBE": 2, "BAR": 2, "BOX": 4, "I": 6}
@@ -28,11 +28,11 @@ def shape_of(kind: str, values: list, card: Card) -> Section | None:
     return sections.i_shape(height, bottom, top, bottom_flange, top_flange, web)[0]
 
 
-class PropertyReader:
+class PropertyReader(Reading):
     """`reader` is the whole deck's."""
 
     def __init__(self, reader):
-        self.reader, self.model = reader, reader.model
+        super().__init__(reader.model, reader)
         self.angles: dict = {}  # property -> angle of its principal axes
         self.springs: dict = {}  # PELAS, PDAMP, PBUSH: number -> (six stiffnesses, six dashpots), or a value
         self.handlers = {"MAT1": self._material, "PSOLID": self._solid, "PSHELL": self._shell, "PBAR": self._bar,
@@ -64,7 +64,7 @@ class PropertyReader:
             ("bending of another material, or none", bending != membrane), ("12 I / T^3", card.real(4, 1.0) != 1.0),
             ("shear of another material", shear not in (0, membrane)), ("no membrane", membrane == 0)) if is_wrong]
         if wrong:
-            self.model.cards.lose("PSHELL", f"plates are of one material and full thickness ({wrong[0]}); allowed, it "
+            self.lose("PSHELL", f"plates are of one material and full thickness ({wrong[0]}); allowed, it "
                                             "is one", card.place)
         self._put(card, membrane or bending, thickness=card.real(2), added=card.real(7) * self.reader.mass_factor)
 
@@ -77,7 +77,7 @@ class PropertyReader:
     def _put_section(self, card: Card, section: Section, added: float) -> None:
         turned, angle = sections.principal(section)
         if angle and section.shear_y != section.shear_z:
-            self.model.cards.lose(card.name, "shear areas that differ, beside a product of inertia", card.place)
+            self.lose(card.name, "shear areas that differ, beside a product of inertia", card.place)
         self.angles[card.int(0)] = angle
         self._put(card, card.int(1), section=turned, added=added * self.reader.mass_factor)
 
@@ -93,13 +93,12 @@ class PropertyReader:
         dimensions = [card.real(8 + k) for k in range(len(values))]
         section = shape_of(kind, dimensions, card)
         if section is None:
-            self.model.cards.lose(f"{card.name} {kind}", "this cross-section is not known; give its numbers in PBAR",
-                                  card.place)
+            self.lose(f"{card.name} {kind}", "this cross-section is not known; give its numbers in PBAR", card.place)
             return self._put(card, card.int(1))
         rest = len([text for text in card.fields[8 + len(values):] if text])
         far = [card.real(10 + len(values) + k, value) for k, value in enumerate(dimensions[:SHAPES[kind]])]
         if rest and shape_of(kind, far, card) != section:
-            self.model.cards.lose("PBEAML", "beams that taper are not known; allowed, end A holds", card.place)
+            self.lose("PBEAML", "beams that taper are not known; allowed, end A holds", card.place)
         return self._put_section(card, section, dimensions[SHAPES[kind]] if len(dimensions) > SHAPES[kind] else 0.0)
 
     def _beam(self, card: Card) -> None:
@@ -118,10 +117,9 @@ class PropertyReader:
                 break
         last = Card(card.name, tail, card.place)
         if tapers:
-            self.model.cards.lose("PBEAM", "beams that taper are not known; allowed, end A holds", card.place)
+            self.lose("PBEAM", "beams that taper are not known; allowed, end A holds", card.place)
         if any(last.real(k) for k in (4, 5, *range(8, 16))):
-            self.model.cards.lose("PBEAM", "inertia per length, and masses and axes off the beam, are not known",
-                                  card.place)
+            self.lose("PBEAM", "inertia per length, and masses and axes off the beam, are not known", card.place)
         area = numbers[0]
         section = Section(area, numbers[1], numbers[2], numbers[4], last.real(1, 1.0) * area, last.real(0, 1.0) * area,
                           -numbers[3])
@@ -129,7 +127,7 @@ class PropertyReader:
 
     def _rod(self, card: Card) -> None:
         if card.real(3):
-            self.model.cards.lose("J OF PROD", "bars do not twist", card.place)
+            self.lose("J OF PROD", "bars do not twist", card.place)
         self._put(card, card.int(1), area=card.real(2), added=card.real(5) * self.reader.mass_factor)
 
     def _tube(self, card: Card) -> None:
@@ -154,5 +152,5 @@ class PropertyReader:
             elif text and key in parts and 1 <= at - count <= 6:
                 parts[key][at - count - 1] = card.real(at)
             elif text and key == "M":
-                self.model.cards.lose("M OF PBUSH", "masses of bushings are not known", card.place)
+                self.lose("M OF PBUSH", "masses of bushings are not known", card.place)
         self.springs["PBUSH", card.int(0)] = tuple(parts["K"]), tuple(parts["B"])

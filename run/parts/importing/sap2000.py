@@ -4,10 +4,9 @@ holds objects, of which SAP2000 makes elements: frames are cut here at the joint
 import math
 from pathlib import Path
 
-from .frames import axis_between, frame_about, turned_z
+from .geometry import along_global_axes, axis_between, cross, difference, dot, frame_about, length, scaled, turned_z
 from .model import AxialSpring, Element, InputFault, Material, Model, PointMass, Property, Section, Spring
 from .sap2000_tables import Row, tables_of
-from .vectors import along_global_axes, cross, difference, dot, length, scaled
 
 DOFS = ("U1", "U2", "U3", "R1", "R2", "R3")
 MODIFIERS = ("AMod", "A2Mod", "A3Mod", "JMod", "I2Mod", "I3Mod", "MMod")

@@ -4,8 +4,8 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from .cards import lines_of, number
 from .model import InputFault
-from .texts import lines_of, number
 
 ENTRY = re.compile(r'([A-Za-z0-9_/%.\-]+)\s*=\s*("[^"]*"|[^\s"]+)')
 TITLE = re.compile(r'TABLE:\s*"([^"]+)"', re.IGNORECASE)

@@ -1,16 +1,14 @@
 """The writer: a neutral model in SI as a scene and a mesh, whatever it was read from."""
 
-from .joints import Joints
+from .geometry import difference, length, unit
+from .joints import Joints, turning_nodes
 from .mesh_file import MeshFile, Names, plain
-from .model import ALL, BAR, BEAMS, COMPONENTS, ROTATIONS, SHELL, SOLIDS, InputFault, Material, Model, Spring
-from .vectors import difference, length, unit
+from .model import ALL, BAR, BEAMS, COMPONENTS, ROTATIONS, SHELL, SOLIDS, InputFault, Material, Model
 
 # First words of the options of a structure: no group has their names.
 WORDS = ("absorbing", "allow", "clamp", "damping", "diaphragm", "gravity", "ignore", "initial", "join", "levels",
-         "mass",
-         "matrices", "mesh", "modal", "model", "p", "pin", "rigid", "soil", "stiffness", "target", "tie", "time",
-         "none",
-         "ungrouped")
+         "mass", "matrices", "mesh", "modal", "model", "p", "pin", "rigid", "soil", "stiffness", "target", "tie",
+         "time", "none", "ungrouped")
 SPRING_YOUNG, SPRING_DENSITY = 1e11, 1e-9  # of bars that stand for springs aslant: their mass is nothing
 
 
@@ -66,8 +64,7 @@ class Scene:
 
     def _turning(self) -> set:
         """Nodes with rotations."""
-        turning = {node for element in self.model.elements if element.kind == SHELL or element.kind in BEAMS
-                   for node in element.nodes}
+        turning = turning_nodes(self.model)
         turning |= {mass.node for mass in self.model.masses if any(mass.inertia)}
         for spring in self.model.springs:
             if any(spring.stiffness[3:]) or any(spring.dashpot[3:]):
@@ -136,12 +133,10 @@ class Scene:
             self.model.cards.lose(f"G OF MATERIAL {key}", "shells and solids have G = E / (2 (1 + nu))", material.place)
         if not material.density > 0:
             raise InputFault(f"{material.place}: material {key} has no density, and elements without mass cannot be "
-                             "stepped; "
-                             f"say one in kg/m3 with --density {key}=2500")
+                             f"stepped; say one in kg/m3 with --density {key}=2500")
         if not (material.young > 0 and -1 < poisson < 0.5):
             raise InputFault(f"{material.place}: material {key} has Young's modulus {material.young:g} Pa and "
-                             "Poisson's ratio "
-                             f"{poisson:g}; they have to be positive, and between -1 and 0.5")
+                             f"Poisson's ratio {poisson:g}; they have to be positive, and between -1 and 0.5")
         if key not in self.written:
             self.written[key] = self.material_names.free(key)
             self.materials[self.written[key]] = {"young": material.young, "poisson": poisson,
@@ -152,9 +147,8 @@ class Scene:
         section = one.section
         if axis is None:
             raise InputFault(f"{first.place}: element {first.number} has no direction of its section")
-        values = {what: positive(getattr(section, what), what, one, first) for what in ("area", "inertia_y",
-                                                                                        "inertia_z",
-                                                                                       "torsion")}
+        values = {what: positive(getattr(section, what), what, one, first)
+                  for what in ("area", "inertia_y", "inertia_z", "torsion")}
         values["torsion"] *= factor
         if section.shear_y > 0 and section.shear_z > 0 and kind == "beam":
             values["shear_area"] = numbers((section.shear_y * factor, section.shear_z * factor))
@@ -227,9 +221,7 @@ class Scene:
             raise InputFault(f"{spring.place}: a spring along the line between two nodes that coincide")
         along = [k for k in range(3) if abs(abs(way[k]) - size) <= 1e-9 * size]
         if along:
-            values = [tuple(value if k == along[0] else 0.0 for k in range(6)) for value in (spring.stiffness,
-                                                                                             spring.dashpot)]
-            self.model.springs.append(Spring(spring.nodes, *values, spring.name, spring.place))
+            self.model.add_spring(spring.nodes, along[0], spring.stiffness, spring.dashpot, spring.name, spring.place)
             return
         if spring.dashpot:
             self.model.cards.lose(spring.card, "dashpots between two nodes act along and about global axes",
@@ -319,6 +311,5 @@ def family_of(kind: str) -> str:
 def positive(value: float, what: str, one, first) -> float:
     if not value > 0:
         raise InputFault(f"{one.place or first.place}: {one.name} has {what.replace('_', ' ')} {value:g}, and it has "
-                         "to be "
-                         "above 0")
+                         "to be above 0")
     return value

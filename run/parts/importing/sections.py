@@ -3,6 +3,7 @@ along axis z, a width along y. Shear areas are given as factors of the area by f
 where they have none those of the program's own sections are taken (docs/scene.md)."""
 
 import math
+from dataclasses import replace
 
 from .model import Section
 
@@ -57,14 +58,13 @@ def i_shape(height: float, bottom: float, top: float, bottom_flange: float, top_
 
 def with_shear(section: Section, factor_y: float, factor_z: float) -> Section:
     """The same with shear areas that are these parts of its area."""
-    return Section(section.area, section.inertia_y, section.inertia_z, section.torsion, factor_y * section.area,
-                   factor_z * section.area, section.product)
+    return replace(section, shear_y=factor_y * section.area, shear_z=factor_z * section.area)
 
 
 def swapped(section: Section) -> Section:
     """With y and z exchanged."""
-    return Section(section.area, section.inertia_z, section.inertia_y, section.torsion, section.shear_z,
-                   section.shear_y, section.product)
+    return replace(section, inertia_y=section.inertia_z, inertia_z=section.inertia_y, shear_y=section.shear_z,
+                   shear_z=section.shear_y)
 
 
 def principal(section: Section) -> tuple:
@@ -77,4 +77,4 @@ def principal(section: Section) -> tuple:
     c, s = math.cos(angle), math.sin(angle)
     turned_y = section.inertia_y * c * c + section.inertia_z * s * s - 2 * section.product * s * c
     turned_z = section.inertia_z * c * c + section.inertia_y * s * s + 2 * section.product * s * c
-    return Section(section.area, turned_y, turned_z, section.torsion, section.shear_y, section.shear_z), angle
+    return replace(section, inertia_y=turned_y, inertia_z=turned_z, product=0.0), angle

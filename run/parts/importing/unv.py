@@ -3,8 +3,8 @@ file without groups has those of its cells' physical properties, by their number
 
 from pathlib import Path
 
+from .cards import lines_of, number, whole
 from .model import BAR, Element, InputFault, Model
-from .texts import lines_of, number, whole
 
 # Kind of element and nodes by "FE descriptor id".
 CELLS = {**dict.fromkeys((11, 21, 22, 136), (BAR, 2)), **dict.fromkeys((41, 51, 61, 81, 91), ("shell", 3)),

@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
+from .geometry import sum_of
 from .model import BAR, BEAMS, SHELL, SOLIDS, Model
-from .vectors import sum_of
 
 CORNERS = np.array([(-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1), (-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1)],
                    dtype=float)
