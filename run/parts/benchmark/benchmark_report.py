@@ -54,8 +54,7 @@ def step_table(listed: list) -> str:
 def machine_table(machine: Machine) -> str:
     def row(label: str, series: dict) -> list:
         cells = [f"{number(series[ranks].median / 1e9)} ({number(series[ranks].lowest / 1e9)} to "
-                 f"{number(series[ranks].highest / 1e9)})" if ranks in series else "—"
-                 for ranks in machine.ranks]
+                 f"{number(series[ranks].highest / 1e9)})" if ranks in series else "—" for ranks in machine.ranks]
         return [label, *cells]
 
     names = list(dict.fromkeys(name for name, _ in machine.triad))

@@ -85,8 +85,7 @@ class Comparison(ExitStack):
 
     def _start_program(self, ways: list, ranks: int, *words) -> None:
         model = ["-cells", ",".join(str(n) for n in self.cells)]
-        stepper = self._enter(ways, ranks, step_benchmark(self.folder, ranks, self.motion, model,
-                                                          ways, *words))
+        stepper = self._enter(ways, ranks, step_benchmark(self.folder, ranks, self.motion, model, ways, *words))
         first = stepper.ways[ways[0]]
         self.rows[-len(ways)].memory_per_dof = (first["memory"] - first["memory_before"]) / self.dofs
         if words:
@@ -121,13 +120,11 @@ class Comparison(ExitStack):
         name = f"{BYTES_PER_DOF} B × {self.dofs} dofs"
         measured = [row for row in self.rows if (row.way, row.ranks) in self.steppers]
         triads = {ranks: Series() for ranks in self.ranks}
-        turns = [(series, ranks, partial(machine.measure_triad, name, ranks,
-                                         BYTES_PER_DOF * self.dofs, lasting / 3))
+        turns = [(series, ranks, partial(machine.measure_triad, name, ranks, BYTES_PER_DOF * self.dofs, lasting / 3))
                  for ranks, series in triads.items()]
         for row in measured:
             stepper = self.steppers[row.way, row.ranks]
-            turns.append((row.seconds, row.ranks,
-                          partial(stepper.seconds_per_step, row.way, lasting)))
+            turns.append((row.seconds, row.ranks, partial(stepper.seconds_per_step, row.way, lasting)))
         machine.take_turns(rounds, turns, f"{self.dofs} dofs")
         for row in measured:
             row.bound = BYTES_PER_DOF * self.dofs / triads[row.ranks].median

@@ -30,13 +30,11 @@ def scene(first_cells: int, second_cells: int, depth: tuple) -> tuple:
     """Two cubes of 1 m that meet at 1 m/s from the first step on: words up to the end time, and the step."""
     shortest = 1 / max(first_cells, second_cells, *depth)
     step = 0.3 * shortest / np.sqrt(YOUNG / DENSITY)
-    words = ["-structures", "one,two", "-contacts", "joint", "-joint_secondary", "one:x_max",
-             "-joint_primary", "two:x_min", "-joint_gap", 0, "-one_initial_velocity", "1,0,0",
-             "-probes", "back", "-back_structure", "one", "-back_group", "x_min", "-modes", 0,
-             "-material_concrete_young", YOUNG, "-material_concrete_poisson", 0.2,
-             "-material_concrete_density", DENSITY, "-time_step", repr(float(step)),
-             *structure("one", "box", -1, depth[0], first_cells),
-             *structure("two", "box", 0, depth[1], second_cells)]
+    words = ["-structures", "one,two", "-contacts", "joint", "-joint_secondary", "one:x_max", "-joint_primary",
+             "two:x_min", "-joint_gap", 0, "-one_initial_velocity", "1,0,0", "-probes", "back", "-back_structure",
+             "one", "-back_group", "x_min", "-modes", 0, "-material_concrete_young", YOUNG,
+             "-material_concrete_poisson", 0.2, "-material_concrete_density", DENSITY, "-time_step", repr(float(step)),
+             *structure("one", "box", -1, depth[0], first_cells), *structure("two", "box", 0, depth[1], second_cells)]
     return words + ["-end_time"], step
 
 
@@ -75,8 +73,7 @@ def measure(build: Path, edges: list, ranks: list, rounds: int) -> list:
             rows.append(cost(build, count, nodes - 1, second, depth, rounds))
     for row in rows:
         # The largest building gives the cost of a dof.
-        largest = max((other for other in rows if other["ranks"] == row["ranks"]),
-                      key=lambda other: other["dofs"])
+        largest = max((other for other in rows if other["ranks"] == row["ranks"]), key=lambda other: other["dofs"])
         step = largest["step_microseconds"] * HALF_A_MILLION / largest["dofs"]
         row["over_half_a_million_dofs"] = row["contact_microseconds"] / step
     return rows

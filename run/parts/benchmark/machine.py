@@ -73,5 +73,4 @@ class Machine(ExitStack):
     def as_json(self) -> dict:
         return {"multiply_adds": {str(ranks): series.as_json() for ranks, series in self.flops.items()},
                 "triad": [{"where": name, "ranks": ranks, **series.as_json()}
-                          for (name, ranks), series in self.triad.items()],
-                "messages": self.messages}
+                          for (name, ranks), series in self.triad.items()], "messages": self.messages}

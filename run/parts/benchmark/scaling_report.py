@@ -63,9 +63,8 @@ def measured_table(rows: list) -> str:
     head = ["scaling", "case", "dofs", "ranks", "µs per step", "lowest to highest", "ns per dof",
             "speed-up", "efficiency", "quiet rounds"]
     cells = [[row["kind"], row["case"], row["dofs"], row["ranks"], row["microseconds_per_step"],
-              f"{number(row['lowest'])} to {number(row['highest'])}", row["nanoseconds_per_dof"],
-              row["speed_up"], row["efficiency"], f"{row['quiet_rounds']} of {row['rounds']}"]
-             for row in rows]
+              f"{number(row['lowest'])} to {number(row['highest'])}", row["nanoseconds_per_dof"], row["speed_up"],
+              row["efficiency"], f"{row['quiet_rounds']} of {row['rounds']}"] for row in rows]
     return markdown("Measured", head, cells)
 
 
@@ -100,8 +99,7 @@ NOTES = """\
 """
 
 
-def write(folder: Path, points: list, studies: list, machine: Machine, messages: Messages,
-          about: dict) -> str:
+def write(folder: Path, points: list, studies: list, machine: Machine, messages: Messages, about: dict) -> str:
     """Writes table.md, table.csv and scaling.json; returns the tables."""
     measured, modelled = measured_rows(points), modelled_rows(studies, points)
     tables = [measured_table(measured), modelled_table(modelled), machine_table(machine, messages)]
@@ -109,8 +107,7 @@ def write(folder: Path, points: list, studies: list, machine: Machine, messages:
     text = "\n".join([*tables, f"{about['processor']}, {about['cores']} cores, {about['date']}\n", NOTES])
     write_text(folder / "table.md", text)
     write_csv(folder / "table.csv", measured + modelled)
-    rounds = [{**row, "seconds_per_step": point.seconds.as_json()}
-              for row, point in zip(measured, points)]
+    rounds = [{**row, "seconds_per_step": point.seconds.as_json()} for row, point in zip(measured, points)]
     write_text(folder / "scaling.json", json.dumps(
         {**about, "measured": rounds, "modelled": modelled,
          "partitions": [{"case": case, "parts": parts} for case, _, parts in studies],

@@ -34,8 +34,7 @@ class Point:
 class Bench:
     """Runs groups of points; all of a group take turns."""
 
-    def __init__(self, folder: Path, scratch: Path, motion: Path, machine: Machine, rounds: int,
-                 lasting: float):
+    def __init__(self, folder: Path, scratch: Path, motion: Path, machine: Machine, rounds: int, lasting: float):
         self.folder, self.scratch, self.motion = folder, scratch, motion
         self.machine, self.rounds, self.lasting = machine, rounds, lasting
         self.points = []
@@ -44,8 +43,7 @@ class Bench:
     def scene(self, scene: str, ranks: list) -> None:
         """A scene through the program itself."""
         points = [Point("strong", Path(scene).stem, 0, number) for number in ranks]
-        turns = [(point.seconds, point.ranks, partial(self._run_scene, scene, point))
-                 for point in points]
+        turns = [(point.seconds, point.ranks, partial(self._run_scene, scene, point)) for point in points]
         self.machine.take_turns(self.rounds, turns, f"{scene} on ranks {ranks}")
         self.points += points
 

@@ -40,6 +40,5 @@ class Series:
         return float(self.kept().max())
 
     def as_json(self, scale: float = 1) -> dict:
-        return {"median": scale * self.median, "lowest": scale * self.lowest,
-                "highest": scale * self.highest, "rounds": [scale * value for value in self.values],
-                "quiet": self.quiet}
+        return {"median": scale * self.median, "lowest": scale * self.lowest, "highest": scale * self.highest,
+                "rounds": [scale * value for value in self.values], "quiet": self.quiet}

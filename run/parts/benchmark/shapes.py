@@ -86,14 +86,12 @@ class Measured:
         return 1e9 * float(np.median(self.seconds)) / self.dofs
 
 
-def measure(folder: Path, scratch: Path, motion: Path, name: str, ranks: int, rounds: int,
-            lasting: float) -> list:
+def measure(folder: Path, scratch: Path, motion: Path, name: str, ranks: int, rounds: int, lasting: float) -> list:
     """Every way once per round."""
     print(f"  {name}, {ranks} ranks", file=sys.stderr, flush=True)
     model = SHAPES[name].model(scratch, motion)
     with Stepper(step_benchmark(folder, ranks, motion, model, WAYS)) as stepper:
-        check_agreement({(way, ranks): told["displacement_square"]
-                         for way, told in stepper.ways.items()})
+        check_agreement({(way, ranks): told["displacement_square"] for way, told in stepper.ways.items()})
         measured = [Measured(name, ranks, way, stepper.ways[way]["dofs"]) for way in WAYS]
         for _ in range(rounds):
             for one in measured:

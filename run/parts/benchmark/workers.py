@@ -52,9 +52,8 @@ class Worker:
     def __init__(self, command: list):
         self.name = " ".join(str(word) for word in command)
         self.said = tempfile.TemporaryFile("w+")
-        self.process = subprocess.Popen(with_environment(command), cwd=SOURCE, text=True,
-                                        stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.said,
-                                        preexec_fn=ending_with_us())
+        self.process = subprocess.Popen(with_environment(command), cwd=SOURCE, text=True, stdin=subprocess.PIPE,
+                                        stdout=subprocess.PIPE, stderr=self.said, preexec_fn=ending_with_us())
 
     def __enter__(self):
         return self

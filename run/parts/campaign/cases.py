@@ -32,8 +32,7 @@ SEEDS = {"x": 1, "y": 2, "z": 3}
 QUICK_MESH = {"s1": "cells_x=7,cells_y=5,column_elements=2", "s2": "cells_x=5,cells_y=5,column_elements=2"}
 
 
-DESCRIPTIONS = {"full": "full order",
-                "scaled": "full order, mass of stiff frames scaled for a step of 2.2e-5 s",
+DESCRIPTIONS = {"full": "full order", "scaled": "full order, mass of stiff frames scaled for a step of 2.2e-5 s",
                 "modal": "400 modes and attachment vectors per structure, mass scaled for a step of 5.5e-5 s"}
 
 

@@ -114,8 +114,7 @@ def peaks_make_the_branch(campaign: Campaign) -> list:
         for treatment, words in (("all_peaks", "the branch is that of all peaks"),
                                  ("highest_peak", "the branch is that of the highest peak")):
             distance = rms(one.treated[treatment][part], complete)
-            checks.append(Check(f"{words} alone", where(one),
-                                f"{100 * distance:.0f} % rms", distance <= FOLLOWS))
+            checks.append(Check(f"{words} alone", where(one), f"{100 * distance:.0f} % rms", distance <= FOLLOWS))
     return checks
 
 

@@ -44,8 +44,7 @@ def six_frequencies(structure: dict) -> list[float]:
     modes = structure["frequencies"]
     found = []
     for kept in (lambda m: m["effective_modal_mass"][0] > 0.01 * structure["mass"],
-                 lambda m: m["effective_modal_mass"][1] > 0.01 * structure["mass"],
-                 lambda m: m["direction"] == "rz"):
+                 lambda m: m["effective_modal_mass"][1] > 0.01 * structure["mass"], lambda m: m["direction"] == "rz"):
         pair = [mode["frequency"] for mode in modes if kept(mode)][:2]
         if len(pair) < 2:
             raise TableError("fewer than two modes in a direction among those computed; raise -modes")
@@ -74,7 +73,6 @@ def time_step_table(summaries: dict) -> tuple[str, list[str], list[list[str]]]:
     for model, (dofs, omega, step) in paper.TIME_STEPS.items():
         rows.append([model, "paper", str(dofs), f"{omega:.2e}", f"{2 / omega:.2e}", f"{step:.2e}"])
         for name, structure in summaries[model]["structures"].items():
-            rows.append([model, f"ours, structure {name[1:]}", str(structure["dofs"]),
-                         f"{structure['omega_max']:.3e}", f"{structure['stable_time_step_undamped']:.3e}",
-                         f"{structure['stable_time_step']:.3e}"])
+            rows.append([model, f"ours, structure {name[1:]}", str(structure["dofs"]), f"{structure['omega_max']:.3e}",
+                         f"{structure['stable_time_step_undamped']:.3e}", f"{structure['stable_time_step']:.3e}"])
     return "Stable time step (Eq. 12); the smaller of the two structures governs", head, rows

@@ -36,8 +36,7 @@ class Record:
         words = []
         for column, direction in enumerate(self.directions, start=2):
             words += [f"-motion_{direction}_record", str(self.table), f"-motion_{direction}_unit", "m/s2",
-                      f"-motion_{direction}_column", str(column), f"-motion_{direction}_scale",
-                      repr(pga / self.peak)]
+                      f"-motion_{direction}_column", str(column), f"-motion_{direction}_scale", repr(pga / self.peak)]
         return words
 
 

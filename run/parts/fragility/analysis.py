@@ -354,8 +354,7 @@ def fit_row(event, gap: float | None, fit: Fragility | str, first: np.ndarray | 
         row["refused"] = fit
     else:
         row |= {"theta [m/s2]": fit.theta, "theta low": fit.theta_interval[0], "theta high": fit.theta_interval[1],
-                "beta": fit.beta, "beta low": fit.beta_interval[0], "beta high": fit.beta_interval[1],
-                "refused": ""}
+                "beta": fit.beta, "beta low": fit.beta_interval[0], "beta high": fit.beta_interval[1], "refused": ""}
     held = first is not None and (first > 0).all() and np.isfinite(first).all()
     row["theta of first contacts"] = float(np.exp(np.log(first).mean())) if held else ""
     row["beta of first contacts"] = float(np.log(first).std(ddof=1)) if held else ""

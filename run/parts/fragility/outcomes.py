@@ -130,8 +130,7 @@ def of_run(result: Result) -> Outcomes:
     return Outcomes(frequency, damping, channels, contacts, spectra[None], of_contact("episodes", 0),
                     of_impacts("start", True), of_contact("total_impulse", 0), of_contact("largest_impulse", 0),
                     of_impacts("peak_force", False), np.array(gaps), np.array(peaks["peak_displacement"]),
-                    np.array(peaks["peak_acceleration"]),
-                    np.array([told["energy"]["relative_residual"] or 0.0]))
+                    np.array(peaks["peak_acceleration"]), np.array([told["energy"]["relative_residual"] or 0.0]))
 
 
 def write(path: Path, columns: list, texts: list, parts: list) -> None:

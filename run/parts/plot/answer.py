@@ -278,12 +278,10 @@ def checks(run: Result) -> list:
     left = impacts.get("complementarity_residual")
     if impacts.get("episodes") and left is not None:
         lines.append(f"The contact problem of every step was {'' if left <= SOLVED else 'NOT '}solved: residual "
-                     f"{readable(left, 2)}. The "
-                     f"faces went into each other by at most {1e6 * impacts.get('max_penetration', 0):.3g} µm, less than "
-                     "they move in a step.")
+                     f"{readable(left, 2)}. The faces went into each other by at most "
+                     f"{1e6 * impacts.get('max_penetration', 0):.3g} µm, less than they move in a step.")
     count = len(summary.get("warnings", []))
-    lines.append(f"The run warned {_plural(count, 'time')}; see Warnings." if count
-                 else "The run gave no warning.")
+    lines.append(f"The run warned {_plural(count, 'time')}; see Warnings." if count else "The run gave no warning.")
     return lines
 
 

@@ -4,8 +4,7 @@ import numpy as np
 
 from pounding.results import Missing, Result
 from .markup import readable
-from .style import (WIDTH, contact_colour, legend_above, log_scale, plot_series, plt, probe_colour,
-                    save, stacked)
+from .style import (WIDTH, contact_colour, legend_above, log_scale, plot_series, plt, probe_colour, save, stacked)
 
 
 def _names(result: Result) -> list:
@@ -29,8 +28,7 @@ def gaps(result: Result) -> list:
     for i, (axes, name) in enumerate(zip(rows, result.contacts)):
         gap = 1e3 * result.history["gap"][:, i]
         known = np.isfinite(gap)
-        plot_series(axes, time[known], gap[known], lw=0.9,
-                    color=contact_colour(_names(result), name))
+        plot_series(axes, time[known], gap[known], lw=0.9, color=contact_colour(_names(result), name))
         axes.axhline(0, color="black", lw=0.8)
         title = f"{name}: smallest gap {np.min(gap[known]):.3g} mm"
         if impacts:
@@ -38,9 +36,8 @@ def gaps(result: Result) -> list:
             title += f", {own.sum()} impact{'' if own.sum() == 1 else 's'}"
             if own.any():
                 size = 12 + 90 * impacts["impulse"][own] / max(impacts["impulse"].max(), 1e-300)
-                axes.scatter(impacts["start"][own], np.zeros(own.sum()), s=size, marker="v",
-                             color="#C0392B", alpha=0.75, lw=0, zorder=3,
-                             label="impact (size: impulse)")
+                axes.scatter(impacts["start"][own], np.zeros(own.sum()), s=size, marker="v", color="#C0392B",
+                             alpha=0.75, lw=0, zorder=3, label="impact (size: impulse)")
                 legend_above(axes)
         axes.set_title(title)
         axes.set_ylabel("gap [mm]")
@@ -101,8 +98,7 @@ def impact_catalogue(result: Result) -> list:
         start, impulse = impacts["start"][own], impacts["impulse"][own]
         left.vlines(start, 0, impulse, color=colour, lw=1.2)
         left.plot(start, impulse, "o", color=colour, ms=4, label=f"{name} ({own.sum()})")
-        right.plot(impulse, 1e3 * impacts["duration"][own], "o", color=colour, ms=4.5, alpha=0.8,
-                   label=name)
+        right.plot(impulse, 1e3 * impacts["duration"][own], "o", color=colour, ms=4.5, alpha=0.8, label=name)
     left.set(xlabel="time [s]", ylabel="impulse [N s]", title="impulse in time", ylim=(0, None))
     right.set(xlabel="impulse [N s]", ylabel="duration [ms]", title="duration and impulse")
     log_scale(right, "x", impacts["impulse"])
@@ -124,8 +120,7 @@ def energy_balance(result: Result) -> list:
     not_always = (("friction_loss", "friction", "#56B4E9"), ("device_work", "links and dashpots", "#CC79A7"),
                   ("plastic_loss", "yielding and crushing", "#7A5195"))
     terms += tuple(term for term in not_always if np.any(table.get(term[0], 0)))
-    figure, (upper, lower) = plt.subplots(2, 1, figsize=(WIDTH, 5.4), sharex=True,
-                                          height_ratios=(3, 2))
+    figure, (upper, lower) = plt.subplots(2, 1, figsize=(WIDTH, 5.4), sharex=True, height_ratios=(3, 2))
     for column, label, colour in terms:
         if column in table:
             plot_series(upper, table["time"], table[column], color=colour, label=label, lw=1.2)

@@ -69,8 +69,7 @@ def accelerations(result: Result) -> list:
     largest = np.nanmax(np.abs(result.history["acceleration"]), initial=0.0)
     made = []
     for direction in DIRECTIONS:
-        series = {probe: result.series_if_any("acceleration", probe, direction)
-                  for probe in result.probes}
+        series = {probe: result.series_if_any("acceleration", probe, direction) for probe in result.probes}
         series = {probe: (found[0], low_pass(found[1], found[0], cut)) if found and cut else found
                   for probe, found in series.items()}
         series = {probe: found for probe, found in series.items() if found is not None}

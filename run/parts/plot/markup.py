@@ -96,8 +96,7 @@ def html_figure(folder: Path, page: dict, level: int = 2) -> str:
     image = base64.b64encode((folder / page["file"]).read_bytes()).decode()
     title = escape(page["title"])
     return (f'<div class="together"><h{level}>{title}</h{level}>\n<figure><img alt="{title}" '
-            f'src="data:image/png;base64,{image}">'
-            f'<figcaption>{escape(page["caption"])}</figcaption></figure></div>\n')
+            f'src="data:image/png;base64,{image}"><figcaption>{escape(page["caption"])}</figcaption></figure></div>\n')
 
 
 def paragraphs(lines: list) -> str:

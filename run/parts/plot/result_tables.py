@@ -65,8 +65,7 @@ def impact_tables(result: Result) -> str:
                    ("impulse", "impulse [N s]", 1), ("window_force", f"force over {width} [kN]", 1e-3),
                    ("points", "points", 1), ("energy_lost", "energy lost [J]", 1))
         columns = [column for column in columns if column[0] in table]
-        rows = [(str(table["contact"][i]), *(float(table[key][i] * scale)
-                                             for key, _, scale in columns)) for i in order]
+        rows = [(str(table["contact"][i]), *(float(table[key][i] * scale) for key, _, scale in columns)) for i in order]
         text += html_table(f"The strongest {len(rows)} impacts, of {len(table['start'])}",
                            ["contact"] + [label for _, label, _ in columns], rows)
     return text

@@ -9,8 +9,7 @@ from pounding.results import Missing, require_schema
 
 # Of XDMF's codes of cells: nodes, and faces by the places of their nodes.
 NODES = {4: 3, 5: 4, 6: 4, 8: 6, 9: 8}
-FACES = {4: [(0, 1, 2)], 5: [(0, 1, 2, 3)],
-         6: [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)],
+FACES = {4: [(0, 1, 2)], 5: [(0, 1, 2, 3)], 6: [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)],
          8: [(0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (0, 3, 5, 2)],
          9: [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]}
 SOLIDS = (6, 8, 9)
@@ -75,9 +74,8 @@ def _part(name: str, group: h5py.Group) -> Part:
     contacts = {key.removeprefix("contact_"): np.flatnonzero(group[key][()])
                 for key in group if key.startswith("contact_") and isinstance(group[key], h5py.Dataset)}
     return Part(name, group["coordinates"][()], faces, {key: np.array(value) for key, value in lines.items()},
-                {key: np.ravel(value) for key, value in dots.items()},
-                np.flatnonzero(group["clamped"][()] == 7), contacts,
-                {element: (pieces[0][0], pieces[-1][1]) for element, pieces in cuts.items()})
+                {key: np.ravel(value) for key, value in dots.items()}, np.flatnonzero(group["clamped"][()] == 7),
+                contacts, {element: (pieces[0][0], pieces[-1][1]) for element, pieces in cuts.items()})
 
 
 def load(folder) -> tuple:

@@ -88,8 +88,7 @@ def modal(vectors: int, *more: tuple, candidates: int = 0) -> tuple:
     chosen = both("modal_candidates", candidates) if candidates else ()
     kept = f"{vectors}-of-{candidates}" if candidates else vectors
     return (*both("model", "modal"), *both("modal_vectors", vectors), *chosen, *more,
-            ("s1_modal_basis", f"{{folder}}/basis-s1-{kept}.h5"),
-            ("s2_modal_basis", f"{{folder}}/basis-s2-{kept}.h5"))
+            ("s1_modal_basis", f"{{folder}}/basis-s1-{kept}.h5"), ("s2_modal_basis", f"{{folder}}/basis-s2-{kept}.h5"))
 
 
 SAVINGS = [
