@@ -199,16 +199,10 @@ class Shapes(unittest.TestCase):
 class Scaling(Measured):
     @program.long
     def test_measured_and_modelled_points(self):
-        scene = os.path.join(tempfile.mkdtemp(prefix="pounding-"), "coarse.yaml")
-        with open(scene, "w") as file:
-            file.write("include: petsc-options/azalee/gap2.yaml\n"
-                       's1: {mesh_set: "cells_x=7,cells_y=5,column_elements=2"}\n'
-                       's2: {mesh_set: "cells_x=5,cells_y=5,column_elements=2"}\n')
-        rows, result = self.run_script("scaling", "--scene", scene, "--strong", 3000, "--weak", 2000,
-                                       "--apart", "1000,3000", "--pair", 8000, "--parts", "2,4,8")
+        rows, result = self.run_script("scaling", "--apart", "1000,3000", "--pair", 8000, "--parts", "2,4,8")
         measured = [row for row in rows if row["source"] == "measured"]
         self.assertEqual([(row["kind"], int(row["ranks"])) for row in measured],
-                         [(kind, ranks) for kind in ("strong", "strong", "weak", "pair", "apart", "apart")
+                         [(kind, ranks) for kind in ("pair", "apart", "apart")
                           for ranks in (1, 2)])
         for row in measured:
             self.assert_positive(row, "dofs", "microseconds_per_step", "speed_up", "efficiency")
@@ -238,13 +232,6 @@ class Scaling(Measured):
             self.assertLessEqual(line["messages"]["largest"], 2 * line["neighbours"]["largest"])
             held = line["elements_per_part"]["mean"] * parts
             (self.assertGreater if parts > 1 else self.assertEqual)(held, line["elements"])
-
-    def test_a_scene_that_fails_is_one_line(self):
-        result = script("scaling", *SHORT, "--scene", "nowhere.yaml", "--output", tempfile.mkdtemp())
-        self.assertEqual(result.returncode, 1)
-        said = [line for line in result.stderr.splitlines() if line.startswith("run/scaling: ")]
-        self.assertEqual(len(said), 1, result.stderr)
-        self.assertIn("nowhere.yaml", said[0])
 
 
 class Parts(unittest.TestCase):

@@ -13,7 +13,7 @@ PARTS = ("compute", "halo", "gather", "rows")
 
 
 def measured_rows(points: list) -> list:
-    """Speed-up over the fewest ranks of the same case; weak and apart: at equal load per rank."""
+    """Speed-up over the fewest ranks of the same case; apart: at equal load per rank."""
     rows = []
     for point in points:
         first = min((other for other in points if (other.kind, other.case) == (point.kind, point.case)),
@@ -88,8 +88,7 @@ def machine_table(machine: Machine, messages: Messages) -> str:
 
 
 NOTES = """\
-- `strong`: one model on more ranks; `weak`: a model that grows with them; `apart`: every rank a
-  model of its own, nothing exchanged; `pair`: the two buildings of the model below.
+- `apart`: every rank a model of its own, nothing exchanged; `pair`: the two buildings of the model below.
 - Medians over the rounds in which the ranks had their cores (multiply-adds at 0.9 of the ideal),
   over all where no round was quiet. All points of a case take turns.
 - The modelled times add up compute, halo, gather and constraints of the part that has most of each,

@@ -1,26 +1,18 @@
-"""Steps of the same and of growing models on more and more ranks, measured in turns."""
+"""Steps of models on more and more ranks, measured in turns."""
 
-import json
-import subprocess
-import tempfile
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-from pounding.runs import ending_with_us
-
 from .machine import Machine
 from .series import Series
-from .workers import (ELEMENT_MEMORY, SOURCE, MeasuringError, Stepper, block_cells, mpirun,
-                      step_benchmark, storey_cells, usable_memory, with_environment)
-
-SCENE_TIME = 0.1  # of the scene in a measurement [s]: more than a second of steps
+from .workers import ELEMENT_MEMORY, Stepper, block_cells, step_benchmark, storey_cells, usable_memory
 
 
 @dataclass
 class Point:
-    """A model on some ranks. Kinds: strong, weak, apart (every rank a model of its own), pair."""
+    """A model on some ranks. Kinds: apart (every rank a model of its own), pair."""
 
     kind: str
     case: str
@@ -39,37 +31,6 @@ class Bench:
         self.machine, self.rounds, self.lasting = machine, rounds, lasting
         self.points = []
         self.skipped = []
-
-    def scene(self, scene: str, ranks: list) -> None:
-        """A scene through the program itself."""
-        points = [Point("strong", Path(scene).stem, 0, number) for number in ranks]
-        turns = [(point.seconds, point.ranks, partial(self._run_scene, scene, point)) for point in points]
-        self.machine.take_turns(self.rounds, turns, f"{scene} on ranks {ranks}")
-        self.points += points
-
-    def _run_scene(self, scene: str, point: Point) -> float:
-        """Seconds per step of a short run, which also tells the dofs."""
-        with tempfile.TemporaryDirectory(dir=self.scratch) as output:
-            command = mpirun(point.ranks, self.folder / "pounding", "-options_file", scene, "-end_time",
-                             SCENE_TIME, "-output", output)
-            run = subprocess.run(with_environment(command), cwd=SOURCE, capture_output=True, text=True,
-                                 preexec_fn=ending_with_us())
-            if run.returncode != 0:
-                raise MeasuringError(f"{scene} failed: {run.stderr.strip().splitlines()[0]}")
-            summary = json.loads((Path(output) / "summary.json").read_text())
-        point.dofs = sum(structure["dofs"] for structure in summary["structures"].values())
-        return 1e-6 * summary["microseconds_per_step"]
-
-    def strong(self, dofs: int, ranks: list) -> None:
-        cells = block_cells(dofs)
-        self._group("strong", "block " + "x".join(str(n) for n in cells),
-                    {number: brick(cells) for number in ranks}, dofs * len(ranks))
-
-    def weak(self, dofs_per_rank: int, ranks: list) -> None:
-        """Blocks that grow in x with the ranks."""
-        n, _, _ = block_cells(dofs_per_rank)
-        self._group("weak", f"block {n}x{n}x{n} per rank",
-                    {number: brick((n * number, n, n)) for number in ranks}, dofs_per_rank * sum(ranks))
 
     def apart(self, dofs_per_rank: int, ranks: list) -> None:
         """The same block on every rank, nothing exchanged: what a step costs a full machine."""

@@ -41,10 +41,9 @@ def draw_floor(axes, analysis: Analysis) -> str:
         axes.plot(found.frequency, one.median, color=colour, lw=1.5, label=label)
     log_scale(axes, "x", found.frequency)
     log_scale(axes, "y", found.spectra[analysis.of(gap, level)][:, channel, damping])
-    axes.set_xlim(found.frequency[0], found.frequency[-1])
-    axes.set_xlabel("frequency [Hz]")
-    axes.set_ylabel("pseudo-acceleration [m/s²]")
-    axes.set_title(f"{found.channels[channel]}, joint {1e3 * gap:g} mm, {level / 9.81:.2g} g")
+    axes.set(xlim=(found.frequency[0], found.frequency[-1]), xlabel="frequency [Hz]",
+             ylabel="pseudo-acceleration [m/s²]",
+             title=f"{found.channels[channel]}, joint {1e3 * gap:g} mm, {level / 9.81:.2g} g")
     axes.legend(loc="upper left")
     g_axis(axes)
     return (f"Median and 16-84 % band of {analysis.study.samples} members, {100 * found.damping[damping]:g} % damping: "
@@ -76,12 +75,10 @@ def draw_map(axes, analysis: Analysis) -> str:
     for part, style in zip(EXCEEDED, ("-", "--", ":")):
         axes.plot(np.quantile(needed, 1 - part, axis=0), levels, color="#1B4F72", ls=style, lw=1.6,
                   label=f"{100 * part:g} % would need more")
-    axes.set_xlim(*_edges(places)[[0, -1]])
-    axes.set_ylim(*_edges(levels)[[0, -1]])
+    axes.set(xlim=_edges(places)[[0, -1]], ylim=_edges(levels)[[0, -1]])
     axes.grid(False)
-    axes.set_xlabel("nominal joint [mm]")
-    axes.set_ylabel("peak ground acceleration [g]")
-    axes.set_title("Probability that the buildings touch")
+    axes.set(xlabel="nominal joint [mm]", ylabel="peak ground acceleration [g]",
+             title="Probability that the buildings touch")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), fontsize=8, ncol=3, columnspacing=1.0)
     axes.figure.colorbar(picture, ax=axes, label="P(contact)")
     return (f"{study.samples} members in each cell, with the {100 * study.confidence:g} % interval of Clopper and "
@@ -105,11 +102,9 @@ def scatter_parts(analysis: Analysis, folder: Path) -> list:
                                   (one.joint, WITH, "joint alone")):
         axes.plot(found.frequency, values, color=colour, lw=1.5, label=label)
     log_scale(axes, "x", found.frequency)
-    axes.set_xlim(found.frequency[0], found.frequency[-1])
-    axes.set_ylim(bottom=0)
-    axes.set_xlabel("frequency [Hz]")
-    axes.set_ylabel("deviation of ln S")
-    axes.set_title(f"{found.channels[channel]}, joint {1e3 * gap:g} mm, {level / 9.81:.2g} g")
+    axes.set(xlim=(found.frequency[0], found.frequency[-1]), ylim=(0, None), xlabel="frequency [Hz]",
+             ylabel="deviation of ln S",
+             title=f"{found.channels[channel]}, joint {1e3 * gap:g} mm, {level / 9.81:.2g} g")
     axes.legend(loc="upper left")
     return save(figure, folder, "scatter.png", "How much of the scatter is the joint's",
                 f"Standard deviation of the logarithm of the spectrum over {analysis.study.samples} samples, "
@@ -135,8 +130,7 @@ def curves(analysis: Analysis, fits: dict, folder: Path) -> list:
             if isinstance(fit, Fragility):
                 axes.plot(levels / 9.81, fit.probability(levels), color=colour, lw=1.4)
         axes.set_title(name_of(event), fontsize=8)
-        axes.set_xlabel("peak ground acceleration [g]")
-        axes.set_ylim(-0.03, 1.03)
+        axes.set(xlabel="peak ground acceleration [g]", ylim=(-0.03, 1.03))
         axes.legend(fontsize=8)
     panels[0][0].set_ylabel("probability")
     return save(figure, folder, "curves.png", "Fragility curves", "Shares with their intervals, and lognormal curves "
@@ -167,8 +161,7 @@ def enough(analysis: Analysis, folder: Path) -> tuple:
             axes.plot(counts, [one[0] for one in wide], color=colour, lw=1.5, label=f"{label}, worst frequency")
             axes.plot(counts, [one[1] for one in wide], color=colour, lw=1.1, ls="--", label=f"{label}, median")
         axes.axhline(0.1, color="#555555", lw=0.8)
-        axes.set_xlabel("members")
-        axes.set_title("of the mean of logarithms" if logs else "of the mean")
+        axes.set(xlabel="members", title="of the mean of logarithms" if logs else "of the mean")
         log_scale(axes, "y", [0.01, 1])
     panels[0].set_ylabel(f"half width of the {100 * study.confidence:g} % interval")
     panels[1].legend(fontsize=8)
@@ -194,9 +187,8 @@ def joints(analysis: Analysis, rules: dict, folder: Path) -> list:
     for part in EXCEEDED:
         axes.axhline(part, color="#BBBBBB", lw=0.7)
     axes.set_yscale("log")
-    axes.set_ylim(0.8 / study.samples / 2, 1.1)
-    axes.set_xlabel("nominal joint [mm]")
-    axes.set_ylabel("part of the members that need more")
+    axes.set(ylim=(0.8 / study.samples / 2, 1.1), xlabel="nominal joint [mm]",
+             ylabel="part of the members that need more")
     axes.legend(fontsize=8, ncol=2)
     return save(figure, folder, "joint.png", "The joint that is wide enough",
                 "Of the runs without pounding, by peak ground acceleration; vertical lines are those of the rules"

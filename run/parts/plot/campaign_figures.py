@@ -153,8 +153,7 @@ def treatments(campaign: Campaign, folder) -> list:
                               "impulse"), (rows[2], ~within, "(c) without peaks")):
         axes.plot(time, values, color="#CCCCCC", lw=0.7)
         axes.plot(time, np.where(kept, values, 0), color="#08519C", lw=0.8)
-        axes.set_title(title)
-        axes.set_ylabel("acceleration [g]")
+        axes.set(title=title, ylabel="acceleration [g]")
     rows[2].set_xlabel("time [s]")
     return save(figure, folder, "fig7_treatments.png", "Fig. 7: treatments of a signal",
                 f"Second floor of Structure 2, Model A, gap {one.case.gap} cm, {one.case.motion}; grey: complete.")

@@ -39,8 +39,7 @@ def gaps(result: Result) -> list:
                 axes.scatter(impacts["start"][own], np.zeros(own.sum()), s=size, marker="v", color="#C0392B",
                              alpha=0.75, lw=0, zorder=3, label="impact (size: impulse)")
                 legend_above(axes)
-        axes.set_title(title)
-        axes.set_ylabel("gap [mm]")
+        axes.set(title=title, ylabel="gap [mm]")
     rows[-1].set_xlabel("time [s]")
     return save(figure, result.folder, "gap.png", "Gap",
                 "Smallest gap over the faces of each contact; positive when open.")
@@ -135,8 +134,7 @@ def energy_balance(result: Result) -> list:
         residual = residual / scale
     plot_series(lower, table["time"], residual, color="#666666", lw=0.9)
     log_scale(lower, "y", residual, plain=False)
-    lower.set_ylabel("|residual| / largest\nwork of the ground" if scale > 0 else "|residual| [J]")
-    lower.set_xlabel("time [s]")
+    lower.set(ylabel="|residual| / largest\nwork of the ground" if scale > 0 else "|residual| [J]", xlabel="time [s]")
     return save(figure, result.folder, "energy.png", "Energy balance",
                 "Terms of the energy balance of the scheme, and its residual.")
 

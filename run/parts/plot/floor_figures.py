@@ -83,8 +83,7 @@ def accelerations(result: Result) -> list:
                 plot_series(axes, *other, color=WITHOUT, lw=0.8, label="without pounding")
                 legend_above(axes, columns=2)
             peak = np.nanmax(np.abs(values), initial=0.0)
-            axes.set_title(f"{probe}, {direction}: peak {below} {peak:.3g} m/s² ({peak / G:.3g} g)")
-            axes.set_ylabel("[m/s²]")
+            axes.set(title=f"{probe}, {direction}: peak {below} {peak:.3g} m/s² ({peak / G:.3g} g)", ylabel="[m/s²]")
             g_axis(axes)
         rows[-1].set_xlabel("time [s]")
         made += save(figure, result.folder, f"accelerations_{direction}.png",

@@ -120,8 +120,7 @@ def draw(rows: list, axes: list, folder: Path) -> list:
             values = [psa_of(row, probes[number - 1]) if number else row["strongest impulse [N s]"] for _, row in points]
             axes_of.plot([place for place, _ in points], values, "o-", label=label or None, lw=1.4, ms=4,
                          color=probe_colour(list(groups), label))
-        axes_of.set_title(title)
-        axes_of.set_ylim(bottom=0)
+        axes_of.set(title=title, ylim=(0, None))
         axes_of.xaxis.set_major_locator(MaxNLocator(5))
         axes_of.set_xlabel(axis.title if axis else "member, in the order of the table")
     if any(groups):
