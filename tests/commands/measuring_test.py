@@ -17,8 +17,8 @@ sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 sys.dont_write_bytecode = True
 from parts.benchmark import ensembles, instructions, scenes, workers  # noqa: E402
 from parts.benchmark.comparison import check_agreement  # noqa: E402
+from parts.benchmark.machine import Series  # noqa: E402
 from parts.benchmark.scaling_model import CostCurve, Messages, Model  # noqa: E402
-from parts.benchmark.series import Series  # noqa: E402
 from parts.benchmark.workers import MeasuringError, block_cells, slab_cells, storey_dofs  # noqa: E402
 
 PROCESSORS = 2  # it measures on two ranks

@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-from .machine import Machine
-from .series import Series
+from .machine import Machine, Series
 from .workers import (ELEMENT_MEMORY, MOTION_STEP, SOURCE, MeasuringError, Stepper, block_cells,
                       slab_cells, step_benchmark, usable_memory)
 

@@ -5,8 +5,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-from .machine import Machine
-from .series import Series
+from .machine import Machine, Series
 from .workers import ELEMENT_MEMORY, Stepper, block_cells, step_benchmark, storey_cells, usable_memory
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from pounding.results import Missing, Result
 from . import (answer, answer_figure, contact_figures, damping_figure, design_spectra, equipment, floor_figures,
-               force_figures, link_figures, model_tables, origin_tables, place_figure, result_tables, spectra_figures, view)
+               force_figures, model_tables, origin_tables, result_tables, spectra_figures, view)
 from .markup import html_figure, write_page
 
 
@@ -44,11 +44,11 @@ def _design_spectra(result: Result) -> str:
 def _found(result: Result, drawn: _Drawn) -> str:
     twin = result.without
     joints = (result_tables.impact_tables(result) + result_tables.joint_table(result)
-              + drawn.html(*contact_figures.JOINT, *place_figure.ALL))
+              + drawn.html(*contact_figures.JOINT))
     floors = (result_tables.probe_table(result, twin) + drawn.html(*spectra_figures.ALL) + _design_spectra(result)
               + result_tables.drift_table(result) + drawn.html(*floor_figures.ALL))
     items = equipment.table(result, twin) + drawn.html(*equipment.ALL) if equipment.items(result) else ""
-    forces = result_tables.force_table(result, twin) + drawn.html(*force_figures.ALL, *link_figures.ALL)
+    forces = result_tables.force_table(result, twin) + drawn.html(*force_figures.ALL)
     energy = result_tables.energy_table(result) + drawn.html(contact_figures.energy_balance)
     return (_part("Equipment", items) + _part("Yielding", result_tables.yield_table(result)) + _part("The joints", joints)
             + _part("The floors", floors) + _part("Forces and links", forces) + _part("Energy", energy, page=False))

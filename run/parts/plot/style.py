@@ -26,22 +26,10 @@ _PROBE_COLOURS = ("#7FB0D9", "#4A6FA5", "#F4A582", "#B2182B", "#A6D96A", "#1B783
 _CONTACT_COLOURS = ("#3B7D3B", "#9C2C77", "#B8860B", "#2F4F6F")
 
 plt.rcParams.update({
-    "figure.dpi": 140,
-    "figure.constrained_layout.use": True,
-    "font.size": 10,
-    "axes.titlesize": 10,
-    "axes.titleweight": "bold",
-    "axes.titlelocation": "left",
-    "axes.grid": True,
-    "axes.axisbelow": True,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "grid.color": "#DDDDDD",
-    "grid.linewidth": 0.6,
-    "lines.linewidth": 1.0,
-    "legend.frameon": False,
-    "legend.fontsize": 9,
-    "agg.path.chunksize": 20000,
+    "figure.dpi": 140, "figure.constrained_layout.use": True, "font.size": 10, "lines.linewidth": 1.0,
+    "axes.titlesize": 10, "axes.titleweight": "bold", "axes.titlelocation": "left", "axes.grid": True,
+    "axes.axisbelow": True, "axes.spines.top": False, "axes.spines.right": False, "grid.color": "#DDDDDD",
+    "grid.linewidth": 0.6, "legend.frameon": False, "legend.fontsize": 9, "agg.path.chunksize": 20000,
 })
 
 
