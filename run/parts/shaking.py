@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from pounding.files import written_beside
+from parts.tables import write_rows
 from pounding.results import Result, ResultError
 from pounding.runs import RunError, complaint, program
 
@@ -91,12 +91,9 @@ def lowest_within(run: Result, probe: str, way: str, below: float, interval: flo
 
 
 def write(motion: Motion, path: Path, comment: str) -> None:
-    with written_beside(path) as draft, open(draft, "w", newline="") as file:
-        file.write(f"# {comment}\n")
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["time", "acceleration", "velocity", "displacement"])
-        writer.writerows([f"{value:.9g}" for value in row]
-                         for row in zip(motion.time, motion.acceleration, motion.velocity, motion.displacement))
+    rows = zip(motion.time, motion.acceleration, motion.velocity, motion.displacement)
+    write_rows(path, ["time", "acceleration", "velocity", "displacement"],
+               ([f"{value:.9g}" for value in row] for row in rows), comment)
 
 
 def kept(run: Result, probe: str, way: str, motion: Motion) -> tuple:

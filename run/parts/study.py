@@ -1,12 +1,15 @@
 """Studies: runs of the program side by side, of which those that are finished are not repeated."""
 
+import os
+import subprocess
+import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Callable
 
 from parts import finished
-from pounding.runs import Job, interrupts_held
+from pounding.runs import Job, ending_with_us, folder_of_programs, interrupts_held
 
 
 @dataclass(frozen=True)
@@ -37,6 +40,13 @@ class Run:
     def sign(self) -> str:
         """Marks what the run left as finished: '' or, where it did not leave what it should, one line."""
         return finished.sign(self.request, self.place, self.folder, self.kept)
+
+
+def build(source: Path, *programs: str) -> None:
+    """Builds programs of the sources that are not there, by run/setup; where that fails, what needs them says so."""
+    if (source / "run" / "setup").exists() and not all((folder_of_programs() / name).exists() for name in programs):
+        subprocess.run([source / "run" / "setup"], env={**os.environ, "POUNDING_TARGETS": " ".join(programs)}, check=False,
+                       stdout=sys.stderr, preexec_fn=ending_with_us())
 
 
 def announcement(runs: int, todo: int, jobs: int, ranks: int, what: str = "") -> str:

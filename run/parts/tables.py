@@ -41,7 +41,11 @@ def by_ranks(title: str, key: str, rows: list, columns: dict) -> str:
 def write_csv(path: Path, rows: list) -> None:
     """`rows`: dictionaries of scalars; a column per key."""
     columns = list(dict.fromkeys(key for row in rows for key in row))
+    write_rows(path, columns, ([row.get(key, "") for key in columns] for row in rows))
+
+
+def write_rows(path: Path, head, rows, comment: str = "") -> None:
+    """A CSV file of sequences, below a line that is a comment where one is given."""
     with written_beside(path) as draft, open(draft, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, columns, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
+        file.write(f"# {comment}\n" if comment else "")
+        csv.writer(file, lineterminator="\n").writerows([head, *rows])

@@ -1,6 +1,5 @@
 """What a member of an ensemble costs beside a run of its own: whole commands, in turns."""
 
-import csv
 import json
 import re
 import tempfile
@@ -10,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parts.tables import markdown, write_csv
+from parts.tables import markdown, write_csv, write_rows
 from pounding.files import write_text
 
 from .workers import run_program
@@ -40,11 +39,8 @@ CASES = {
 
 def write_members(path: Path, count: int, levels: list) -> None:
     """A table of so many members: every level of one motion, then of the next."""
-    with open(path, "w", newline="") as file:
-        table = csv.writer(file)
-        table.writerow(["motion_x_seed", "motion_level"])
-        for member in range(count):
-            table.writerow([1 + member // len(levels), levels[member % len(levels)]])
+    write_rows(path, ["motion_x_seed", "motion_level"],
+               ([1 + member // len(levels), levels[member % len(levels)]] for member in range(count)))
 
 
 def timed(build: Path, ranks: int, words: list) -> tuple:

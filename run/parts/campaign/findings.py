@@ -3,6 +3,7 @@
 Comparisons of spectra are of logarithms on their logarithmic grid of frequencies.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -74,38 +75,31 @@ def first_floor_is_hit_seldom(campaign: Campaign) -> list:
                   f"in {len(hit)} of {len(cases)}", 2 * len(hit) < len(cases))] if cases else []
 
 
-def more_impacts_as_the_gap_shrinks(campaign: Campaign) -> list:
-    checks = []
+def more_impacts_as_the_gap_shrinks(campaign: Campaign) -> Iterator:
     for motion in dict.fromkeys(one.case.motion for one in campaign.of("A")):
         counts = [(one.case.gap, one.count("floor2")) for one in campaign.of("A") if one.case.motion == motion]
         counts = [count for _, count in sorted(counts, reverse=True)]
         if len(counts) > 1:
-            checks.append(Check("more impacts as the gap shrinks", motion, " < ".join(map(str, counts)),
-                                all(a < b for a, b in zip(counts, counts[1:]))))
-    return checks
+            yield Check("more impacts as the gap shrinks", motion, " < ".join(map(str, counts)),
+                        all(a < b for a, b in zip(counts, counts[1:])))
 
 
-def branch_vanishes_without_pounding(campaign: Campaign) -> list:
-    checks = []
+def branch_vanishes_without_pounding(campaign: Campaign) -> Iterator:
     for one, apart in campaign.pairs("A", "A-apart"):
         part = one.band(*BRANCH)
         ratio = mean_ratio(apart.roof[part], one.roof[part])
-        checks.append(Check("without pounding no branch of 50-400 Hz", where(one), f"{ratio:.3f} of it is left",
-                            ratio <= VANISHES))
-    return checks
+        yield Check("without pounding no branch of 50-400 Hz", where(one), f"{ratio:.3f} of it is left",
+                    ratio <= VANISHES)
 
 
-def symmetric_gaps_raise_the_branch(campaign: Campaign) -> list:
-    checks = []
+def symmetric_gaps_raise_the_branch(campaign: Campaign) -> Iterator:
     for one, symmetric in campaign.pairs("A", "A-symmetric"):
         part = one.band(*BRANCH)
         ratio = mean_ratio(symmetric.roof[part], one.roof[part])
-        checks.append(Check("symmetric gaps raise the branch", where(one), f"{ratio:.2f} times", ratio > 1))
-    return checks
+        yield Check("symmetric gaps raise the branch", where(one), f"{ratio:.2f} times", ratio > 1)
 
 
-def peaks_make_the_branch(campaign: Campaign) -> list:
-    checks = []
+def peaks_make_the_branch(campaign: Campaign) -> Iterator:
     for one in campaign.of("A"):
         if not one.treated:
             continue
@@ -114,8 +108,7 @@ def peaks_make_the_branch(campaign: Campaign) -> list:
         for treatment, words in (("all_peaks", "the branch is that of all peaks"),
                                  ("highest_peak", "the branch is that of the highest peak")):
             distance = rms(one.treated[treatment][part], complete)
-            checks.append(Check(f"{words} alone", where(one), f"{100 * distance:.0f} % rms", distance <= FOLLOWS))
-    return checks
+            yield Check(f"{words} alone", where(one), f"{100 * distance:.0f} % rms", distance <= FOLLOWS)
 
 
 def departure(one: CaseResult) -> float:
@@ -128,16 +121,13 @@ def departure(one: CaseResult) -> float:
     return float(one.frequency[below[-1] + 1]) if below[-1] + 1 < len(ratio) else float("inf")
 
 
-def dirac_departs(campaign: Campaign) -> list:
-    checks = []
+def dirac_departs(campaign: Campaign) -> Iterator:
     for one in campaign.of("A"):
         if one.treated:
             ratio = one.treated["dirac"][-1] / one.treated["complete"][-1]
             start = departure(one)
-            checks.append(Check("the Dirac departs upwards", where(one),
-                                f"{ratio:.1f} times at 400 Hz, from {start:.0f} Hz on",
-                                ratio >= DEPARTS and start > 20))
-    return checks
+            yield Check("the Dirac departs upwards", where(one), f"{ratio:.1f} times at 400 Hz, from {start:.0f} Hz on",
+                        ratio >= DEPARTS and start > 20)
 
 
 def prominence(one: CaseResult) -> float:
@@ -148,28 +138,20 @@ def prominence(one: CaseResult) -> float:
     return float(spectrum[one.band(*SLAB_MODE)].max() / neighbours)
 
 
-def slab_mode_near_200_hz(campaign: Campaign) -> list:
-    checks = []
-    for one in campaign.of("A"):
-        if one.count("floor1") == 0 < one.count("floor2"):
-            height = prominence(one)
-            checks.append(Check("unhit floor 1, Model A: a peak near 200 Hz", where(one), f"{height:.2f} times",
-                                height >= STANDS_OUT))
-    for one in campaign.of("B"):
-        if one.count("floor1") == 0 < one.count("floor2"):
-            height = prominence(one)
-            checks.append(Check("unhit floor 1, Model B: no peak near 200 Hz", where(one), f"{height:.2f} times",
-                                height < STANDS_OUT))
-    return checks
+def slab_mode_near_200_hz(campaign: Campaign) -> Iterator:
+    for model, words, expected in (("A", "a peak", True), ("B", "no peak", False)):
+        for one in campaign.of(model):
+            if one.count("floor1") == 0 < one.count("floor2"):
+                height = prominence(one)
+                yield Check(f"unhit floor 1, Model {model}: {words} near 200 Hz", where(one), f"{height:.2f} times",
+                            (height >= STANDS_OUT) == expected)
 
 
-def models_agree(campaign: Campaign) -> list:
-    checks = []
+def models_agree(campaign: Campaign) -> Iterator:
     for one, other in campaign.pairs("A", "B"):
         slow, fast = (rms(other.roof[one.band(*band)], one.roof[one.band(*band)]) for band in (SLOW, BRANCH))
-        checks.append(Check("Models A and B agree", where(one),
-                            f"{100 * slow:.0f} % rms below 50 Hz, {100 * fast:.0f} % above", slow <= AGREES))
-    return checks
+        yield Check("Models A and B agree", where(one),
+                    f"{100 * slow:.0f} % rms below 50 Hz, {100 * fast:.0f} % above", slow <= AGREES)
 
 
 def cost_of_the_models(campaign: Campaign) -> list:

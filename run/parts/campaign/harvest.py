@@ -10,11 +10,10 @@ import h5py
 import numpy as np
 
 from pounding.files import written_beside
-from pounding.runs import ending_with_us
+from pounding.runs import ending_with_us, program
 
 from .cases import Case
 
-SOURCE = Path(__file__).resolve().parents[3]
 TREATED, PEAKS, SERIES, HISTORY = "treated.csv", "peaks.csv", "series.npz", "history.h5"
 CHANNEL = "s2_floor2.x"  # whose signal is treated
 FREQUENCIES = "0.5:400:200log"
@@ -80,10 +79,9 @@ def write_series(case: Case, folder: Path) -> None:
 
 
 def treat(folder: Path) -> None:
-    program = SOURCE / os.environ.get("POUNDING_BUILD", "build") / "pounding-spectra"
     words = ["--channels", CHANNEL, "--treatment", "all", "--frequencies", FREQUENCIES, "--output",
              str(folder / TREATED), "--peaks", str(folder / PEAKS), str(folder / HISTORY)]
-    result = subprocess.run([program, *words], capture_output=True, text=True, preexec_fn=ending_with_us())
+    result = subprocess.run([program("pounding-spectra"), *words], capture_output=True, text=True, preexec_fn=ending_with_us())
     if result.returncode != 0:
         raise HarvestError(result.stderr.strip() or f"pounding-spectra ended with {result.returncode}")
 

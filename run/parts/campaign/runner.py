@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 
 from parts.study import Run, announcement, run_side_by_side
-from pounding.runs import Job, complaint, ending_with_us, environment
+from pounding.runs import Job, complaint, ending_with_us, environment, program
 
 from . import harvest
 from .cases import Case
@@ -23,10 +23,6 @@ class SetUpError(Exception):
 
 def run_of(case: Case, root: Path) -> Run:
     return Run(case.words, root / case.name, SOURCE, kept=(harvest.SERIES, harvest.TREATED, harvest.PEAKS))
-
-
-def build_folder() -> Path:
-    return SOURCE / os.environ.get("POUNDING_BUILD", "build")
 
 
 class Clock:
@@ -80,7 +76,7 @@ def prepare_bases(cases: list, variables: dict) -> None:
         started = time.monotonic()
         case.bases[0].parent.mkdir(parents=True, exist_ok=True)
         ranks = min(len(case.bases), len(os.sched_getaffinity(0)))
-        command = ["mpirun", "-n", str(ranks), str(build_folder() / "pounding"), *case.words, "-dry_run"]
+        command = ["mpirun", "-n", str(ranks), str(program()), *case.words, "-dry_run"]
         done = subprocess.run(command, cwd=SOURCE, env=variables, stdin=subprocess.DEVNULL, capture_output=True,
                               text=True, check=False, preexec_fn=ending_with_us())
         if done.returncode != 0:

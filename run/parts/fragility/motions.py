@@ -1,6 +1,5 @@
 """The accelerograms of a study as the program understands them, and how far they depend on each other."""
 
-import csv
 import hashlib
 from pathlib import Path
 
@@ -9,6 +8,7 @@ import numpy as np
 from parts import called
 from parts.folder_lock import alone_in
 from parts.study import run_side_by_side
+from parts.tables import write_rows
 from pounding.files import write_text, written_beside
 from pounding.fragility import correlations
 from pounding.results import load
@@ -133,15 +133,11 @@ def check(study: Study, folder: Path, jobs: int, write: bool = True) -> np.ndarr
     matrix = correlations([made.signal(*pair) for pair in pairs])
     off = abs(matrix - np.eye(len(matrix)))
     if write:
-        with written_beside(folder / "correlation.csv") as draft, open(draft, "w", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(["motion", *labels])
-            writer.writerows([label, *(f"{value:.4f}" for value in row)] for label, row in zip(labels, matrix))
-        with written_beside(folder / "motions.csv") as draft, open(draft, "w", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(["axis", "motion", "samples", "largest correlation", "with"])
-            writer.writerows([name, motion, len(made.signal(name, motion)), f"{row.max():.4f}", labels[row.argmax()]]
-                             for (name, motion), row in zip(pairs, off))
+        write_rows(folder / "correlation.csv", ["motion", *labels],
+                   ([label, *(f"{value:.4f}" for value in row)] for label, row in zip(labels, matrix)))
+        write_rows(folder / "motions.csv", ["axis", "motion", "samples", "largest correlation", "with"],
+                   ([name, motion, len(made.signal(name, motion)), f"{row.max():.4f}", labels[row.argmax()]]
+                    for (name, motion), row in zip(pairs, off)))
     beyond = [(off[i, j], i, j) for i in range(len(off)) for j in range(i) if off[i, j] >= study.correlation]
     if beyond:
         value, i, j = max(beyond)

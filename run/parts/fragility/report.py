@@ -1,15 +1,13 @@
 """Tables, figures and page of a study."""
 
-import csv
 from html import escape
 from pathlib import Path
 
 import numpy as np
 
-from parts.tables import markdown, write_csv
+from parts.tables import markdown, write_csv, write_rows
 from parts.plot import design_spectra
 from parts.plot.markup import answer_box, html_figure, html_table, write_page
-from pounding.files import written_beside
 from pounding.fragility import Fragility, binomial_interval, moments
 
 from . import figures
@@ -29,13 +27,11 @@ def write_design(analysis: Analysis, folder: Path) -> None:
     """design.csv: of each sample its motion and what was drawn."""
     axes = analysis.study.axes
     names = [one.name for one in analysis.study.variables]
-    with written_beside(folder / "design.csv") as draft, open(draft, "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["sample", *(f"motion {name}" for name in axes),
-                         *(f"{name} deviation [m]" if name.endswith("_gap") else name for name in names)])
-        for sample, motion in enumerate(analysis.design.motions):
-            writer.writerow([sample, *((one.records or one.seeds)[motion] for one in axes.values()),
-                             *(f"{value:.9g}" for value in analysis.design.samples[sample])])
+    head = ["sample", *(f"motion {name}" for name in axes),
+            *(f"{name} deviation [m]" if name.endswith("_gap") else name for name in names)]
+    write_rows(folder / "design.csv", head, ([sample, *((one.records or one.seeds)[motion] for one in axes.values()),
+                                              *(f"{value:.9g}" for value in analysis.design.samples[sample])]
+                                             for sample, motion in enumerate(analysis.design.motions)))
 
 
 def write_spectra(analysis: Analysis, folder: Path) -> None:

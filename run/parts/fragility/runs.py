@@ -10,8 +10,9 @@ from pathlib import Path
 from parts import called, finished
 from parts.folder_lock import alone_in
 from parts.study import announcement, run_side_by_side
+from parts.tables import write_rows
 from parts.understood import understood
-from pounding.files import write_text, written_beside
+from pounding.files import write_text
 from pounding.results import ResultError, load
 from pounding.runs import LOG, Job, clear, environment, finish
 from pounding.scenes import write_scene
@@ -188,9 +189,7 @@ class Runner:
         values = [share[index].values for index in missing]
         place = base / f"ensemble-{name}-{_digest(values)[:6]}"
         place.mkdir(parents=True, exist_ok=True)
-        with written_beside(place / "members.csv") as draft, open(draft, "w", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerows([self.design.columns, *values])
+        write_rows(place / "members.csv", self.design.columns, values)
         return self._at_once(place)
 
     def _at_once(self, place: Path) -> str:

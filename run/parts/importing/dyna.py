@@ -49,12 +49,9 @@ class Reader(Reading):
                          "ELEMENT_MASS": self._masses, "ELEMENT_INERTIA": self._inertias,
                          "ELEMENT_INERTIA_OFFSET": self._inertias, "DAMPING_GLOBAL": self._damping,
                          **self.joints.handlers}
-        for keyword in self.keywords:
-            if keyword.name.startswith("ELEMENT_"):
-                self._handle(keyword)
-        for keyword in self.keywords:
-            if not keyword.name.startswith("ELEMENT_"):
-                self._handle(keyword)
+        first = ("ELEMENT_", "SET_", "MAT_")  # to which others refer
+        for keyword in sorted(self.keywords, key=lambda one: [not one.name.startswith(head) for head in first]):
+            self._handle(keyword)
         self.joints.finish()
 
     def _handle(self, keyword: Keyword) -> None:

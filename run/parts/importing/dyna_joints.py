@@ -18,8 +18,7 @@ class JointReader(Reading):
         super().__init__(reader.model, reader)
         self.sets: dict = {}  # set of nodes -> nodes
         self.of_part: dict = {}  # rigid part -> its nodes
-        self.waiting: list = []  # what is done when all sets are known
-        self.handlers = {"BOUNDARY_SPC_NODE": self._node, "BOUNDARY_SPC_SET": self._set, "SET_NODE": self._nodes,
+        self.handlers = {"BOUNDARY_SPC_NODE": self._held, "BOUNDARY_SPC_SET": self._held, "SET_NODE": self._nodes,
                          "SET_NODE_LIST": self._nodes, "SET_NODE_LIST_GENERATE": self._nodes,
                          "SET_SEGMENT": self._segments, "CONSTRAINED_NODAL_RIGID_BODY": self._body,
                          "CONSTRAINED_EXTRA_NODES_SET": self._extra, "CONSTRAINED_EXTRA_NODES_NODE": self._extra,
@@ -34,22 +33,22 @@ class JointReader(Reading):
         if code:
             self.model.hold(node, CODES[code] << shift)
 
-    def _row(self, card: Card, nodes_of) -> None:
+    def _nodes_of(self, keyword: Keyword, number: int, place: str) -> list:
+        """Of a keyword that names a set, or one node."""
+        if keyword.name.endswith("SET"):
+            return self.nodes(number, place)
+        self.model.at(number, place)
+        return [number]
+
+    def _held(self, keyword: Keyword) -> None:
         """Six flags behind a coordinate system."""
-        components = sum(1 << k for k in range(6) if card.int(2 + k))
-        if card.int(1) and (components & 7 not in (0, 7) or components >> 3 not in (0, 7)):
-            return self.lose("BOUNDARY_SPC", "supports hold along the global axes", card.place)
-        self.waiting.append(lambda: [self.model.hold(node, components) for node in nodes_of()])
-
-    def _node(self, keyword: Keyword) -> None:
         for card in keyword.cards():
-            node, place = card.int(0), card.place
-            self._row(card, lambda node=node, place=place: [node] if self.model.at(node, place) else [])
-
-    def _set(self, keyword: Keyword) -> None:
-        for card in keyword.cards():
-            number, place = card.int(0), card.place
-            self._row(card, lambda number=number, place=place: self.nodes(number, place))
+            components = sum(1 << k for k in range(6) if card.int(2 + k))
+            if card.int(1) and (components & 7 not in (0, 7) or components >> 3 not in (0, 7)):
+                self.lose("BOUNDARY_SPC", "supports hold along the global axes", card.place)
+                continue
+            for node in self._nodes_of(keyword, card.int(0), card.place):
+                self.model.hold(node, components)
 
     def nodes(self, number: int, place: str) -> list:
         if number not in self.sets:
@@ -94,24 +93,17 @@ class JointReader(Reading):
                 self.lose(keyword.name, "rigid bodies couple all components of their nodes", card.place)
                 lost = True
                 continue
-            number, where, name, extra = card.int(2) or card.int(0), card.place, f"rigid_{card.int(0)}", card.int(3)
-            self.waiting.append(lambda number=number, where=where, name=name, extra=extra: self.model.rigid.append(
-                (name, self.nodes(number, where) + ([extra] if extra in self.model.nodes else []), where)))
+            nodes, extra = self.nodes(card.int(2) or card.int(0), card.place), card.int(3)
+            nodes = [*nodes, extra] if extra in self.model.nodes else nodes
+            self.model.rigid.append((f"rigid_{card.int(0)}", nodes, card.place))
         return False if lost else None
 
     def _extra(self, keyword: Keyword) -> None:
         for card in keyword.cards():
-            part, number, place = card.int(0), card.int(1), card.place
-            by_set = keyword.name.endswith("SET")
-
-            def add(part=part, number=number, place=place, by_set=by_set) -> None:
-                if part not in self.of_part:
-                    raise InputFault(f"{place}: part {part} is not rigid")
-                if not by_set:
-                    self.model.at(number, place)
-                self.of_part[part] |= set(self.nodes(number, place) if by_set else [number])
-
-            self.waiting.append(add)
+            part = card.int(0)
+            if part not in self.of_part:
+                raise InputFault(f"{card.place}: part {part} is not rigid")
+            self.of_part[part] |= set(self._nodes_of(keyword, card.int(1), card.place))
 
     def _merge(self, keyword: Keyword) -> None:
         self.merged += [(card.int(0), card.int(1), card.place) for card in keyword.cards()]
@@ -120,7 +112,7 @@ class JointReader(Reading):
         card = keyword.card(0)
         if card.int(1) != 7:
             return self.lose(keyword.name, "nodes share all three displacements", card.place)
-        self.waiting.append(lambda: self.model.pins.append((set(self.nodes(card.int(0), card.place)), card.place)))
+        self.model.pins.append((set(self.nodes(card.int(0), card.place)), card.place))
         return None
 
     def _moved(self, keyword: Keyword) -> None:
@@ -131,11 +123,10 @@ class JointReader(Reading):
                 self.lose(keyword.name, "supports hold along the global axes", place)
                 continue
             components = 1 << (dof - 1 if dof < 4 else dof - 2)
-            by_set = keyword.name.endswith("SET")
             self.model.said.append(f"{place}: nodes with a motion of their own are held; the motion is told in the "
                                    "scene")
-            self.waiting.append(lambda number=number, place=place, components=components, by_set=by_set: [
-                self.model.hold(node, components) for node in (self.nodes(number, place) if by_set else [number])])
+            for node in self.nodes(number, place) if keyword.name.endswith("SET") else [number]:
+                self.model.hold(node, components)
 
     def material(self, keyword: Keyword) -> None:
         """Counts a material, and makes the parts of a rigid one bodies."""
@@ -168,8 +159,6 @@ class JointReader(Reading):
         self.use(keyword.name)
 
     def finish(self) -> None:
-        for later in self.waiting:
-            later()
         for first, second, place in self.merged:
             for part in (first, second):
                 if part not in self.of_part:

@@ -128,7 +128,7 @@ class Joints:
     def _give_hinges(self) -> None:
         """A beam hinged at both ends carries along its axis alone: a bar. One hinged at an end gets a node of its own
         there, unless nothing else turns with the one that is there."""
-        turning = {node for name, nodes, _ in self.model.rigid for node in nodes} | set(self.joined) | set(
+        turning = {node for _, nodes, _ in self.model.rigid for node in nodes} | set(self.joined) | set(
             self.joined.values())
         turning |= {mass.node for mass in self.model.masses if any(mass.inertia)}
         turning |= {node for spring in self.model.springs if any(spring.stiffness[3:]) for node in spring.nodes}
@@ -167,12 +167,11 @@ class Joints:
         return int(np.linalg.matrix_rank(np.array(rows))) if rows else 0
 
     def _find_bodies(self) -> None:
-        sets, names, places = Sets(), {}, {}
-        for name, nodes, place in self.model.rigid:
+        sets, names = Sets(), {}
+        for name, nodes, _ in self.model.rigid:
             sets.join(nodes)
             for node in nodes:
                 names.setdefault(node, name)
-                places.setdefault(node, place)
         for satellite, root in self.joined.items():
             sets.join((satellite, root))
         plain = {}
