@@ -91,11 +91,8 @@ class Reader(Reading):
 
     # What became of a block.
 
-    def use_block(self, block: Block) -> None:
-        self.use(block.keyword)
-
-    def lose_block(self, block: Block, why: str) -> None:
-        self.lose(block.keyword, why, block.place)
+    def lose_block(self, block: Block, why: str) -> bool:
+        return self.lose(block.keyword, why, block.place)
 
     def followers(self, block: Block) -> list:
         """The blocks right behind this one that belong to it."""
@@ -114,11 +111,12 @@ class Reader(Reading):
         for parameter in block.strangers():
             self.lose(f"{keyword} {parameter}", "this parameter is not known", block.place)
         if keyword in self.handlers:
-            self.handlers[keyword](block, scope, motion)
+            if self.handlers[keyword](block, scope, motion) is not False:
+                self.use(keyword)
         elif keyword in ("NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "PART", "END PART", "ASSEMBLY", "END ASSEMBLY",
                          "INSTANCE", "END INSTANCE", "INCLUDE"):
             if keyword != "ELEMENT":
-                self.use_block(block)
+                self.use(keyword)
         else:
             self.pass_over(keyword, block.place, NOTED)
 
@@ -357,7 +355,6 @@ class Reader(Reading):
     def _name_material(self, block: Block, _scope, _motion) -> None:
         self.material = block.name("NAME")
         self.model.materials[self.material] = Material(0.0, 0.0, 0.0, place=block.place)
-        self.use_block(block)
 
     def _property(self, block: Block) -> tuple:
         if self.material is None or not block.data:
@@ -367,28 +364,25 @@ class Reader(Reading):
                                    "taken")
         return self.model.materials[self.material], numbers(block.data[0][1], block.data[0][0])
 
-    def _elastic(self, block: Block, _scope, _motion) -> None:
+    def _elastic(self, block: Block, _scope, _motion) -> bool | None:
         if block.name("TYPE", "ISOTROPIC") not in ("ISO", "ISOTROPIC"):
             return self.lose_block(block, "materials are isotropic")
         material, values = self._property(block)
         material.young, material.poisson = (values + [0.0])[:2]
-        return self.use_block(block)
 
     def _density(self, block: Block, _scope, _motion) -> None:
         material, values = self._property(block)
         material.density = values[0]
-        self.use_block(block)
 
-    def _damping(self, block: Block, _scope, _motion) -> None:
+    def _damping(self, block: Block, _scope, _motion) -> bool | None:
         if self.material is None or set(block.parameters) - {"ALPHA", "BETA"}:
             return self.lose_block(block, "damping is alpha M + beta K of a material")
         material = self.model.materials[self.material]
         material.alpha, material.beta = block.number("ALPHA", 0.0), block.number("BETA", 0.0)
-        return self.use_block(block)
 
     # Points and springs.
 
-    def _mass(self, block: Block, scope: Scope, _motion) -> None:
+    def _mass(self, block: Block, scope: Scope, _motion) -> bool | None:
         wanted = "MASS" if block.keyword == "MASS" else "ROTARYI"
         if not block.data:
             raise InputFault(f"{block.place}: *{block.keyword} has no value")
@@ -405,9 +399,8 @@ class Reader(Reading):
             mass = PointMass(raw.nodes[0], values[0], name=name, place=raw.place) if wanted == "MASS" else PointMass(
                 raw.nodes[0], 0.0, tuple(values[:3]), name=name, place=raw.place)
             self.model.masses.append(mass)
-        return self.use_block(block)
 
-    def _spring(self, block: Block, scope: Scope, _motion) -> None:
+    def _spring(self, block: Block, scope: Scope, _motion) -> bool | None:
         """*SPRING and *DASHPOT: a line of components, which SPRINGA leaves empty, and one of the value."""
         name, family = block.name("ELSET"), block.keyword
         raws = self.elements_of(name, scope, block.place)
@@ -442,7 +435,6 @@ class Reader(Reading):
             dof = along[0] - 1
             dof = permutation(axes)[dof % 3] + dof // 3 * 3 if axes else dof
             self.model.add_spring(raw.nodes, dof, *both, name, raw.place)
-        return self.use_block(block)
 
 
 def read(path: Path) -> Model:

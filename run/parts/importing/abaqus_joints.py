@@ -30,7 +30,7 @@ class JointReader(Reading):
                          "KINEMATIC COUPLING": self._kinematic, "MPC": self._mpc, "EQUATION": self._equation,
                          "TIE": self._tie, "RELEASE": self._release}
 
-    def _boundary(self, block: Block, scope, motion) -> None:
+    def _boundary(self, block: Block, scope, motion) -> bool | None:
         if block.name("TYPE", "DISPLACEMENT") != "DISPLACEMENT":
             return self.note(block.keyword, "motions of the ground are told in the scene")
         if block.name("OP", "MOD") == "NEW" and block.data:
@@ -55,26 +55,27 @@ class JointReader(Reading):
                 if axes is None and motion.axis:
                     axes = tuple(motion.turn(axis) for axis in ((1, 0, 0), (0, 1, 0), (0, 0, 1)))
                 if not hold_turned(self.model, node, components, axes, "BOUNDARY", place):
-                    return None
-        return self.reader.use_block(block)
+                    return False
+        return None
 
-    def _rigid(self, block: Block, scope, _motion) -> None:
+    def _rigid(self, block: Block, scope, _motion) -> bool | None:
         nodes = list(self.reader.nodes_of(block.name("REF NODE"), scope, block.place))
         for key in ("NSET", "TIE NSET", "PIN NSET"):
             if key in block.parameters:
                 members = self.reader.nodes_of(block.name(key), scope, block.place)
                 nodes += members
                 if key == "PIN NSET":
-                    return self.waiting.append(("rigid", nodes, TRANSLATIONS, block))
+                    self.waiting.append(("rigid", nodes, TRANSLATIONS, block))
+                    return False
         if "ELSET" in block.parameters:
             for raw in self.reader.elements_of(block.name("ELSET"), scope, block.place):
                 nodes += raw.nodes
         if "ANALYTICAL SURFACE" in block.parameters:
             return self.reader.lose_block(block, "analytical surfaces are not known")
         self.model.rigid.append(("rigid", sorted(set(nodes)), block.place))
-        return self.reader.use_block(block)
+        return None
 
-    def _coupling(self, block: Block, scope, _motion) -> None:
+    def _coupling(self, block: Block, scope, _motion) -> bool | None:
         reference = self.reader.nodes_of(block.name("REF NODE"), scope, block.place)
         nodes = self.reader.surface_nodes(block.name("SURFACE"), scope, block.place)
         followers = self.reader.followers(block)
@@ -84,7 +85,7 @@ class JointReader(Reading):
         components = self._ranges(followers[0])
         self.waiting.append((block.parameters.get("CONSTRAINT NAME", "coupling"), [*reference, *nodes], components,
                              block))
-        return None
+        return False
 
     def _ranges(self, block: Block) -> int:
         components = 0
@@ -94,7 +95,7 @@ class JointReader(Reading):
                 components |= span_of(values, place)
         return components or ALL
 
-    def _kinematic(self, block: Block, scope, _motion) -> None:
+    def _kinematic(self, block: Block, scope, _motion) -> bool | None:
         nodes = list(self.reader.nodes_of(block.name("REF NODE"), scope, block.place))
         components = ALL
         for place, fields in block.data:
@@ -103,8 +104,9 @@ class JointReader(Reading):
             if values:
                 components &= span_of(values, place)
         self.waiting.append(("coupling", nodes, components, block))
+        return False
 
-    def _mpc(self, block: Block, scope, _motion) -> None:
+    def _mpc(self, block: Block, scope, _motion) -> bool | None:
         for place, fields in block.data:
             kind = fields[0].upper()
             nodes = [node for text in fields[1:] if text for node in self.reader.nodes_of(text, scope, place)]
@@ -118,8 +120,9 @@ class JointReader(Reading):
                 self.lose(f"MPC {kind}", "this constraint is not known", place)
                 continue
             self.use("MPC")
+        return False
 
-    def _equation(self, block: Block, scope, _motion) -> None:
+    def _equation(self, block: Block, scope, _motion) -> bool | None:
         rows = iter(block.data)
         for place, fields in rows:
             terms, values = whole(fields[0], place), []
@@ -140,8 +143,9 @@ class JointReader(Reading):
                         self.equal.add(pair, 1 << (parts[0][1] - 1), place)
                     continue
             self.lose("EQUATION", self.equal.why, place)
+        return False
 
-    def _tie(self, block: Block, scope, _motion) -> None:
+    def _tie(self, block: Block, scope, _motion) -> bool | None:
         for place, fields in block.data:
             if len(fields) < 2:
                 raise InputFault(f"{place}: *TIE has two surfaces")
@@ -152,9 +156,10 @@ class JointReader(Reading):
             if first not in self.model.facet_sets:
                 self.model.node_sets.setdefault(first, self.reader.surface_nodes(first, scope, place))
             self.model.ties.append((first, second))
-            self.reader.use_block(block)
+            self.use(block.keyword)
+        return False
 
-    def _release(self, block: Block, scope, _motion) -> None:
+    def _release(self, block: Block, scope, _motion) -> bool | None:
         for place, fields in block.data:
             end, what = fields[1].upper() if len(fields) > 1 else "", fields[2].upper() if len(fields) > 2 else "ALLM"
             if end not in ("S1", "S2"):
@@ -167,7 +172,8 @@ class JointReader(Reading):
                 ends = list(raw.element.hinged)
                 ends[int(end[1]) - 1] = True
                 raw.element.hinged = tuple(ends)
-            self.reader.use_block(block)
+            self.use(block.keyword)
+        return False
 
     def finish(self) -> None:
         """Couplings and equations, once it is known which nodes turn."""

@@ -65,16 +65,15 @@ class SectionReader(Reading):
             found.append(raw.element)
         return found
 
-    def solid(self, block: Block, scope, _motion) -> None:
+    def solid(self, block: Block, scope, _motion) -> bool | None:
         if "COMPOSITE" in block.parameters:
             return self.reader.lose_block(block, "composites are not known")
         area = number(block.data[0][1][0] or "0", block.data[0][0]) if block.data and block.data[0][1][0] else 0.0
         key = self._new(block, block.name("MATERIAL"), area=area)
         for element in self._members(block, scope, *SOLIDS, BAR):
             element.property = key
-        return self.reader.use_block(block)
 
-    def shell(self, block: Block, scope, _motion) -> None:
+    def shell(self, block: Block, scope, _motion) -> bool | None:
         for word in ("COMPOSITE", "NODAL THICKNESS", "SHELL THICKNESS"):
             if word in block.parameters:
                 self._members(block, scope, SHELL)
@@ -92,9 +91,8 @@ class SectionReader(Reading):
                 arm = scaled(normal_of([self.model.at(node, block.place) for node in element.nodes], element.place),
                              -offset * thickness)
                 element.arms = (arm,) * len(element.nodes)
-        return self.reader.use_block(block)
 
-    def beam(self, block: Block, scope, motion) -> None:
+    def beam(self, block: Block, scope, motion) -> bool | None:
         shape = block.name("SECTION")
         if shape not in SHEAR or shape == "GENERAL":
             self._members(block, scope, *BEAMS)
@@ -105,9 +103,8 @@ class SectionReader(Reading):
         direction = self._direction(block, 1, motion)
         for element in self._members(block, scope, *BEAMS):
             self._orient(element, key, direction, (0.0, centroid))
-        return self.reader.use_block(block)
 
-    def general(self, block: Block, scope, motion) -> None:
+    def general(self, block: Block, scope, motion) -> bool | None:
         shape = block.name("SECTION", "GENERAL")
         rows = block.data
         if shape == "GENERAL":
@@ -138,14 +135,13 @@ class SectionReader(Reading):
             elif follower.keyword == "SHEAR CENTER" and tuple((values + [0.0] * 2)[:2]) != centroid:
                 self.reader.lose_block(follower, "the shear centre is taken to be the centroid")
                 continue
-            self.reader.use_block(follower)
+            self.reader.use(follower.keyword)
         if bears:
             section.shear_y, section.shear_z = bears
         key = self._new(block, material, section=section)
         direction = self._direction(block, 1, motion)
         for element in self._members(block, scope, *BEAMS):
             self._orient(element, key, direction, centroid)
-        return self.reader.use_block(block)
 
     def _direction(self, block: Block, row: int, motion) -> tuple:
         if len(block.data) > row and any(block.data[row][1]):
@@ -165,7 +161,7 @@ class SectionReader(Reading):
             arm = applied(frame, (0.0, -centroid[1], centroid[0]))
             element.arms = (arm, arm)
 
-    def added_mass(self, block: Block, scope, _motion) -> None:
+    def added_mass(self, block: Block, scope, _motion) -> bool | None:
         """*NONSTRUCTURAL MASS per area or length, or all of it."""
         units = block.name("UNITS", "TOTAL MASS")
         raws = [raw.element for raw in self.reader.elements_of(block.name("ELSET"), scope, block.place) if raw.element]
@@ -180,4 +176,3 @@ class SectionReader(Reading):
                                                  "known")
         for element in raws:
             element.added += value
-        return self.reader.use_block(block)

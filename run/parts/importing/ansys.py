@@ -118,7 +118,7 @@ class Reader(Reading):
                 nodes += [whole(text, place_) for text in more]
             self._element(values, nodes[:count], place)
 
-    def _element(self, values: list, nodes: list, place: str) -> None:
+    def _element(self, values: list, nodes: list, place: str) -> bool | None:
         material, type_number, real, section, own = values[0], values[1], values[2], values[3], values[10]
         if type_number not in self.properties.types:
             raise InputFault(f"{place}: element type {type_number} is not in the file")
@@ -164,7 +164,7 @@ class Reader(Reading):
         given = self.properties.sections.get(common[4], ["", "", ""])[2]
         return self.model.properties.setdefault(key, Property(given or name, material, place=place, **more))
 
-    def _solid(self, kind: str | None, type_: int, nodes: list, common) -> None:
+    def _solid(self, kind: str | None, type_: int, nodes: list, common) -> bool | None:
         shape, nodes = shape_of((nodes + nodes[-1:] * 8)[:8] if len(nodes) != 4 else [*nodes[:3], nodes[2],
                                                                                       *[nodes[3]] * 4])
         if kind is None or shape is None:
@@ -173,7 +173,7 @@ class Reader(Reading):
         self._property(common, common[2])
         self._add(kind if shape == "brick" else shape, nodes, common)
 
-    def _shell(self, type_: int, keys: dict, nodes: list, common) -> None:
+    def _shell(self, type_: int, keys: dict, nodes: list, common) -> bool | None:
         _, _, material, _, section, reals, own, place = common
         if SHELLS[type_] is None or keys.get(1):
             return self.lose(f"ELEMENT {type_} KEYOPT 1", "membranes and plates alone are not known", place)
@@ -257,7 +257,7 @@ class Reader(Reading):
         else:
             self.model.add_spring(ends, along - 1, stiffness, dashpot, name, place)
 
-    def _mass(self, keys: dict, nodes: list, common) -> None:
+    def _mass(self, keys: dict, nodes: list, common) -> bool | None:
         name, reals, place = common[1], (common[5] + [0.0] * 6)[:6], common[7]
         if keys.get(3, 0) == 2:
             mass, inertia = reals[0], (0.0,) * 3

@@ -273,7 +273,7 @@ class Reader(Reading):
             return Section(area, about_t, about_s, torsion or about_s + about_t, shear, shear), (0.0, 0.0)
         return None, (0.0, 0.0)
 
-    def _discrete_beam(self, card: Card, title: str, second: Card, material: int, nodes, part: int) -> None:
+    def _discrete_beam(self, card: Card, title: str, second: Card, material: int, nodes, part: int) -> bool | None:
         """Form 6 with *MAT_LINEAR_ELASTIC_DISCRETE_BEAM in the global axes."""
         keyword = self.materials.get(material)
         if keyword is None or keyword.name not in ("MAT_LINEAR_ELASTIC_DISCRETE_BEAM", "MAT_066"):

@@ -117,7 +117,7 @@ class Reader(Reading):
         self.model.elements.append(Element(kind, card.int(0), tuple(nodes), key, place=card.place, **more))
         self.use(card.name)
 
-    def _solid(self, card: Card) -> None:
+    def _solid(self, card: Card) -> bool | None:
         kind, count, more = SOLIDS[card.name]
         if any(card.text(2 + k) for k in range(count, more)):
             return self.lose(f"{card.name} of second order", "elements of second order are not known", card.place)

@@ -74,8 +74,8 @@ class Reader:
             if row.values.get("SymType", "Isotropic") != "Isotropic":
                 self.lose(row, "MATERIAL THAT IS NOT ISOTROPIC", f"material {row.values.get('Material')} has directions")
 
-    def lose(self, row: Row, card: str, why: str) -> None:
-        self.model.cards.lose(card, why, row.place)
+    def lose(self, row: Row, card: str, why: str) -> bool:
+        return self.model.cards.lose(card, why, row.place)
 
     # Tables that others refer to.
 
@@ -133,7 +133,7 @@ class Reader:
 
     # Frames.
 
-    def _frame(self, row: Row) -> None:
+    def _frame(self, row: Row) -> bool | None:
         label, ends = row.text("Frame"), (self.node(row, "JointI"), self.node(row, "JointJ"))
         if row.says("IsCurved"):
             self.lose(row, "CURVED FRAME", "frames are straight")
@@ -143,8 +143,7 @@ class Reader:
         name = section.text("AnalSect")
         if name not in self.sections:
             kind = "NONPRISMATIC" if name.lower() != "none" else "NULL"
-            self.lose(section, f"FRAME SECTION THAT IS {kind}", f"section {name} is not among the prismatic ones")
-            return
+            return self.lose(section, f"FRAME SECTION THAT IS {kind}", f"section {name} is not among the prismatic ones")
         key = self._frame_property(label, name, section)
         places = [self.model.nodes[end] for end in ends]
         who = f"{row.place}: frame {label}"
@@ -230,26 +229,23 @@ class Reader:
 
     # Areas.
 
-    def _area(self, row: Row) -> None:
+    def _area(self, row: Row) -> bool | None:
         label = row.text("Area")
         nodes = [self.node(row, f"Joint{k}") for k in range(1, int(row.real("NumJoints")) + 1)]
         if len(nodes) not in (3, 4):
-            self.lose(row, "AREA OF MORE THAN FOUR JOINTS", "shells have three or four nodes; divide it in the model")
-            return
+            return self.lose(row, "AREA OF MORE THAN FOUR JOINTS", "shells have three or four nodes; divide it in the model")
         assigned = self.own("AREA SECTION ASSIGNMENTS", label)
         if assigned is None:
             raise InputFault(f"{row.place}: area {label} has no section")
         name = assigned.text("Section")
         if name not in self.plates:
-            self.lose(assigned, "AREA WITHOUT A SHELL SECTION", f"section {name} is not among the area sections")
-            return
+            return self.lose(assigned, "AREA WITHOUT A SHELL SECTION", f"section {name} is not among the area sections")
         mesh = self.own("AREA AUTO MESH ASSIGNMENTS", label)
         if mesh is not None and mesh.values.get("MeshType", "None") != "None":
             self.lose(mesh, "AREA THAT THE ANALYSIS DIVIDES", "divide areas in the model; allowed, each is one shell")
         plate = self.plates[name]
         if not plate.values.get("Type", "Shell-Thin").startswith("Shell"):
-            self.lose(plate, f"AREA SECTION OF TYPE {plate.values['Type'].upper()}", "areas are shells")
-            return
+            return self.lose(plate, f"AREA SECTION OF TYPE {plate.values['Type'].upper()}", "areas are shells")
         thickness = plate.real("Thickness")
         if plate.real("BendThick", thickness) != thickness:
             self.lose(plate, "THICKNESS IN BENDING", "a shell has one thickness; allowed, that of its plane holds")
@@ -271,15 +267,14 @@ class Reader:
     def _link_law(self, row: Row) -> None:
         self.links.setdefault(row.text("Link"), {})[row.text("DOF")] = row
 
-    def _link(self, row: Row) -> None:
+    def _link(self, row: Row) -> bool | None:
         label = row.text("Link")
         assigned = self.own("LINK PROPERTY ASSIGNMENTS", label)
         if assigned is None:
             raise InputFault(f"{row.place}: link {label} has no property")
         laws = self.links.get(assigned.text("LinkProp"), {})
         if any(one.says("Fixed") for one in laws.values()):
-            self.lose(row, "FIXED COMPONENT OF A LINK", "links are springs and dashpots; use a body constraint")
-            return
+            return self.lose(row, "FIXED COMPONENT OF A LINK", "links are springs and dashpots; use a body constraint")
         stiffness, dashpot = (tuple(laws[dof].real(f"{'Trans' if dof[0] == 'U' else 'Rot'}{key}", 0.0) if dof in laws else 0.0
                                     for dof in DOFS) for key in ("KE", "CE"))
         nodes = [self.node(row, "JointI")]
@@ -304,10 +299,9 @@ class Reader:
     def _restraint(self, row: Row) -> None:
         self.model.hold(self.node(row, "Joint"), sum(1 << k for k, dof in enumerate(DOFS) if row.says(dof)))
 
-    def _spring(self, row: Row) -> None:
+    def _spring(self, row: Row) -> bool | None:
         if row.values.get("CoordSys", "Local").upper() not in ("LOCAL", "GLOBAL"):
-            self.lose(row, "SPRING IN ANOTHER SYSTEM", "springs act along and about the global axes")
-            return
+            return self.lose(row, "SPRING IN ANOTHER SYSTEM", "springs act along and about the global axes")
         self.model.springs.append(Spring((self.node(row, "Joint"),), tuple(row.real(dof, 0.0) for dof in DOFS), name="springs",
                                          place=row.place))
 
@@ -324,12 +318,11 @@ class Reader:
             self.lose(row, "BODY CONSTRAINT OF SOME COMPONENTS", "rigid bodies couple all components of their nodes")
         self.constraints[row.text("Name")] = "Body"
 
-    def _constrained(self, row: Row) -> None:
+    def _constrained(self, row: Row) -> bool | None:
         name = row.text("Constraint")
         if name not in self.constraints:
-            self.lose(row, f"CONSTRAINT OF TYPE {row.values.get('Type', 'UNKNOWN').upper()}",
-                      "body constraints alone are known; give a diaphragm in the scene")
-            return
+            return self.lose(row, f"CONSTRAINT OF TYPE {row.values.get('Type', 'UNKNOWN').upper()}",
+                             "body constraints alone are known; give a diaphragm in the scene")
         body = next((one for one in self.model.rigid if one[0] == name), None)
         if body is None:
             body = (name, [], row.place)
