@@ -1,15 +1,24 @@
-"""Studies: runs of the program side by side, of which those that are finished are not repeated."""
+"""Studies: runs of the program side by side, of which those that are finished are not repeated; one command at a time in a
+folder of results, and results that are there but are not what a run writes."""
 
+import errno
+import fcntl
 import os
 import subprocess
 import sys
 import time
+import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Callable
 
 from parts import finished
+from pounding.results import UNREADABLE, ResultError
 from pounding.runs import Job, ending_with_us, folder_of_programs, interrupts_held
+
+LOCK = ".command.lock"
 
 
 @dataclass(frozen=True)
@@ -77,3 +86,45 @@ def run_side_by_side(waiting: list, jobs: int, start: Callable, ended: Callable,
     finally:
         for job in running:
             job.stop()
+
+
+class FolderTaken(OSError):
+    """Another command works in the folder: one line for the user."""
+
+
+@contextmanager
+def alone_in(folder: Path, name: str, shared: bool = False, wait: bool = False) -> Iterator[None]:
+    """Makes the folder and keeps other commands out of it until the block ends; the lock ends with the process, however
+    that dies. `name`: what this command is called; `shared`: beside others that share it; `wait`: for those that do
+    not. Where the file system has no locks nobody is kept out. Throws FolderTaken."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / LOCK
+    lock = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666)
+    try:
+        try:
+            fcntl.flock(lock, (fcntl.LOCK_SH if shared else fcntl.LOCK_EX) | (0 if wait else fcntl.LOCK_NB))
+        except OSError as error:
+            if error.errno in (errno.EWOULDBLOCK, errno.EAGAIN, errno.EACCES):
+                other = os.read(lock, 200).decode(errors="replace").strip() or "another command"
+                raise FolderTaken(f"{folder}: {other} works there; wait until it has ended, or give another "
+                                  "folder") from None
+        if not shared:
+            os.ftruncate(lock, 0)
+            os.pwrite(lock, f"{name}, process {os.getpid()} on {os.uname().nodename},".encode(), 0)
+        yield
+    finally:
+        os.close(lock)
+
+
+@contextmanager
+def understood(what: Path | str) -> Iterator[None]:
+    """Around what is made of results whose files could be read: values that no run writes are one line, ResultError,
+    with the place in the command that they did not suit."""
+    try:
+        yield
+    except OSError:
+        raise
+    except UNREADABLE as error:
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        raise ResultError(f"{what}: holds something that no run of this version writes ({type(error).__name__}: "
+                          f"{' '.join(str(error).split())}, at {Path(place.filename).name} line {place.lineno})") from error

@@ -4,7 +4,7 @@ import csv
 import math
 from pathlib import Path
 
-from pounding.files import written_beside
+from pounding.files import write_text, written_beside
 
 
 def number(value, digits: int = 3) -> str:
@@ -36,6 +36,13 @@ def by_ranks(title: str, key: str, rows: list, columns: dict) -> str:
         lines.append([cells[0] if len(set(cells)) == 1 else " / ".join(cells) for cells in found])
     ranks = sorted({row["ranks"] for row in rows})
     return markdown(f"{title}, {' / '.join(map(str, ranks))} rank{'s' if ranks != [1] else ''}", list(columns), lines)
+
+
+def leave(folder: Path, name: str, text: str, rows: list) -> str:
+    """Writes a table, NAME.md, and its rows, NAME.csv; returns the table."""
+    write_text(folder / f"{name}.md", text)
+    write_csv(folder / f"{name}.csv", rows)
+    return text
 
 
 def write_csv(path: Path, rows: list) -> None:

@@ -22,7 +22,7 @@ from parts.compare import page, runs, tables  # noqa: E402
 from parts.fragility import study  # noqa: E402
 from parts.sweep import members, table  # noqa: E402
 from parts.tradeoff.runs import Outcome  # noqa: E402
-from parts.understood import understood  # noqa: E402
+from parts.study import understood  # noqa: E402
 from pounding import results  # noqa: E402
 
 WRONG = (None, 5, -1, "x", [], {}, [1, 2], {"a": 1}, True)

@@ -12,7 +12,7 @@ import program
 
 sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 sys.dont_write_bytecode = True
-from parts.campaign import cases, findings, harvest, impact_table, paper, records  # noqa: E402
+from parts.campaign import cases, findings, harvest, paper, records, results  # noqa: E402
 from parts.campaign.results import Campaign, CaseResult  # noqa: E402
 
 FREQUENCY = np.geomspace(0.5, 400, 200)
@@ -162,10 +162,10 @@ class Findings(unittest.TestCase):
         self.assertAlmostEqual(findings.departure(result(2, "A")), 220, delta=8)  # 1.1 x 200 Hz
 
     def test_impact_table(self):
-        row = impact_table.floor_row(result(2, "A", floor2=10), "floor2")
+        row = results.floor_row(result(2, "A", floor2=10), "floor2")
         self.assertEqual(row[2:], [10, 3.0, 3.0, 20.0, 2.0, 100.0, 75.0, 0])
-        self.assertEqual(impact_table.floor_row(result(2, "A"), "floor1")[2:4], [0, None])
-        self.assertEqual(len(impact_table.rows([result(2, "A"), result(2, "A-apart")])), 2)
+        self.assertEqual(results.floor_row(result(2, "A"), "floor1")[2:4], [0, None])
+        self.assertEqual(len(results.impact_rows([result(2, "A"), result(2, "A-apart")])), 2)
 
 
 class Paper(unittest.TestCase):

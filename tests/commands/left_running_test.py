@@ -14,7 +14,7 @@ import two_buildings
 
 sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 sys.dont_write_bytecode = True
-from parts import folder_lock  # noqa: E402
+from parts import study  # noqa: E402
 
 PROCESSORS = 2  # killed runs
 
@@ -138,7 +138,7 @@ class Locks(InFolder):
             "scene: two-buildings.yaml\nmotions: {x: {target: ground.csv, seeds: [1, 2]}}\nlevels: [2]\n"
             "gaps: [0.01]\njoints: {floor1: {}}\n")
         out = self.place / "out"
-        with folder_lock.alone_in(out, "run/first"):
+        with study.alone_in(out, "run/first"):
             for words in (("sweep", "two-buildings.yaml", "--set", "end_time=1", "--out", out),
                           ("tradeoff", "--scene", "two-buildings.yaml", "--output", out),
                           ("fragility", "study.yaml", "--out", out), ("plant", "--out", out),
@@ -148,14 +148,14 @@ class Locks(InFolder):
                     self.assertEqual(job.returncode, 1, said)
                     self.assertIn("run/first, process", said)
                     self.assertEqual(len(said.splitlines()), 1, said)
-        self.assertEqual([path.name for path in out.iterdir()], [folder_lock.LOCK])
+        self.assertEqual([path.name for path in out.iterdir()], [study.LOCK])
 
     def test_the_lock_ends_with_the_command(self):
-        with folder_lock.alone_in(self.place, "run/first"):
-            with self.assertRaises(folder_lock.FolderTaken), folder_lock.alone_in(self.place, "run/second"):
+        with study.alone_in(self.place, "run/first"):
+            with self.assertRaises(study.FolderTaken), study.alone_in(self.place, "run/second"):
                 self.fail("two at once")
-        with folder_lock.alone_in(self.place, "run/second", shared=True), \
-                folder_lock.alone_in(self.place, "run/third", shared=True):
+        with study.alone_in(self.place, "run/second", shared=True), \
+                study.alone_in(self.place, "run/third", shared=True):
             pass
 
 

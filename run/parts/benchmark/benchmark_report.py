@@ -68,19 +68,18 @@ def machine_table(machine: Machine) -> str:
 
 NOTES = f"""\
 - Medians over rounds in which every way took its turn; table.csv has the lowest and the highest.
-- A round is quiet if the multiply-adds just before and after it reached 0.9 of the best that one
-  rank did in this run, times the number of ranks (1.8 for two). Figures are medians over the quiet
-  rounds, and marked as disturbed where there is none.
-- `× triad`: over the time in which the triad of this run, on arrays of the same size, moves
-  {BYTES_PER_DOF} bytes per dof: reading and writing the two arrays of the state. Masses,
-  coordinates and element matrices can be shared by congruent bricks and are not counted.
-- `element by element` is the program's own step with its energy ledger; the others are the same scheme written out around
-  one product without a ledger. All have moved the brick alike to 1e-9 after their first steps.
-- Memory: growth of the resident set from an empty process to a stepping one, mesh and all included,
-  over the ranks together.
-- What is compared is linear elasticity on congruent bricks, for which the first is specialised;
-  small bricks stay in cache where matrices do not. These are ratios of this case, on this machine,
-  in this run.
+- A round is quiet if the multiply-adds just before and after it reached 0.9 of the best that one rank did in this
+  run, times the number of ranks (1.8 for two). Figures are medians over the quiet rounds, and marked as disturbed
+  where there is none.
+- `× triad`: over the time in which the triad of this run, on arrays of the same size, moves {BYTES_PER_DOF} bytes per
+  dof: reading and writing the two arrays of the state. Masses, coordinates and element matrices can be shared by
+  congruent bricks and are not counted.
+- `element by element` is the program's own step with its energy ledger; the others are the same scheme written out
+  around one product without a ledger. All have moved the brick alike to 1e-9 after their first steps.
+- Memory: growth of the resident set from an empty process to a stepping one, mesh and all included, over the ranks
+  together.
+- What is compared is linear elasticity on congruent bricks, for which the first is specialised; small bricks stay in
+  cache where matrices do not. These are ratios of this case, on this machine, in this run.
 """
 
 

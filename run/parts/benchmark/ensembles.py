@@ -9,8 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parts.tables import markdown, write_csv, write_rows
-from pounding.files import write_text
+from parts.tables import leave, markdown, write_rows
 
 from .workers import run_program
 
@@ -95,12 +94,10 @@ def measure(build: Path, counts: list, ranks: list, rounds: int) -> list:
 
 def write(folder: Path, rows: list) -> str:
     """Writes ensembles.md and ensembles.csv; returns the table."""
-    write_csv(folder / "ensembles.csv", rows)
     head = ["scene", "steps", "ranks", "members", "a single run, whole command [s]", "a member of the ensemble's [s]",
             "its steps and spectra [s]", "members per core in the time of a single run"]
     text = markdown("Ensembles beside single runs", head, [
         [row["scene"], row["steps"], row["ranks"], row["members"], row["single_seconds"],
          row["member_seconds"], row["member_stepped_seconds"], row["members_for_one_run"]]
         for row in rows])
-    write_text(folder / "ensembles.md", text)
-    return text
+    return leave(folder, "ensembles", text, rows)

@@ -7,8 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from parts.tables import by_ranks, write_csv
-from pounding.files import write_text
+from parts.tables import by_ranks, leave
 
 from .workers import run_program
 
@@ -81,12 +80,10 @@ def measure(build: Path, edges: list, ranks: list, rounds: int) -> list:
 
 def write(folder: Path, rows: list) -> str:
     """Writes faces.md and faces.csv; returns the table."""
-    write_csv(folder / "faces.csv", rows)
     shown = [{**row, "residual": f"{row['residual']:.0e}"} for row in rows]
     text = by_ranks("Faces of bricks that close at once", "coupled_rows", shown, {
         "coupled rows": "coupled_rows", "free dofs": "dofs", "contact [µs per step]": "contact_microseconds",
         "the rest of the step [µs]": "step_microseconds",
         "contact over a step of 500,000 dofs": "over_half_a_million_dofs",
         "complementarity residual": "residual", "peak memory [MB]": "megabytes"})
-    write_text(folder / "faces.md", text)
-    return text
+    return leave(folder, "faces", text, rows)

@@ -7,8 +7,7 @@ from collections import Counter
 from pathlib import Path
 from typing import NamedTuple
 
-from parts.tables import markdown, write_csv
-from pounding.files import write_text
+from parts.tables import leave, markdown
 
 from .machine import Machine
 from .shapes import SHAPES, Shape
@@ -142,7 +141,6 @@ def bounds(row: dict) -> dict:
 
 def write(folder: Path, rows: list) -> str:
     """Writes instructions.md and instructions.csv; returns the tables."""
-    write_csv(folder / "instructions.csv", rows)
     whole = [row for row in rows if row["function"] == WHOLE]
     least = [max((time, kind) for kind, time in bounds(row).items()) for row in whole]
     text = markdown("Instructions of a step on one rank per dof, its time, and the least that they take [ns]",
@@ -158,5 +156,4 @@ def write(folder: Path, rows: list) -> str:
             [[row["function"], *(row[kind] for kind in KINDS),
               *(found.get((unit, row["function"]), {}).get("instructions") for unit in others)]
              for row in [row for row in mine if row["unit"] == best][:SHOWN + 1]])
-    write_text(folder / "instructions.md", text)
-    return text
+    return leave(folder, "instructions", text, rows)

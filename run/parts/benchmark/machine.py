@@ -94,9 +94,8 @@ class Machine(ExitStack):
         self.turns.append((rates, turns))
 
     def find_quiet_rounds(self) -> None:
-        """A round is quiet for a number of ranks if the calibrations before and after it are near
-        the best that one rank reached in the whole run, times that number: what is missing was
-        taken by others."""
+        """A round is quiet for a number of ranks if the calibrations before and after it are near the best that one
+        rank reached in the whole run, times that number: what is missing was taken by others."""
         best = max(self.flops[1].values)
         for rates, turns in self.turns:
             for series, ranks, _ in turns:

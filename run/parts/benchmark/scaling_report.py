@@ -89,12 +89,11 @@ def machine_table(machine: Machine, messages: Messages) -> str:
 
 NOTES = """\
 - `apart`: every rank a model of its own, nothing exchanged; `pair`: the two buildings of the model below.
-- Medians over the rounds in which the ranks had their cores (multiply-adds at 0.9 of the ideal),
-  over all where no round was quiet. All points of a case take turns.
-- The modelled times add up compute, halo, gather and constraints of the part that has most of each,
-  with nothing overlapping, at this machine's cost per dof and its messages (within one machine,
-  unless latency and bandwidth are given). They are an estimate, not a measurement; where the same
-  mesh was run, the last column has it.
+- Medians over the rounds in which the ranks had their cores (multiply-adds at 0.9 of the ideal), over all where no
+  round was quiet. All points of a case take turns.
+- The modelled times add up compute, halo, gather and constraints of the part that has most of each, with nothing
+  overlapping, at this machine's cost per dof and its messages (within one machine, unless latency and bandwidth are
+  given). They are an estimate, not a measurement; where the same mesh was run, the last column has it.
 """
 
 

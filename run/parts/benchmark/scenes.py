@@ -7,8 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parts.tables import by_ranks, write_csv
-from pounding.files import write_text
+from parts.tables import by_ranks, leave
 
 from .workers import MeasuringError, run_program
 
@@ -128,6 +127,4 @@ def write(folder: Path, name: str, rows: list) -> str:
     """Writes NAME.md and NAME.csv; returns the table."""
     group = GROUPS[name]
     text = by_ranks(group.title, "scene", rows, {"": "scene", "free dofs": "dofs", **group.columns})
-    write_text(folder / f"{name}.md", text)
-    write_csv(folder / f"{name}.csv", rows)
-    return text
+    return leave(folder, name, text, rows)

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from parts.tables import by_ranks, write_csv
-from pounding.files import write_text
+from parts.tables import by_ranks, leave
 
 from .comparison import LABELS, check_agreement
 from .workers import SOURCE, Stepper, slab_cells, step_benchmark
@@ -114,9 +113,7 @@ def write(folder: Path, measured: list) -> str:
     text = by_ranks("Steps of concrete plates and lattices by kind of element and mesh: element by element, and times "
                     "over that", "elements", rows, {"elements": "elements", "free dofs": "dofs", "ns per dof": "ns",
                                                     **{f"{LABELS[way]}, ×": way for way in WAYS[1:]}})
-    write_text(folder / "shapes.md", text)
-    write_csv(folder / "shapes.csv", [
+    return leave(folder, "shapes", text, [
         {"shape": one.shape, "ranks": one.ranks, "way": one.way, "dofs": one.dofs,
          "nanoseconds_per_dof": one.nanoseconds_per_dof,
          "ratio_to_element": ratio(one, found[one.shape, one.ranks, "element"])} for one in measured])
-    return text

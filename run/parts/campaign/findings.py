@@ -112,8 +112,7 @@ def peaks_make_the_branch(campaign: Campaign) -> Iterator:
 
 
 def departure(one: CaseResult) -> float:
-    """Frequency above which the Dirac stays 10 % and more above the highest peak [Hz]; infinite if it
-    never does."""
+    """Frequency above which the Dirac stays 10 % and more above the highest peak [Hz]; infinite if it never does."""
     ratio = one.treated["dirac"] / one.treated["highest_peak"]
     below = np.flatnonzero(ratio < 1.1)
     if len(below) == 0:

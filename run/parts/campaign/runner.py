@@ -85,8 +85,7 @@ def prepare_bases(cases: list, variables: dict) -> None:
 
 
 def run_all(cases: list, root: Path, jobs: int, ranks: int, keep_histories: bool) -> dict:
-    """Case -> '' or why it failed. Finished ones are not run again; ends what it started if it is
-    interrupted."""
+    """Case -> '' or why it failed. Finished ones are not run again; ends what it started if it is interrupted."""
     failures = {case: "" for case in cases}
     waiting = [case for case in cases
                if not (run_of(case, root).is_finished() and harvest.is_complete(case, root / case.name))]

@@ -16,9 +16,8 @@ PLACES = ((0.12, 0.12), (3.24, 0.12), (3.24, 2.16), (0.12, 2.16))
 
 @dataclass
 class SlabMode:
-    """`nodes`: positions (n, 3) [m] of the slabs, `shape`: their displacement, largest 1; `dots`: the
-    accelerometers of floor 1 among the nodes; `at_dots`: mean displacement along x there, and in the
-    middle of the slab below them."""
+    """`nodes`: positions (n, 3) [m] of the slabs, `shape`: their displacement, largest 1; `dots`: the accelerometers of
+    floor 1 among the nodes; `at_dots`: mean displacement along x there, and in the middle of the slab below them."""
 
     model: str
     frequency: float

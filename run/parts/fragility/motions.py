@@ -6,8 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from parts import called
-from parts.folder_lock import alone_in
-from parts.study import run_side_by_side
+from parts.study import alone_in, run_side_by_side
 from parts.tables import write_rows
 from pounding.files import write_text, written_beside
 from pounding.fragility import correlations

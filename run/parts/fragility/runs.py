@@ -8,10 +8,8 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from parts import called, finished
-from parts.folder_lock import alone_in
-from parts.study import announcement, run_side_by_side
+from parts.study import alone_in, announcement, run_side_by_side, understood
 from parts.tables import write_rows
-from parts.understood import understood
 from pounding.files import write_text
 from pounding.results import ResultError, load
 from pounding.runs import LOG, Job, clear, environment, finish

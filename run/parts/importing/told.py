@@ -26,13 +26,9 @@ def cards_told(cards, allowed) -> list:
     for why, counts in reasons.items():
         lines.append(f"passed over{f' ({why})' if why else ''}: {_table(counts)}")
     for name, count in sorted(cards.lost.items()):
-        word = "lost, as allowed" if is_allowed(name, allowed) else "LOST"
+        word = "lost, as allowed" if name.upper() in allowed else "LOST"
         lines.append(f"{word}: {name} {count}, first at {cards.first[name]}: {cards.why[name]}")
     return lines
-
-
-def is_allowed(card: str, allowed) -> bool:
-    return card.upper() in allowed
 
 
 def model_told(scene, mass: float, centre, expected: float | None) -> list:

@@ -4,7 +4,7 @@ import json
 from html import escape
 from pathlib import Path
 
-from parts.campaign import findings, impact_table, paper, paper_tables
+from parts.campaign import findings, paper, paper_tables, results
 from parts.campaign.cases import VARIANTS
 from parts.campaign.results import Campaign
 from pounding.files import write_text
@@ -72,8 +72,8 @@ def write(campaign: Campaign, summaries: dict, failures: dict, pages: list, fold
         parts.append(_damping(summaries))
     parts.append(_excitations(campaign))
     parts += [html_figure(folder, page) for page in pages]
-    parts.append(html_table("Impacts by case and floor", impact_table.HEAD, impact_table.rows(campaign.all())))
+    parts.append(html_table("Impacts by case and floor", results.IMPACT_HEAD, results.impact_rows(campaign.all())))
     parts.append(_note("left: share of the impulse in the half of the face at y = 0; bottom: in its lower half; at "
-                       f"both ends: impacts of which each half took over {100 * (1 - impact_table.AT_AN_END):.0f} %."))
+                       f"both ends: impacts of which each half took over {100 * (1 - results.AT_AN_END):.0f} %."))
     parts.append(_runs(campaign))
     return write_page(folder / "report.html", title, "".join(parts))

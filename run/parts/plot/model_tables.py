@@ -1,13 +1,16 @@
-"""Tables of what was computed: motion, structures, damping, materials, sections, modes, joints."""
+"""Tables of what was computed: motion, structures, damping, materials, sections, modes, joints; the
+figure of damping."""
 
 import numpy as np
 
-from pounding.results import DIRECTIONS, Result
+from pounding.results import DIRECTIONS, Missing, Result
 from .markup import html_table
-from .style import G
+from .style import G, WIDTH, log_scale, plt, save
 
 MOTIONS = ("x", "y", "z", "rx", "ry", "rz")
 SHOWN = (1.0, 10.0, 100.0, 400.0)  # frequencies at which damping is told, as on the console [Hz]
+FREQUENCY = np.geomspace(0.5, 400, 300)  # [Hz]
+_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 
 
 def motion_table(result: Result) -> str:
@@ -78,6 +81,40 @@ def damping_table(result: Result) -> str:
                      f"{len(own['filters'])} filters")
             rows.append((f"{name}: {region}" if region else name, words, *(f"{100 * ratio:.3f} %" for ratio in curve)))
     return html_table("Damping ratio", ["", "as given", *(f"at {f:g} Hz" for f in SHOWN)], rows, text=(1,))
+
+
+def damping(result: Result) -> list:
+    structures = result.summary.get("structures", {})
+    curves, points = {}, {}
+    for name, structure in structures.items():
+        ratios = structure.get("modal", {}).get("damping_ratios")
+        if ratios:
+            frequencies = [mode["frequency"] for mode in structure.get("frequencies", [])]
+            points[name] = (frequencies, [ratios[min(i, len(ratios) - 1)] for i in range(len(frequencies))])
+            continue
+        for region, curve in damping_curves(structure, FREQUENCY).items():
+            if np.any(curve > 0):
+                curves[f"{name}: {region}" if region else name] = curve
+    if not curves and not points:
+        raise Missing("no structure is damped")
+    figure, axes = plt.subplots(figsize=(WIDTH, 3.2))
+    for number, (name, curve) in enumerate(curves.items()):
+        colour = _COLOURS[number % len(_COLOURS)]
+        axes.plot(FREQUENCY, 100 * curve, label=name, color=colour, lw=2.2 if number == 0 else 1.4,
+                  ls=("-", "--", "-.", ":")[number % 4])
+        for mode in structures.get(name, {}).get("frequencies", []):
+            if FREQUENCY[0] <= mode["frequency"] <= FREQUENCY[-1]:
+                axes.plot(mode["frequency"], 100 * np.interp(mode["frequency"], FREQUENCY, curve), "o", ms=4, color=colour)
+    for number, (name, (frequencies, ratios)) in enumerate(points.items()):
+        axes.plot(frequencies, 100 * np.array(ratios), "s", ms=4, label=f"{name}, by mode",
+                  color=_COLOURS[(len(curves) + number) % len(_COLOURS)])
+    log_scale(axes, "x", FREQUENCY)
+    log_scale(axes, "y", 100 * np.concatenate([*curves.values(), *(np.array(ratios) for _, ratios in points.values())]))
+    axes.grid(True, which="minor", lw=0.3)
+    axes.set(xlabel="frequency [Hz]", ylabel="damping ratio [%]")
+    axes.legend(loc="best")
+    return save(figure, result.folder, "damping.png", "Damping",
+                "Damping ratio of a motion at one frequency; dots: the modes that were computed.")
 
 
 def structure_table(result: Result) -> str:

@@ -4,8 +4,8 @@ from html import escape
 from pathlib import Path
 
 from pounding.results import Missing, Result
-from . import (answer, answer_figure, contact_figures, damping_figure, design_spectra, equipment, floor_figures,
-               force_figures, model_tables, origin_tables, result_tables, spectra_figures, view)
+from . import (answer, contact_figures, design_spectra, equipment, floor_figures, force_figures, model_tables, origin_tables,
+               result_tables, spectra_figures, view)
 from .markup import html_figure, write_page
 
 
@@ -58,7 +58,7 @@ def _computed(result: Result, drawn: _Drawn) -> str:
     motion = model_tables.motion_table(result) if result.summary else ""
     motion += drawn.html(floor_figures.ground_motion)
     model = (model_tables.structure_table(result) + model_tables.contact_table(result)
-             + model_tables.damping_table(result) + drawn.html(*damping_figure.ALL) + model_tables.material_tables(result)
+             + model_tables.damping_table(result) + drawn.html(model_tables.damping) + model_tables.material_tables(result)
              + model_tables.region_table(result) + model_tables.mode_tables(result))
     return _part("The motion", motion) + _part("The model", model)
 
@@ -75,7 +75,7 @@ def write(result: Result, why: str = "") -> tuple:
     """Draws the figures and writes report.html into the result folder; `why` there is no run without pounding beside
     it. Returns the number of figures, what was skipped and the path."""
     drawn = _Drawn(result)
-    content = answer.html(result, result.without, why) + drawn.html(*answer_figure.ALL)
+    content = answer.html(result, result.without, why) + drawn.html(answer.picture)
     content += result_tables.warnings(result)
     if not result.summary:
         content += '<p class="note">No summary.json in the result folder.</p>\n'

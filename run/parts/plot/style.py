@@ -109,8 +109,7 @@ def stacked(rows: int, height: float = 1.9, sharey: bool = False):
 
 
 def save(figure, folder: Path, name: str, title: str, caption: str) -> list:
-    """Writes the PNG, in 256 colours, which takes a third of the room; returns what the report needs
-    to show it."""
+    """Writes the PNG, in 256 colours, which takes a third of the room; returns what the report needs to show it."""
     figure.align_ylabels()
     drawn = io.BytesIO()
     figure.savefig(drawn, format="png")

@@ -2,8 +2,7 @@
 
 from pathlib import Path
 
-from parts.study import Run
-from parts.understood import understood
+from parts.study import Run, understood
 from pounding.results import DIRECTIONS, ResultError, load
 from pounding.runs import environment, finish, words_of
 
@@ -24,8 +23,7 @@ class Case:
         self.name, self.gaps, self.motion, self.window = name, gaps, motion, window
 
     def words(self, setting: Setting, folder: Path) -> list:
-        """The command line after the program's name, without the output folder; `folder` keeps what runs
-        share."""
+        """The command line after the program's name, without the output folder; `folder` keeps what runs share."""
         model = "pair-b" if setting.shells else "pair"
         options = {"end_time": self.window, "spectra_frequencies": GRID, **self.motion, **dict(setting.changes)}
         options["motion_x_pga"] = self.motion["motion_x_pga"] * setting.pga
