@@ -93,6 +93,8 @@ class Ranks:
         if os.path.exists(path):
             os.unlink(path)
         self.said = tempfile.TemporaryFile()
+        meshes = place / "meshes"  # see kept_meshes.cpp
+        meshes.mkdir(exist_ok=True)
         with socket.socket(socket.AF_UNIX) as listening:
             listening.bind(path)
             listening.listen(RANKS)
@@ -100,6 +102,7 @@ class Ranks:
             line = 'source run/environment && exec mpirun -n "$1" "$2" "$3"'
             self.process = subprocess.Popen(["bash", "-c", line, "bash", str(RANKS), str(BUILD / "tests" / "job_server"), path],
                                             cwd=SOURCE, stdin=subprocess.DEVNULL, stdout=self.said, stderr=self.said,
+                                            env={**os.environ, "POUNDING_KEPT_MESHES": str(meshes)},
                                             start_new_session=True)
             found = {}
             self.connections = []
