@@ -80,13 +80,12 @@ class Cantilevers(unittest.TestCase):
             mass = ("-material_@_density", 1e-3, "-@_x_max_element", "point_mass", "-@_x_max_mass", 1e5)
             cases = [cantilever(length, 1, n, *mass) for n in (1, 4)]
             cases.append(cantilever(length, 1, 1, *mass, element="euler_beam"))
-            for ranks in (1, 2):
-                one, four, euler = (modal_run.frequencies(result)[0]
-                                    for result in modal_run.structures(self, cases, 1, ranks))
-                exact = math.sqrt(1 / ((bent + sheared) * 1e5)) / (2 * math.pi)
-                self.assertAlmostEqual(one / exact, 1, delta=1e-6)
-                self.assertAlmostEqual(four / exact, 1, delta=1e-6)
-                self.assertAlmostEqual(1 - (one / euler)**2, stiffer, delta=0.01)
+            one, four, euler = (modal_run.frequencies(result)[0]
+                                for result in modal_run.structures(self, cases, 1))
+            exact = math.sqrt(1 / ((bent + sheared) * 1e5)) / (2 * math.pi)
+            self.assertAlmostEqual(one / exact, 1, delta=1e-6)
+            self.assertAlmostEqual(four / exact, 1, delta=1e-6)
+            self.assertAlmostEqual(1 - (one / euler)**2, stiffer, delta=0.01)
 
     def test_shares_of_shear(self):
         """Cantilevers of 10, 20 and 30 % shear and thick ones, with their own mass; second order in the mesh."""
@@ -141,20 +140,19 @@ class Stick(unittest.TestCase):
     SWAY = {"light": [8.505, 12.433, 33.13, 54.86], "heavy": [8.455, 12.367, 32.89, 54.35]}
     AXIAL = {"light": [27.98, 45.72, 79.80], "heavy": [27.83, 45.45, 79.28]}
 
-    def modes(self, *more, ranks=program.RANKS):
+    def modes(self, *more):
         words = [*STICK, "-end_time", 1e-12, "-modes", 15, "-probes", "none", *more]
-        return program.must_run(self, words, ranks)[1]["structures"]["stick"]
+        return program.must_run(self, words)[1]["structures"]["stick"]
 
     def test_modes(self):
-        for ranks in (1, 2, 3):
-            for name, more in (("light", self.LIGHT), ("heavy", [])):
-                result = self.modes(*more, ranks=ranks)
-                axial = [mode["frequency"] for mode in result["frequencies"] if mode["direction"] == "z"]
-                modal_run.assert_close(self, axial, self.AXIAL[name], 1e-3, "axial")
-                sway = [mode["frequency"] for mode in result["frequencies"] if mode["direction"] != "z"][:8]
-                for i, expected in enumerate(self.SWAY[name]):
-                    for found in sway[2 * i: 2 * i + 2]:
-                        self.assertAlmostEqual(found / expected, 1, delta=1e-3)
+        for name, more in (("light", self.LIGHT), ("heavy", [])):
+            result = self.modes(*more)
+            axial = [mode["frequency"] for mode in result["frequencies"] if mode["direction"] == "z"]
+            modal_run.assert_close(self, axial, self.AXIAL[name], 1e-3, "axial")
+            sway = [mode["frequency"] for mode in result["frequencies"] if mode["direction"] != "z"][:8]
+            for i, expected in enumerate(self.SWAY[name]):
+                for found in sway[2 * i: 2 * i + 2]:
+                    self.assertAlmostEqual(found / expected, 1, delta=1e-3)
 
     def test_without_shear_the_first_mode_is_a_quarter_too_fast(self):
         words = [word for i in range(1, 8) for word in (f"-stick_b{i}_element", "euler_beam")]
@@ -181,12 +179,11 @@ class Division(unittest.TestCase):
     def test_the_same_as_a_finer_mesh(self):
         words = [*STICK, "-end_time", 1e-12, "-modes", 12]
         cut = [word for i in range(1, 8) for word in (f"-stick_b{i}_divide", 3)]
-        for ranks in (1, 2):
-            finer = program.must_run(self, [*words, "-stick_mesh_set", "cells=3"], ranks)[1]["structures"]["stick"]
-            divided = program.must_run(self, [*words, *cut], ranks)[1]["structures"]["stick"]
-            modal_run.assert_close(self, modal_run.frequencies(divided), modal_run.frequencies(finer), 1e-10, "modes")
-            self.assertEqual(divided["dofs"], finer["dofs"])
-            self.assertEqual(divided["beams"]["b2"]["divided"], {"lines": 1, "beams": 3, "left_whole": 0})
+        finer = program.must_run(self, [*words, "-stick_mesh_set", "cells=3"])[1]["structures"]["stick"]
+        divided = program.must_run(self, [*words, *cut])[1]["structures"]["stick"]
+        modal_run.assert_close(self, modal_run.frequencies(divided), modal_run.frequencies(finer), 1e-10, "modes")
+        self.assertEqual(divided["dofs"], finer["dofs"])
+        self.assertEqual(divided["beams"]["b2"]["divided"], {"lines": 1, "beams": 3, "left_whole": 0})
 
     def test_automatic(self):
         """Of 3 beams 4 in each half wave up to 1600 Hz, and then no doubt is left."""
@@ -217,10 +214,9 @@ class Frames(unittest.TestCase):
         for name in ("columns", "girders"):
             words += modal_run.group(name, "beam", section="@", mass_per_length=repr(mass))
         words += decks.section("@", area, 1e3 * inertia, inertia, 1e3 * inertia)
-        for ranks in (1, 2):
-            result, = modal_run.structures(self, [modal_run.case("plane_frame", words)], 8, ranks)
-            found = [(2 * math.pi * f)**2 for f in modal_run.moving(result, (0, 1, 5))]
-            modal_run.assert_close(self, found, [0.589541, 5.52695, 16.5878], 1e-5, "lambda")
+        result, = modal_run.structures(self, [modal_run.case("plane_frame", words)], 8)
+        found = [(2 * math.pi * f)**2 for f in modal_run.moving(result, (0, 1, 5))]
+        modal_run.assert_close(self, found, [0.589541, 5.52695, 16.5878], 1e-5, "lambda")
 
 
 class PinnedBeam(unittest.TestCase):
