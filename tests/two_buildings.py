@@ -16,11 +16,25 @@ sys.dont_write_bytecode = True
 import pounding  # noqa: E402
 
 
-def run(output, ranks=2, **options):
-    """A short run of the scene into a folder; gap: that of both floors [m]."""
+def shortened(options):
+    """Those of a short run of the scene; gap: that of both floors [m]."""
     if "gap" in options:
         options["floor1_gap"] = options["floor2_gap"] = options.pop("gap")
-    return pounding.run(SCENE, output, ranks, FOLDER, **{**SHORT, **options})
+    return {**SHORT, **options}
+
+
+def run(output, ranks=1, **options):
+    """A short run of the scene into a folder, as a job of waiting ranks, and what it left."""
+    words = pounding.runs.words_of(SCENE, shortened(options))
+    done = program.run([*words, "-output", os.path.abspath(output)], ranks, folder=FOLDER)
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+    Path(output, pounding.runs.LOG).write_text(done.stdout + done.stderr)
+    return pounding.load(output)
+
+
+def launched(output, ranks=2, **options):
+    """The same by the package's own start of runs."""
+    return pounding.run(SCENE, output, ranks, FOLDER, **shortened(options))
 
 
 def own_scene(folder, more=""):

@@ -11,8 +11,6 @@ import numpy as np
 import program
 import two_buildings
 
-PROCESSORS = 2  # runs on two ranks
-
 
 def rows_of(path):
     with open(path, newline="") as file:
@@ -105,19 +103,19 @@ class Compare(unittest.TestCase):
             self.assertEqual(float(row["PSA envelope [m/s2]"]), max(float(row[f"PSA {run} [m/s2]"]) for run in ("wide", "narrow")))
 
     def test_three_runs_and_another_number_of_ranks(self):
-        two_buildings.run(self.place / "alone", ranks=1, gap=0.01, probes="left_roof")
+        two_buildings.run(self.place / "alone", 2, gap=0.01, probes="left_roof")
         result = self.compare("narrow", "alone", "wide")
         self.assertEqual(result.returncode, 0, result.stderr)
         folder = self.place / "narrow-alone-wide"
         rows = rows_of(folder / "spectra.csv")
         ratios = [float(row["alone / narrow"]) for row in rows if row["alone / narrow"]]
         self.assertLess(max(abs(ratio - 1) for ratio in ratios), 1e-4)
-        self.assertEqual([row["narrow"] for row in rows_of(folder / "options.csv")
+        self.assertEqual([row["alone"] for row in rows_of(folder / "options.csv")
                           if row["option"] == "(number of ranks)"], ["2"])
 
     def test_probes_that_are_not_common_are_told(self):
-        two_buildings.run(self.place / "roofs", ranks=1, gap=0.01, probes="left_roof,right_roof")
-        two_buildings.run(self.place / "floor", ranks=1, end_time=0.1, gap=0.01, probes="left_floor")
+        two_buildings.run(self.place / "roofs", gap=0.01, probes="left_roof,right_roof")
+        two_buildings.run(self.place / "floor", end_time=0.1, gap=0.01, probes="left_floor")
         result = self.compare("narrow", "roofs")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("probes of narrow that are not in every run, left out: left_floor; common are left_roof",
@@ -125,8 +123,8 @@ class Compare(unittest.TestCase):
         self.refused("roofs", "floor", parts=("no probe that all runs have", "floor has left_floor"))
 
     def test_unlike_spectra_are_refused(self):
-        two_buildings.run(self.place / "coarse", ranks=1, end_time=0.1, spectra_frequencies="1:100:20log")
-        two_buildings.run(self.place / "damped", ranks=1, end_time=0.1, spectra_damping=0.02)
+        two_buildings.run(self.place / "coarse", end_time=0.1, spectra_frequencies="1:100:20log")
+        two_buildings.run(self.place / "damped", end_time=0.1, spectra_damping=0.02)
         self.refused("wide", "coarse", parts=("unlike frequencies", "20 from 1 to 100 Hz", "-spectra_frequencies"))
         self.refused("wide", "damped", parts=("no damping ratio", "damped has 2 %"))
 

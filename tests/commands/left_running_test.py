@@ -170,7 +170,7 @@ class TooMany(InFolder):
                 self.assertIn(job.returncode, (1, 2))
                 self.assertIn("cores: more than", said.replace("1 core:", "1 cores:"))
         with self.assertRaises(two_buildings.pounding.RunError):
-            two_buildings.run(self.place / "many", ranks=500)
+            two_buildings.launched(self.place / "many", ranks=500)
 
 
 if __name__ == "__main__":

@@ -25,8 +25,6 @@ from two_buildings import pounding
 sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 from parts.plot import answer, design_spectra, force_figures, markup, model_tables, twin  # noqa: E402
 
-PROCESSORS = 2  # runs on two ranks
-
 MORE = {"modes": 4, "spectra_damping": "0.02,0.05", "forces": "base,corner", "base_structure": "left",
         "base_kind": "reactions", "corner_structure": "left", "corner_kind": "members", "corner_group": "columns",
         "corner_at": "0,0,1"}
@@ -255,7 +253,7 @@ class Report(unittest.TestCase):
         self.assertIn(why, " ".join(answer.sentences(self.hit, None, why)))
 
     def test_modes_are_those_of_the_console(self):
-        printed = self.console(2, "-modes", 4)
+        printed = self.console(1, "-modes", 4)
         for name in ("left", "right"):
             part = printed[printed.index(f"structure {name}:"):]
             console = re.findall(r"^ +(\d+) +([\d.]+) +(\w+) +(\d+) (kg(?: m2)? (?:along|about) \w), +([\d.]+) % about/along (\w+), damped "

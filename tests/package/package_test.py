@@ -46,14 +46,14 @@ class Scenes(unittest.TestCase):
     def test_a_run_that_fails_says_what_the_program_said(self):
         for ranks in (1, 2):
             with self.assertRaisesRegex(pounding.RunError, "pounding: .*end_time"):
-                two_buildings.run(self.place / "bad", ranks, end_time=-1)
+                two_buildings.launched(self.place / "bad", ranks, end_time=-1)
 
 
 class Results(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = Path(tempfile.mkdtemp(prefix="pounding-"))
-        cls.found = two_buildings.run(cls.folder, gap=0.01)
+        cls.found = two_buildings.launched(cls.folder, gap=0.01)
 
     def test_arrays_are_those_of_the_files(self):
         with h5py.File(self.folder / "history.h5") as file:
@@ -74,7 +74,7 @@ class Results(unittest.TestCase):
 
     def test_forces_are_those_of_the_files(self):
         with tempfile.TemporaryDirectory(prefix="pounding-") as folder:
-            run = two_buildings.run(Path(folder), gap=0.01, end_time=0.05, forces="feet", feet_structure="left", csv_digits=17,
+            run = two_buildings.launched(Path(folder), gap=0.01, end_time=0.05, forces="feet", feet_structure="left", csv_digits=17,
                                     feet_kind="reactions")
             with h5py.File(Path(folder, "history.h5")) as file:
                 names = [name.decode().strip("\0 ") for name in file["forces"][()]]

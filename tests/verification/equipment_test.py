@@ -45,7 +45,7 @@ class Equipment(unittest.TestCase):
         return str(path)
 
     @classmethod
-    def run_with(cls, name, items, ranks=2, **options):
+    def run_with(cls, name, items, ranks=1, **options):
         """A run with items of equipment at the left roof, by name and their options."""
         options["equipment"] = ",".join(items)
         for item, own in items.items():
