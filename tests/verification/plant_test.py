@@ -1,8 +1,6 @@
 """The buildings of petsc-options/plant against what is published of them: masses, frequencies, three in a row."""
 import unittest
 
-import numpy
-
 import program
 from recorded import Recorded, reference
 
@@ -21,16 +19,16 @@ def strongest(structure, axis, above=0):
 
 
 class Plant(unittest.TestCase):
-    def modes_of(self, scene, structure, count, *more, m=2, ranks=1):
+    def modes_of(self, scene, structure, count, *more, m=2):
         words = ["-options_file", f"petsc-options/plant/{scene}.yaml", "-structures", structure, "-contacts", "none",
                  "-probes", "none", f"-{structure}_mesh_set", MESHES[structure].format(m), "-modes", count,
                  "-end_time", 1e-3, *more]
-        return program.must_run(self, words, ranks)[1]["structures"][structure]
+        return program.must_run(self, words)[1]["structures"][structure]
 
-    def on_rock(self, structure, count, m=2, ranks=1, *more):
+    def on_rock(self, structure, count, m=2, *more):
         """The building with its mat clamped."""
         return self.modes_of("buildings", structure, count, f"-{structure}_clamp", "mat", f"-{structure}_ignore",
-                             IDLE[structure], f"-{structure}_initial_velocity", "1e-3,0,0", *more, m=m, ranks=ranks)
+                             IDLE[structure], f"-{structure}_initial_velocity", "1e-3,0,0", *more, m=m)
 
     def close(self, found, published, tolerance):
         self.assertAlmostEqual(found / published, 1, delta=tolerance)
@@ -51,7 +49,7 @@ class Frame(Plant):
 
     @program.long
     def test_finer_mesh(self):
-        coarse, fine = (self.on_rock("frame", 3, m, 2) for m in (2, 4))
+        coarse, fine = (self.on_rock("frame", 3, m) for m in (2, 4))
         for axis in (X, Y):
             self.close(strongest(coarse, axis)[0], strongest(fine, axis)[0], 0.002)
 
@@ -65,7 +63,7 @@ class Block(Plant):
     def fine(self):
         """Twenty modes on the mesh of .76 m, found once."""
         if not self.found:
-            self.found.append(self.on_rock("block", 20, 4, 2))
+            self.found.append(self.on_rock("block", 20, 4))
         return self.found[0]
 
     def above_cabinets(self, block):
@@ -73,7 +71,7 @@ class Block(Plant):
 
     def test_on_rock(self):
         """Mass 16,340 t; two sway modes each way, and the floors' vertical one."""
-        block = self.on_rock("block", 40, 2, 2)
+        block = self.on_rock("block", 40, 2)
         self.close(block["mass"], 16340e3, 0.005)
         for axis in (X, Y):
             self.close(strongest(block, axis)[0], 12.6, 0.05)
@@ -91,7 +89,7 @@ class Block(Plant):
         """A tenth of G t in all walls and slabs: swaying and turning within .25 % of CalculiX on the mesh on which
         both have .76 m, where G t leaves .6 %, and a longer step."""
         words = [word for group in WALLS for word in (f"-block_{group}_drilling_factor", 0.1)]
-        soft = self.on_rock("block", 12, 4, 2, *words)
+        soft = self.on_rock("block", 12, 4, *words)
         for block, tolerance in ((self.fine(), 0.007), (soft, 0.0025)):
             for ours, other in zip(self.above_cabinets(block), (12.213, 12.232, 19.924)):
                 self.close(ours, other, tolerance)
@@ -103,7 +101,7 @@ class Block(Plant):
         self.close(coarse, fine, 0.01)
 
     def test_on_soil(self):
-        self.close(strongest(self.modes_of("layered_soil", "block", 3, ranks=2), X)[0], 6.5, 0.05)
+        self.close(strongest(self.modes_of("layered_soil", "block", 3), X)[0], 6.5, 0.05)
 
 
 class Shaken(unittest.TestCase):
@@ -141,25 +139,18 @@ class Shaken(unittest.TestCase):
         self.assertAlmostEqual(tower / mat / (.451 / .283), 1, delta=.05)
 
 
+THREE = ["-options_file", "petsc-options/plant/three.yaml", "-block_mesh_set", "m=1", "-frame_mesh_set", "m=1,x0=24.801",
+         "-west_mesh_set", "m=1,x0=-18.705", "-modes", 2, "-output_interval", 1e-3, "-block_initial_velocity", "0.3,0,0",
+         "-floor1_gap", 2e-3, "-floor2_gap", 2e-3, "-west1_gap", 2e-3, "-west2_gap", 2e-3]
+ON_RANKS = {"three buildings in a row": [*THREE, "-end_time", 0.06]}
+
+
 class ThreeInARow(unittest.TestCase):
     def test_the_middle_one_is_hit_from_both_sides(self):
-        """The block starts towards one frame and comes back on the other; the ranks agree."""
-        found = []
-        for ranks in (1, 2, 3):
-            run = Recorded(self, ["-options_file", "petsc-options/plant/three.yaml", "-block_mesh_set", "m=1",
-                                  "-frame_mesh_set", "m=1,x0=24.801", "-west_mesh_set", "m=1,x0=-18.705", "-modes", 2,
-                                  "-end_time", 0.3, "-output_interval", 1e-3, "-block_initial_velocity", "0.3,0,0",
-                                  "-floor1_gap", 2e-3, "-floor2_gap", 2e-3, "-west1_gap", 2e-3, "-west2_gap", 2e-3],
-                           ranks, identity=1e-11)
-            impacts = run.summary["impacts"]
-            found.append((run.displacement("block_roof.x"), {name: impacts[name]["total_impulse"] for name in
-                                                              ("floor1", "floor2", "west1", "west2")}))
-        self.assertTrue(found[0][1]["floor1"] > 0 and found[0][1]["west1"] > 0, found[0][1])
-        for displacement, impulses in found[1:]:
-            scale = abs(found[0][0]).max()
-            self.assertLess(abs(displacement - found[0][0]).max(), 1e-9 * scale)
-            for name, impulse in impulses.items():
-                self.assertTrue(numpy.isclose(impulse, found[0][1][name], rtol=1e-8), name)
+        """The block starts towards one frame and comes back on the other."""
+        impacts = Recorded(self, [*THREE, "-end_time", 0.3], identity=1e-11).summary["impacts"]
+        self.assertGreater(impacts["floor1"]["total_impulse"], 0)
+        self.assertGreater(impacts["west1"]["total_impulse"], 0)
 
 
 if __name__ == "__main__":

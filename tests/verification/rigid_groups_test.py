@@ -107,7 +107,7 @@ class RigidGroups(unittest.TestCase):
     def test_frequencies_and_the_stable_step(self):
         for name, (arguments, _, options) in CASES.items():
             squares = self.dense(name).squared_frequencies()
-            for ranks in (1, 3):
+            for ranks in (1, 3) if name == "diaphragm" else (1,):
                 with self.subTest(case=name, ranks=ranks):
                     run = Recorded(self, [*arguments, *options, "-end_time", 1e-4, "-modes", 8], ranks)
                     structure = run.summary["structures"]["t"]
@@ -147,15 +147,14 @@ class RigidGroups(unittest.TestCase):
                 ground = 3.0 * numpy.sin(2 * numpy.pi * 5.0 * n * step)
                 v = v + (step if n else step / 2) * inverse @ (-dense.reduced_stiffness @ u - load * ground)
                 u = u + step * v
-            for ranks in (1, 2):
-                with self.subTest(case=name, ranks=ranks):
-                    run = Recorded(self, [*arguments, *options, *clock(step, count * step), *probes(p="t:slab"),
-                                          "-motion_x_record", record, "-motion_x_unit", "m/s2"], ranks)
-                    found = run.displacement("p.x")[:count]
-                    size = abs(numpy.array(expected)).max()
-                    self.assertGreater(size, 0)
-                    # The record is linear between its samples, 1e-4 s apart.
-                    self.assertLess(abs(found - expected).max() / size, 2e-6)
+            with self.subTest(case=name):
+                run = Recorded(self, [*arguments, *options, *clock(step, count * step), *probes(p="t:slab"),
+                                      "-motion_x_record", record, "-motion_x_unit", "m/s2"])
+                found = run.displacement("p.x")[:count]
+                size = abs(numpy.array(expected)).max()
+                self.assertGreater(size, 0)
+                # The record is linear between its samples, 1e-4 s apart.
+                self.assertLess(abs(found - expected).max() / size, 2e-6)
 
     def test_rest_under_gravity(self):
         for name, (arguments, _, options) in CASES.items():
@@ -166,7 +165,7 @@ class RigidGroups(unittest.TestCase):
             for more in ([], ["-preload_solver", "iterative"]) if "mat" in name else ([],):
                 with self.subTest(case=name, more=more):
                     run = Recorded(self, [*arguments, *options, "-gravity", GRAVITY, "-preload", "static", "-end_time",
-                                          0.02, "-output_interval", 1e-3, *probes(p="t:slab"), *more], 2)
+                                          0.02, "-output_interval", 1e-3, *probes(p="t:slab"), *more])
                     found = run.displacement("p.z")
                     self.assertLess(abs(found / expected - 1).max(), 1e-7)
                     rest = run.summary["equilibrium"]["structures"]["t"]
@@ -179,7 +178,7 @@ class RigidGroups(unittest.TestCase):
             for count in (5, len(squares)) if "mat" in name else (5,):
                 with self.subTest(case=name, count=count):
                     run = Recorded(self, [*arguments, *options, *in_modes("t", count), "-end_time", 1e-4, "-modes",
-                                          count], 2)
+                                          count])
                     found = [mode["frequency"] for mode in run.summary["structures"]["t"]["frequencies"]]
                     wanted = numpy.sqrt(squares[:len(found)]) / (2 * numpy.pi)
                     self.assertGreaterEqual(len(found), min(count, 5))
@@ -200,20 +199,19 @@ class StruckPlate(unittest.TestCase):
 
     def test_impulses(self):
         first = self.MASS * self.SPEED / (1 + self.MASS / self.INERTIA)
-        for ranks in (1, 2, 3):
-            run = Recorded(self, self.scene("0.001,0.002"), ranks)
-            impulses = run.column("impulse")
-            self.assertAlmostEqual(impulses[0] / first, 1, delta=1e-9)
-            # Plastic impacts without friction stop it in the end.
-            self.assertAlmostEqual(sum(impulses) / (self.MASS * self.SPEED), 1, delta=1e-9)
-            self.assertLess(run.summary["impacts"]["complementarity_residual"], 1e-9)
-            self.assertLess(run.energy["kinetic"], 1e-20)
-            # It never deforms: 30 GPa times round-off.
-            self.assertLess(abs(run.energy["strain"]), 1e-9)
+        run = Recorded(self, self.scene("0.001,0.002"))
+        impulses = run.column("impulse")
+        self.assertAlmostEqual(impulses[0] / first, 1, delta=1e-9)
+        # Plastic impacts without friction stop it in the end.
+        self.assertAlmostEqual(sum(impulses) / (self.MASS * self.SPEED), 1, delta=1e-9)
+        self.assertLess(run.summary["impacts"]["complementarity_residual"], 1e-9)
+        self.assertLess(run.energy["kinetic"], 1e-20)
+        # It never deforms: 30 GPa times round-off.
+        self.assertLess(abs(run.energy["strain"]), 1e-9)
 
     def test_a_whole_face_at_once(self):
         """Ten rows close on six motions: their impulses are not unique, their sum is."""
-        run = Recorded(self, self.scene("0.001"), 2)
+        run = Recorded(self, self.scene("0.001"))
         self.assertAlmostEqual(run.summary["impacts"]["total_impulse"] / (self.MASS * self.SPEED), 1, delta=1e-12)
         self.assertLess(run.summary["impacts"]["complementarity_residual"], 1e-9)
 
@@ -225,17 +223,15 @@ class PlantedBeam(unittest.TestCase):
     def test_frequency_of_a_cantilever(self):
         clamped = 1.8751040687**2 / (2 * numpy.pi * self.LENGTH**2) * numpy.sqrt(
             200e9 * self.INERTIA / (7800 * self.AREA))
-        for ranks in (1, 2):
-            run = Recorded(self, ["-structures", "b", "-b_mesh", "tests/meshes/planted_beam.geo", "-b_clamp", "back",
-                                  "-b_body_element", "hex8", "-b_body_material", "c", *material("c", 30e9, 0.2, 2400),
-                                  "-b_beam_element", "beam", "-b_beam_material", "steel", "-b_beam_section", "tube",
-                                  "-b_rigid", "joint", *MATERIALS[:-2], "-section_tube_z_axis", "0,0,1", "-end_time",
-                                  1e-4, "-modes", 2],
-                           ranks)
-            structure = run.summary["structures"]["b"]
-            for mode in structure["frequencies"]:  # it bends in two planes
-                self.assertLess(abs(mode["frequency"] / clamped - 1), 0.01)
-            self.assertEqual(structure["connectivity"]["pieces"], 1)
+        run = Recorded(self, ["-structures", "b", "-b_mesh", "tests/meshes/planted_beam.geo", "-b_clamp", "back",
+                              "-b_body_element", "hex8", "-b_body_material", "c", *material("c", 30e9, 0.2, 2400),
+                              "-b_beam_element", "beam", "-b_beam_material", "steel", "-b_beam_section", "tube",
+                              "-b_rigid", "joint", *MATERIALS[:-2], "-section_tube_z_axis", "0,0,1", "-end_time",
+                              1e-4, "-modes", 2])
+        structure = run.summary["structures"]["b"]
+        for mode in structure["frequencies"]:  # it bends in two planes
+            self.assertLess(abs(mode["frequency"] / clamped - 1), 0.01)
+        self.assertEqual(structure["connectivity"]["pieces"], 1)
 
 
 class JoinedAndPinned(unittest.TestCase):
@@ -257,8 +253,8 @@ class JoinedAndPinned(unittest.TestCase):
         scene = [*self.SCENE, "-c_slab_element", "shell", "-c_slab_material", "c", "-c_slab_thickness", self.THICKNESS,
                  "-c_join", "beam:spine", *self.REST, "-p_group", "tip"]
         errors = []
-        for ranks, cells in ((1, 40), (2, 80), (3, 80)):
-            run = Recorded(self, [*scene, "-c_mesh_set", f"n={cells}"], ranks, identity=1e-11)
+        for cells in (40, 80):
+            run = Recorded(self, [*scene, "-c_mesh_set", f"n={cells}"], identity=1e-11)
             errors.append(abs(-run.displacement("p.z")[0] / expected - 1))
             group = run.summary["structures"]["c"]["rigid_groups"][0]
             # One pair of each cross-section; the clamped one needs none.
@@ -272,19 +268,18 @@ class JoinedAndPinned(unittest.TestCase):
     def test_a_join_over_a_distance_is_doubted(self):
         run = Recorded(self, [*self.SCENE, "-c_slab_element", "shell", "-c_slab_material", "c", "-c_slab_thickness",
                               self.THICKNESS, "-c_join", "beam:spine", "-c_mesh_set", "offset=1.25,n=4", *self.REST,
-                              "-p_group", "tip"], 2, identity=1e-11)
+                              "-p_group", "tip"], identity=1e-11)
         self.assertTrue(any("join beam:spine holds nodes 1.25 m apart" in line for line in run.summary["warnings"]))
 
     def test_hinge(self):
         expected = self.sag(1.2e-4, self.DENSITY * GRAVITY * 0.04, self.LENGTH / 2)
         scene = [*self.SCENE, "-c_mesh_set", "hinge=1", *self.REST, "-p_group", "middle"]
-        for ranks in (1, 2, 3):
-            run = Recorded(self, [*scene, "-c_pin", "middle"], ranks, identity=1e-11)
-            self.assertLess(abs(-run.displacement("p.z")[0] / expected - 1), 3e-3)
-            group = run.summary["structures"]["c"]["rigid_groups"][0]
-            self.assertEqual((group["bodies"], group["dofs"], group["motions"]), (1, 6, 3))
+        run = Recorded(self, [*scene, "-c_pin", "middle"], identity=1e-11)
+        self.assertLess(abs(-run.displacement("p.z")[0] / expected - 1), 3e-3)
+        group = run.summary["structures"]["c"]["rigid_groups"][0]
+        self.assertEqual((group["bodies"], group["dofs"], group["motions"]), (1, 6, 3))
         # Without the hinge, a beam clamped at both ends: w l^4 / (24 E I) of its half.
-        run = Recorded(self, [*scene, "-c_rigid", "middle"], 2, identity=1e-11)
+        run = Recorded(self, [*scene, "-c_rigid", "middle"], identity=1e-11)
         self.assertLess(abs(-run.displacement("p.z")[0] / (expected / 3) - 1), 1e-2)
 
 
@@ -319,12 +314,11 @@ class Diaphragm(unittest.TestCase):
         for group in ("column", "slab"):
             frame += [f"-t_{group}_element", "euler_beam", f"-t_{group}_material", "steel", f"-t_{group}_section", "tube"]
         squares = Dense(self, frame, [(IN_SLAB, ("x",))]).squared_frequencies()
-        for ranks in (1, 2):
-            run = Recorded(self, [*frame, "-t_diaphragm", "slab", "-end_time", 1e-4, "-modes", 6], ranks)
-            structure = run.summary["structures"]["t"]
-            found = numpy.array([mode["frequency"] for mode in structure["frequencies"]])
-            self.assertLess(abs(found * 2 * numpy.pi / numpy.sqrt(squares[:6]) - 1).max(), 1e-7)
-            self.assertEqual([body["motions"] for body in structure["rigid_groups"]], [1])
+        run = Recorded(self, [*frame, "-t_diaphragm", "slab", "-end_time", 1e-4, "-modes", 6])
+        structure = run.summary["structures"]["t"]
+        found = numpy.array([mode["frequency"] for mode in structure["frequencies"]])
+        self.assertLess(abs(found * 2 * numpy.pi / numpy.sqrt(squares[:6]) - 1).max(), 1e-7)
+        self.assertEqual([body["motions"] for body in structure["rigid_groups"]], [1])
         program.must_refuse(self, [*frame, "-t_clamp", "base,flat:y", "-t_diaphragm", "slab", "-end_time", 1e-4],
                             "-t_diaphragm slab", "is clamped")
 
@@ -333,7 +327,7 @@ class Diaphragm(unittest.TestCase):
         scene = [*TABLE, *SPRUNG, "-end_time", 1e-4, "-modes", 6]
         found = []
         for options in (["-t_diaphragm", "base,slab"], ["-t_mesh_set", "both=1", "-t_diaphragm", "floors"]):
-            run = Recorded(self, scene + options, 2)
+            run = Recorded(self, scene + options)
             structure = run.summary["structures"]["t"]
             found.append([mode["frequency"] for mode in structure["frequencies"]])
         body = structure["rigid_groups"][0]
@@ -366,14 +360,13 @@ class MasslessEnd(unittest.TestCase):
     def test_frequencies(self):
         mass, stiffness = self.matrices()
         expected = numpy.sqrt(scipy.linalg.eigh(stiffness, mass, eigvals_only=True)) / (2 * numpy.pi)
-        for ranks in (1, 2):
-            _, summary = program.must_run(self, self.scene("-t_rigid", "arm", "-end_time", 1e-3), ranks)
-            structure = summary["structures"]["t"]
-            found = [mode["frequency"] for mode in structure["frequencies"]]
-            self.assertLess(numpy.abs(numpy.array(found) / expected - 1).max(), 1e-6)
-            self.assertEqual(structure["mass"], self.MASS)
-            self.assertFalse([line for line in summary["warnings"] if "no stiffness" in line])
-            self.assertLess(abs(structure["omega_max"] / (2 * numpy.pi * expected[-1]) - 1), 1e-3)
+        _, summary = program.must_run(self, self.scene("-t_rigid", "arm", "-end_time", 1e-3))
+        structure = summary["structures"]["t"]
+        found = [mode["frequency"] for mode in structure["frequencies"]]
+        self.assertLess(numpy.abs(numpy.array(found) / expected - 1).max(), 1e-6)
+        self.assertEqual(structure["mass"], self.MASS)
+        self.assertFalse([line for line in summary["warnings"] if "no stiffness" in line])
+        self.assertLess(abs(structure["omega_max"] / (2 * numpy.pi * expected[-1]) - 1), 1e-3)
 
     def test_history_of_the_end_without_mass(self):
         """It is thrown, at full order and in modes: u = sum of phi_i (phi_i . M v) sin(omega_i t) / omega_i."""
@@ -383,7 +376,7 @@ class MasslessEnd(unittest.TestCase):
         thrown = modes.T @ mass @ numpy.array([0.3, 1, -0.2, 0, 0, 0])
         for more in ([], [*in_modes("t", 6)]):
             run = Recorded(self, self.scene("-t_rigid", "arm", *clock(2e-5, 0.1, 1e-3), "-t_initial_velocity",
-                                            "0.3,1,-0.2", *probes(p="t:spring"), *more), 2)
+                                            "0.3,1,-0.2", *probes(p="t:spring"), *more))
             times = run.time
             motions = modes @ (thrown[:, None] * numpy.sin(numpy.outer(omega, times)) / omega[:, None])
             x, y, z = self.ARM
@@ -410,12 +403,11 @@ class MasslessEnd(unittest.TestCase):
         scene = ["-structures", "t", "-t_mesh", path, "-t_clamp", "bottom", "-t_body_element", "hex8", "-t_body_material",
                  "C30", "-modes", 4, "-end_time", 1e-5, "-t_ignore", "ungrouped"]
         found = []
-        for group, more, ranks in (("corner", [], 1), ("end", ["-t_tie", "end:top"], 1), ("end", ["-t_tie", "end:top"], 2)):
+        for group, more in (("corner", []), ("end", ["-t_tie", "end:top"])):
             _, summary = program.must_run(self, [*scene, f"-t_{group}_element", "grounded_spring", f"-t_{group}_stiffness",
-                                                 "1e9,2e9,3e9", *more], ranks)
+                                                 "1e9,2e9,3e9", *more])
             found.append([mode["frequency"] for mode in summary["structures"]["t"]["frequencies"]])
-        for other in found[1:]:
-            self.assertLess(numpy.abs(numpy.array(other) / found[0] - 1).max(), 1e-6)
+        self.assertLess(numpy.abs(numpy.array(found[1]) / found[0] - 1).max(), 1e-6)
 
 
 class LinksOnABody(unittest.TestCase):
@@ -433,12 +425,11 @@ class LinksOnABody(unittest.TestCase):
         for dashpot in ("2e4,1e4,3e3,1e2,0,1e2", "1e9,1e9,3e3,0,0,0"):
             scene = [*self.SCENE, "-m_bed_dashpot", dashpot]
             pairs = Recorded(self, [*scene, *in_modes("m", 12)], 1, identity=1e-9)
-            for ranks in (1, 2, 3):
-                run = Recorded(self, scene, ranks, identity=1e-11)
-                self.assertLess(run.summary["contact_ratio"]["m"]["smallest"], 0.5)
-                for axis in "xyz":
-                    u, v = run.displacement(f"top.{axis}"), pairs.displacement(f"top.{axis}")
-                    self.assertLess(abs(u - v).max(), 1e-7 * abs(v).max())
+            run = Recorded(self, scene, identity=1e-11)
+            self.assertLess(run.summary["contact_ratio"]["m"]["smallest"], 0.5)
+            for axis in "xyz":
+                u, v = run.displacement(f"top.{axis}"), pairs.displacement(f"top.{axis}")
+                self.assertLess(abs(u - v).max(), 1e-7 * abs(v).max())
 
 
 class AllTermsTogether(unittest.TestCase):
@@ -450,14 +441,23 @@ class AllTermsTogether(unittest.TestCase):
     def test_ledger_with_rayleigh_and_uniform_damping(self):
         for more in (["-t_damping_alpha", 0.3, "-t_damping_beta", 1e-5], ["-t_damping_uniform", 0.04],
                      ["-t_column_damping_beta", 2e-5]):
-            values = []
-            for ranks in (1, 2, 3):
-                with self.subTest(more=more, ranks=ranks):
-                    run = Recorded(self, [*self.SCENE, *more], ranks, identity=1e-11)
-                    values.append(run.displacement("p.x"))
-                    self.assertGreater(abs(values[-1]).max(), 1e-3)
-                    self.assertLess(abs(values[-1] - values[0]).max(), 1e-10)
-                    self.assertGreater(run.energy["devices"], 1)
+            with self.subTest(more=more):
+                run = Recorded(self, [*self.SCENE, *more], identity=1e-11)
+                self.assertGreater(abs(run.displacement("p.x")).max(), 1e-3)
+                self.assertGreater(run.energy["devices"], 1)
+
+
+# The light ends of the mat leave round-off in accelerations, which are differences of velocities over 5e-6 s.
+ON_RANKS = {"a rigid plate that strikes a wall": StruckPlate().scene("0.001,0.002"),
+            "a rigid slab that is shaken": [*TABLE, *HELD, "-t_rigid", "slab", "-t_initial_velocity", "0.3,0.1,0", "-end_time", 0.05,
+                                            *probes(p="t:slab")],
+            "a rigid mat below a diaphragm, with Rayleigh damping": (
+                [*AllTermsTogether.SCENE, "-t_damping_alpha", 0.3, "-t_damping_beta", 1e-5, "-end_time", 0.03],
+                {"tolerance": 1e-10}),
+            "a rigid mat below a diaphragm, with uniform damping": (
+                [*AllTermsTogether.SCENE, "-t_damping_uniform", 0.04, "-end_time", 0.03], {"tolerance": 1e-10}),
+            "springs that a rigid mat lifts off from": (
+                [*LinksOnABody.SCENE, "-m_bed_dashpot", "2e4,1e4,3e3,1e2,0,1e2", "-end_time", 0.15])}
 
 
 if __name__ == "__main__":

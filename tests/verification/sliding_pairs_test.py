@@ -57,7 +57,7 @@ class MovingLoad(unittest.TestCase):
 
     def run_(self, sliding):
         return Recorded(self, scene(self.START, self.SPEED, 0.9, "-deck_clamp", "corners:z", "-deck_damping_alpha",
-                                    self.ALPHA, sliding=sliding), 2, LONG)
+                                    self.ALPHA, sliding=sliding), identity=LONG)
 
     def test_deflection_is_that_under_a_load_that_crosses(self):
         run = self.run_(4.5)
@@ -76,42 +76,40 @@ class OnAFixedDeck(unittest.TestCase):
     def test_coulomb_stops_it_where_it_should(self):
         speed, friction = 1.5, 0.3
         distance = speed**2 / (2 * friction * GRAVITY)
-        runs = [Recorded(self, scene(0.3, speed, 0.56, "-joint_friction", friction, *FIXED, cells=cells), ranks, LONG)
-                for cells, ranks in ((20, 1), (20, 2), (20, 3), (32, 1))]
+        runs = [Recorded(self, scene(0.3, speed, 0.56, "-joint_friction", friction, *FIXED, cells=cells), identity=LONG)
+                for cells in (20, 32)]
         for run in runs:
             x = run.displacement("load.x")
             self.assertAlmostEqual(x[-1] / distance, 1, delta=2e-3)
             self.assertLess(abs(run.velocity("load.x")[-1]), 2e-2)  # it trembles to a halt, with or without new pairs
             self.assertAlmostEqual(run.energy["friction"] / (MASS * speed**2 / 2), 1, delta=2e-3)
             self.assertLess(run.summary["impacts"]["max_penetration"], 1e-6)
-        for other in runs[1:3]:
-            self.assertLess(abs(other.displacement("load.x") - runs[0].displacement("load.x")).max(), 1e-9)
-        self.assertLess(abs(runs[3].displacement("load.x")[-1] - runs[0].displacement("load.x")[-1]), 1e-3 * distance)
+        self.assertLess(abs(runs[1].displacement("load.x")[-1] - runs[0].displacement("load.x")[-1]), 1e-3 * distance)
 
     def test_it_falls_beyond_the_end(self):
         speed, start = 5.0, 3.5
         leaves = (LENGTH - start + 0.1 * math.sqrt(WIDTH * LENGTH / 20)) / speed  # a tenth of a facet late
         soft = ["-material_concrete_young", YOUNG / 10]  # less round-off of K u in a flight of .75 m
-        run = Recorded(self, scene(start, speed, 0.15, *FIXED, *soft), 2, IDENTITY_OF_A_FLIGHT)
+        run = Recorded(self, scene(start, speed, 0.15, *FIXED, *soft), identity=IDENTITY_OF_A_FLIGHT)
         falling = run.time > leaves + 1e-3
         slope = numpy.polyfit(run.time[falling], run.velocity("load.z")[falling], 1)[0]
         self.assertAlmostEqual(slope / -GRAVITY, 1, delta=1e-6)
         self.assertLess(max(run.column("end")), leaves + 1e-3)
-        stays = Recorded(self, scene(start, speed, 0.15, *FIXED, *soft, sliding=0), 2, LONG)
+        stays = Recorded(self, scene(start, speed, 0.15, *FIXED, *soft, sliding=0), identity=LONG)
         self.assertGreater(max(stays.column("end")), 0.14)
 
     def test_long_steps_look_as_often(self):
         """16 steps are 16 ms here: the hind end, beyond the deck at 0.1 s, would be held until 0.112 s."""
         speed, start, step = 5.0, 3.5, 1e-3
         beyond = (LENGTH - start) / speed
-        run = Recorded(self, scene(start, speed, 0.15, *FIXED, "-material_concrete_young", 1e7, "-time_step", step), 2,
-                       IDENTITY_OF_A_FLIGHT)
+        run = Recorded(self, scene(start, speed, 0.15, *FIXED, "-material_concrete_young", 1e7, "-time_step", step),
+                       identity=IDENTITY_OF_A_FLIGHT)
         last = max(run.column("end"))
         self.assertGreater(last, beyond)
         self.assertLess(last, beyond + 0.1 * math.sqrt(WIDTH * LENGTH / 20) / speed + 2 * step)
 
     def test_it_comes_onto_the_deck(self):
-        run = Recorded(self, scene(-0.1, 5.0, 0.1, *FIXED, "-joint_passes", 2, across=4), 2, LONG)
+        run = Recorded(self, scene(-0.1, 5.0, 0.1, *FIXED, "-joint_passes", 2, across=4), identity=LONG)
         settled = run.time > 0.05
         self.assertLess(abs(run.displacement("load.z")[settled]).max(), 1e-6)
         self.assertLess(abs(run.velocity("load.z")[-1]), 1e-3)
@@ -120,13 +118,13 @@ class OnAFixedDeck(unittest.TestCase):
 
     def test_reduced_is_the_same(self):
         words = scene(0.3, 1.5, 0.1, "-joint_friction", 0.3, *FIXED)
-        full = Recorded(self, words, 2, LONG)
-        reduced = Recorded(self, [*words, *in_modes("block", 24)], 2, LONG)
+        full = Recorded(self, words, identity=LONG)
+        reduced = Recorded(self, [*words, *in_modes("block", 24)], identity=LONG)
         for channel in ("load.x", "load.z"):
             self.assertLess(abs(reduced.displacement(channel) - full.displacement(channel)).max(), 1e-9, channel)
 
     def test_it_changes_no_bit_where_little_slides(self):
-        runs = [Recorded(self, scene(0.3, 0.3, 0.05, "-joint_friction", 0.3, *FIXED, sliding=sliding), 2, LONG)
+        runs = [Recorded(self, scene(0.3, 0.3, 0.05, "-joint_friction", 0.3, *FIXED, sliding=sliding), identity=LONG)
                 for sliding in (0, 1.0)]
         for channel in ("load.x", "load.z"):
             self.assertTrue(numpy.array_equal(*(run.displacement(channel) for run in runs)), channel)
@@ -137,7 +135,7 @@ class OnAFixedDeck(unittest.TestCase):
         assert_continues(self, words, 0.07, 4000)
 
     def test_what_slides_farther_is_told(self):
-        run = Recorded(self, scene(0.3, 1.5, 0.2, *FIXED, sliding=0.1), 2, LONG)
+        run = Recorded(self, scene(0.3, 1.5, 0.2, *FIXED, sliding=0.1), identity=LONG)
         text, = (text for text in run.summary["warnings"] if "slid" in text)
         self.assertIn("more than -joint_sliding 0.1 m, from t = 0.067", text)
 
@@ -149,6 +147,10 @@ class Refused(unittest.TestCase):
         must_refuse(self, [*words, "-joint_filler", "0.5:1e5", "-joint_filler_unloading", 1e6, "-joint_gap", 0.01],
                     "joint has a filler")
         must_refuse(self, [*words, "-joint_sliding", -1], "-joint_sliding")
+
+
+# Faces touch all the way: their gaps are round-off of the nodes beside them.
+ON_RANKS = {"a block that slides over facets": (scene(0.3, 1.5, 0.08, "-joint_friction", 0.3, *FIXED), {"tolerance": 1e-6})}
 
 
 if __name__ == "__main__":

@@ -181,7 +181,7 @@ class BesideDenseAlgebra(unittest.TestCase):
     def test_frequencies_and_the_stable_step(self):
         for name, (arguments, *_) in CASES.items():
             squares = self.dense(name).squared_frequencies()
-            for ranks in (1, 3):
+            for ranks in (1, 3) if name == "bricks" else (1,):
                 with self.subTest(case=name, ranks=ranks):
                     run = Recorded(self, [*arguments, *TIE, "-end_time", 1e-4, "-modes", 8], ranks)
                     structure = run.summary["structures"]["t"]
@@ -219,14 +219,13 @@ class BesideDenseAlgebra(unittest.TestCase):
                                       3.0 * numpy.sin(80e-4 * numpy.pi * numpy.arange(1001)))
                 v = v + (step if n else step / 2) * inverse @ (-dense.reduced_stiffness @ u - load * ground)
                 u = u + step * v
-            for ranks in (1, 2):
-                with self.subTest(case=name, ranks=ranks):
-                    run = Recorded(self, [*arguments, *TIE, *clock(step, count * step), *probes(p="t:edge"),
-                                          "-motion_y_record", record, "-motion_y_unit", "m/s2"], ranks)
-                    found = run.displacement("p.y")[:count]
-                    size = abs(numpy.array(expected)).max()
-                    self.assertGreater(size, 0)
-                    self.assertLess(abs(found - expected).max() / size, 1e-9)
+            with self.subTest(case=name):
+                run = Recorded(self, [*arguments, *TIE, *clock(step, count * step), *probes(p="t:edge"),
+                                      "-motion_y_record", record, "-motion_y_unit", "m/s2"])
+                found = run.displacement("p.y")[:count]
+                size = abs(numpy.array(expected)).max()
+                self.assertGreater(size, 0)
+                self.assertLess(abs(found - expected).max() / size, 1e-9)
 
     def test_rest_under_gravity(self):
         for name, (arguments, *_) in CASES.items():
@@ -234,11 +233,11 @@ class BesideDenseAlgebra(unittest.TestCase):
             down = numpy.array([-GRAVITY * float(c == "z") for c in dense.component])
             u = dense.motions @ numpy.linalg.solve(dense.reduced_stiffness, dense.motions.T @ (dense.mass * down))
             last = [i for i in range(len(u)) if dense.component[i] == "z" and dense.place[i][0] > 1.9]
-            for ranks, more in ((2, []), (3, ["-preload_solver", "iterative"])):
-                with self.subTest(case=name, ranks=ranks, more=more):
+            for more in ([], ["-preload_solver", "iterative"]):
+                with self.subTest(case=name, more=more):
                     run = Recorded(self, [*arguments, *TIE, "-gravity", GRAVITY, "-preload", "static", "-end_time",
                                           1e-3, "-output_interval", 1e-4, *probes(p="t:x_max"),
-                                          *more], ranks, identity=1e-10)
+                                          *more], identity=1e-10)
                     found = run.displacement("p.z")
                     self.assertLess(abs(found / numpy.mean(u[last]) - 1).max(), 1e-9)
                     self.assertLess(run.summary["equilibrium"]["structures"]["t"]["imbalance"], 1e-9)
@@ -250,7 +249,7 @@ class BesideDenseAlgebra(unittest.TestCase):
             for count in (5, len(squares)) if "bricks" not in name else (5,):
                 with self.subTest(case=name, count=count):
                     run = Recorded(self, [*arguments, *TIE, *in_modes("t", count), "-end_time", 1e-5, "-modes",
-                                          count], 2)
+                                          count])
                     found = [mode["frequency"] for mode in run.summary["structures"]["t"]["frequencies"]]
                     wanted = numpy.sqrt(squares[:count]) / (2 * numpy.pi)
                     self.assertGreaterEqual(len(found), count)
@@ -261,12 +260,12 @@ class PatchTest(unittest.TestCase):
     """A constant stress passes, whatever cells are across both sides and whichever follows."""
     CELLS = ((1, 1), (1, 4), (2, 4), (2, 3), (3, 2), (4, 5), (5, 4), (2, 5), (4, 2))
 
-    def hung(self, m1, m2, tie, ranks=program.RANKS):
+    def hung(self, m1, m2, tie):
         """Error of the displacements of bricks that hang from x_min without lateral strain, over the largest one."""
         scene = [*BRICKS[:-2], "-material_c_poisson", 0, *HELD, "-t_tie", tie, *mesh(m1=m1, m2=m2), "-t_gravity",
                  f"{GRAVITY},0,0", "-preload", "static", "-end_time", 1e-4, "-output_interval", 1e-4, "-probes", "p,q",
                  *all_nodes("p", "t", "first"), *all_nodes("q", "t", "second")]
-        run = Recorded(self, scene, ranks, identity=1e-9)
+        run = Recorded(self, scene, identity=1e-9)
         positions, names = run.nodes("p")
         more = run.nodes("q")
         x = numpy.concatenate([positions, more[0]])[:, 0]
@@ -276,19 +275,19 @@ class PatchTest(unittest.TestCase):
         return abs(found - wanted).max() / wanted.max()
 
     def test_hung_bricks(self):
-        for m1, m2, tie, ranks in ((2, 4, "edge:face", 1), (3, 5, "edge:face", 2), (4, 5, "edge:face", 3),
-                                   (4, 2, "face:edge", 3), (4, 2, "edge:face", 1), (3, 2, "edge:face", 2)):
-            self.assertLess(self.hung(m1, m2, tie, ranks), 1e-10, (m1, m2, tie))
+        for m1, m2, tie in ((2, 4, "edge:face"), (3, 5, "edge:face"), (4, 5, "edge:face"), (4, 2, "face:edge"),
+                            (4, 2, "edge:face"), (3, 2, "edge:face")):
+            self.assertLess(self.hung(m1, m2, tie), 1e-10, (m1, m2, tie))
 
     def test_bricks_hung_on_tetrahedra(self):
         """Triangles beside squares: tetrahedra next to without weight hold bricks, which pull them alike everywhere."""
-        for m1, m2, tie, ranks in ((3, 4, "edge:face", 1), (3, 4, "face:edge", 2), (4, 3, "edge:face", 3)):
+        for m1, m2, tie in ((3, 4, "edge:face"), (3, 4, "face:edge"), (4, 3, "edge:face")):
             scene = [*BRICKS[:8], "-t_second_element", "tet4", "-t_second_material", "light", *CONCRETE,
                      "-material_c_poisson", 0, *material("light", YOUNG, 0, 1e-9 * DENSITY), "-t_clamp", "x_max",
                      "-t_tie", tie, *mesh(m1=m1, m2=m2, tets=1), "-t_gravity", f"{-GRAVITY},0,0", "-preload", "static",
                      "-end_time", 1e-9, "-output_interval", 1e-10, "-probes", "p,q", *all_nodes("p", "t", "first"),
                      *all_nodes("q", "t", "second")]
-            run = Recorded(self, scene, ranks, identity=1e-9)
+            run = Recorded(self, scene, identity=1e-9)
             (near, names), (far, others) = run.nodes("p"), run.nodes("q")
             depth = 2 - numpy.concatenate([near, far])[:, 0]
             wanted = -DENSITY * GRAVITY / YOUNG * (depth - numpy.maximum(depth - 1, 0)**2 / 2)
@@ -334,25 +333,25 @@ class PatchTest(unittest.TestCase):
 class BesideMatchedMeshes(unittest.TestCase):
     """A cantilever of two parts whose meshes do not match, and of one mesh: frequencies, and the sag of its end."""
 
-    def measured(self, scene, ranks=program.RANKS):
+    def measured(self, scene):
         more = [*TIE, *scene, "-gravity", GRAVITY, "-preload", "static", "-end_time", 1e-4, "-output_interval", 1e-4,
                 "-modes", 3, *probes(p="t:x_max")]
-        run = Recorded(self, more, ranks, identity=1e-9)
+        run = Recorded(self, more, identity=1e-9)
         frequencies = [mode["frequency"] for mode in run.summary["structures"]["t"]["frequencies"]]
         return numpy.array([*frequencies, -run.displacement("p.z")[0]])
 
     def test_bricks(self):
         scene = [*BRICKS, *HELD]
         matched = self.measured([*scene, *mesh(m1=6, m2=6, n1=6, n2=6)])
-        for m1, ranks in ((4, 3), (5, 2)):
-            found = self.measured([*scene, *mesh(m1=m1, m2=6, n1=6, n2=6)], ranks)
+        for m1 in (4, 5):
+            found = self.measured([*scene, *mesh(m1=m1, m2=6, n1=6, n2=6)])
             self.assertLess(abs(found / matched - 1).max(), 5e-3)
 
     def test_plates(self):
         scene = [*PLATES, *HELD]
         matched = self.measured([*scene, *mesh(m1=12, m2=12, n1=12, n2=12, plates=1)])
-        for m1, m2, ranks in ((8, 12, 1), (8, 11, 2)):
-            found = self.measured([*scene, *mesh(m1=m1, m2=m2, n1=12, n2=12, plates=1)], ranks)
+        for m1, m2 in ((8, 12), (8, 11)):
+            found = self.measured([*scene, *mesh(m1=m1, m2=m2, n1=12, n2=12, plates=1)])
             self.assertLess(abs(found / matched - 1).max(), 2e-3)
 
     @program.long
@@ -360,11 +359,11 @@ class BesideMatchedMeshes(unittest.TestCase):
         """2 beside 3 cells, 4 beside 6, 8 beside 12: the error falls as that of one mesh of the coarser cells, and is
         smaller."""
         for parts, kind, sizes, fine in ((BRICKS, {}, (1, 2, 4), 18), (PLATES, {"plates": 1}, (2, 4, 8), 48)):
-            def sag(m1, m2, ranks=1, parts=parts, kind=kind):
-                return self.measured([*parts, *HELD, *mesh(m1=m1, m2=m2, n1=m1, n2=m2, **kind)], ranks)[-1]
+            def sag(m1, m2, parts=parts, kind=kind):
+                return self.measured([*parts, *HELD, *mesh(m1=m1, m2=m2, n1=m1, n2=m2, **kind)])[-1]
 
             exact = sag(fine, fine)
-            tied = [abs(sag(2 * k, 3 * k, 2) / exact - 1) for k in sizes]
+            tied = [abs(sag(2 * k, 3 * k) / exact - 1) for k in sizes]
             coarse = [abs(sag(2 * k, 2 * k) / exact - 1) for k in sizes]
             for k, size in enumerate(sizes):
                 self.assertLess(tied[k], coarse[k], (kind, size))
@@ -380,12 +379,12 @@ class PlantedBeam(unittest.TestCase):
     def test_frequency_of_a_cantilever(self):
         clamped = 1.8751040687**2 / (2 * numpy.pi * self.LENGTH**2) * numpy.sqrt(
             200e9 * self.INERTIA / (7800 * self.AREA))
-        for cells, ranks in ((1, 1), (2, 3), (3, 2)):
+        for cells in (1, 2, 3):
             run = Recorded(self, ["-structures", "b", "-b_mesh", "tests/meshes/planted_beam.geo", "-b_mesh_set",
                                   f"m={cells}", "-b_clamp", "back", "-b_body_element", "hex8", "-b_body_material", "c",
                                   *CONCRETE, "-material_c_poisson", POISSON, "-b_beam_element", "beam",
                                   "-b_beam_material", "steel", "-b_beam_section", "tube", "-b_tie", "foot:face",
-                                  *STEEL, "-end_time", 1e-4, "-modes", 2], ranks)
+                                  *STEEL, "-end_time", 1e-4, "-modes", 2])
             structure = run.summary["structures"]["b"]
             for mode in structure["frequencies"]:  # it bends in two planes
                 self.assertLess(abs(mode["frequency"] / clamped - 1), 0.01)
@@ -405,9 +404,8 @@ class CompositeBeam(unittest.TestCase):
         slab = self.WIDTH * self.THICKNESS
         together = (self.WIDTH * self.THICKNESS**3 / 12 + 1.2e-4 + self.OFFSET**2 * slab * 0.04 / (slab + 0.04))
         expected = DENSITY * GRAVITY * (slab + 0.04) * self.LENGTH**4 / (8 * self.YOUNG * together)
-        for tie, n, nb, ranks in (("beam:slab", 40, 60, 1), ("beam:slab", 40, 47, 2), ("beam:spine", 80, 93, 3),
-                                  ("slab:beam", 47, 40, 2)):
-            run = Recorded(self, [*self.SCENE, "-c_tie", tie, "-c_mesh_set", f"n={n},nb={nb}"], ranks, identity=1e-10)
+        for tie, n, nb in (("beam:slab", 40, 60), ("beam:slab", 40, 47), ("beam:spine", 80, 93), ("slab:beam", 47, 40)):
+            run = Recorded(self, [*self.SCENE, "-c_tie", tie, "-c_mesh_set", f"n={n},nb={nb}"], identity=1e-10)
             self.assertLess(abs(-run.displacement("p.z")[0] / expected - 1), 8e-3, (tie, n, nb))
             # What goes to clamped nodes of the facets is part of what the clamps hold.
             self.assertEqual(run.summary["warnings"], [])
@@ -420,34 +418,29 @@ class Struck(unittest.TestCase):
     SCENE = [*BRICKS, *TIE, "-t_initial_velocity", f"0.1,{-SPEED},0", *contacts(w=("t:y_min", "wall", "1e-3")),
              *clock(2e-5, 0.01), *probes(p="t:edge")]
 
-    def test_ledger_and_ranks(self):
+    def test_ledger(self):
         for parameters in (mesh(m1=2, m2=3), mesh(m1=2, m2=3, gap=0.05)):
-            values, impulses = [], []
-            for ranks in (1, 2, 3):
-                run = Recorded(self, [*self.SCENE, *parameters], ranks)
-                values.append(run.displacement("p.y"))
-                impulses.append(run.summary["impacts"]["total_impulse"])
-                self.assertLess(run.summary["impacts"]["complementarity_residual"], 1e-9)
-                self.assertGreater(run.energy["strain"], 0)
-                self.assertLess(abs(values[-1] - values[0]).max(), 1e-12)
-                self.assertLess(abs(impulses[-1] / impulses[0] - 1), 1e-10)
-            self.assertGreater(impulses[0], 4800 * self.SPEED)
+            run = Recorded(self, [*self.SCENE, *parameters])
+            self.assertLess(run.summary["impacts"]["complementarity_residual"], 1e-9)
+            self.assertGreater(run.energy["strain"], 0)
+            self.assertGreater(run.summary["impacts"]["total_impulse"], 4800 * self.SPEED)
 
-    def test_another_structure_with_damping_under_gravity(self):
-        """A block flies against bricks that hang by a tie and are damped: the ledger with all of its terms."""
+    @staticmethod
+    def two_structures(*more):
+        """A block flies against bricks that hang by a tie, under gravity."""
         scene = [*BRICKS, *TIE, *HELD, *mesh(m1=2, m2=3, gap=0.02),
                  *box_of("b", "x0=0.3,y0=-1.001,z0=0.1,lx=1.2,nx=2,ny=1,nz=2", "c"), "-b_initial_velocity", "0,1,0",
                  *contacts(w=("b:y_max", "t:y_min")), "-end_time", 0.01, "-output_interval", 1e-4, "-gravity", GRAVITY,
                  *probes(p="t:edge")]
         scene[scene.index("-structures") + 1] = "t,b"
+        return [*scene, *more]
+
+    def test_another_structure_with_damping_under_gravity(self):
+        """The ledger with all of its terms."""
         for more in (["-t_damping_alpha", 0.3, "-t_damping_beta", 1e-6], ["-t_damping_uniform", 0.04]):
-            values = []
-            for ranks in (1, 3):
-                run = Recorded(self, [*scene, *more], ranks)
-                values.append(run.displacement("p.y"))
-                self.assertGreater(run.summary["impacts"]["total_impulse"], 0)
-                self.assertLess(run.summary["impacts"]["complementarity_residual"], 1e-9)
-                self.assertLess(abs(values[-1] - values[0]).max() / abs(values[0]).max(), 1e-9)
+            run = Recorded(self, self.two_structures(*more))
+            self.assertGreater(run.summary["impacts"]["total_impulse"], 0)
+            self.assertLess(run.summary["impacts"]["complementarity_residual"], 1e-9)
 
     def test_the_same_run_twice(self):
         a, b = (Recorded(self, [*self.SCENE, *mesh(m1=2, m2=3)], 2).displacement("p.y") for _ in range(2))
@@ -455,8 +448,8 @@ class Struck(unittest.TestCase):
 
     def test_reduced_to_all_of_its_modes(self):
         scene = [*self.SCENE, *HELD, *mesh(m1=2, m2=3), "-w_gap", "1e-4"]
-        full = Recorded(self, scene, 2)
-        reduced = Recorded(self, [*scene, *in_modes("t", 10000)], 2)
+        full = Recorded(self, scene)
+        reduced = Recorded(self, [*scene, *in_modes("t", 10000)])
         u, v = full.displacement("p.y"), reduced.displacement("p.y")
         self.assertGreater(full.summary["impacts"]["total_impulse"], 0)
         self.assertLess(abs(u - v).max() / abs(u).max(), 1e-9)
@@ -468,7 +461,7 @@ class Struck(unittest.TestCase):
         """Six motions without stiffness, across a gap as well."""
         for scene in ([*BRICKS, *mesh(m1=2, m2=3, gap=0.05, shift=0.1)], [*MIXED, *mesh(m1=2, m2=3, plates=2)],
                       [*PLATES, *mesh(m1=3, m2=4, plates=1, gap=0.3)]):
-            run = Recorded(self, [*scene, *TIE, "-t_initial_velocity", "1,0,0", "-end_time", 1e-4, "-modes", 7], 2)
+            run = Recorded(self, [*scene, *TIE, "-t_initial_velocity", "1,0,0", "-end_time", 1e-4, "-modes", 7])
             found = [mode["frequency"] for mode in run.summary["structures"]["t"]["frequencies"]]
             self.assertLess(found[5], 1e-6 * found[6])
 
@@ -476,7 +469,7 @@ class Struck(unittest.TestCase):
 class BesideOtherThings(unittest.TestCase):
     """A tie beside friction and faces that absorb, under weight; and below a column with P-Delta."""
 
-    def alike(self, scene, lost, ranks=(1, 2, 3)):
+    def alike(self, scene, lost, ranks=(1, 3)):
         """Runs a scene on some numbers of ranks; returns the motion of the face, and the last run."""
         values = []
         for count in ranks:
@@ -495,7 +488,7 @@ class BesideOtherThings(unittest.TestCase):
 
     def test_absorbing_faces(self):
         """Waves leave through an end of two tied bricks."""
-        self.alike([*self.shaken(), *mesh(m1=2, m2=3, gap=0.05), "-t_absorbing", "x_min"], "devices")
+        self.alike([*self.shaken(), *mesh(m1=2, m2=3, gap=0.05), "-t_absorbing", "x_min"], "devices", (1,))
 
     def test_friction_below_both_parts(self):
         """They stand on rough ground with both parts and slide: nodes that follow are held by those that they follow."""
@@ -516,11 +509,11 @@ class BesideOtherThings(unittest.TestCase):
         """Parts tied node by node slide as the one mesh does that has these nodes once."""
         wall = ["-gravity", GRAVITY, "-preload", "static", *contacts(w=("t:z_min", "wall", 0)), "-w_friction", 0.3,
                 "-p_group", "x_max", "-time_step", 2e-5]
-        tied, run = self.alike([*self.shaken(), *mesh(m1=3, m2=3), *wall], "friction", (2,))
+        tied, run = self.alike([*self.shaken(), *mesh(m1=3, m2=3), *wall], "friction", (1,))
         self.assertEqual(run.summary["contacts"]["w"]["carried_nodes"], 4)
         shaking = self.shaken()[len(BRICKS) + len(TIE):]
         one = ["-structures", "t", *box_of("t", "lx=2,nx=4,ny=3,nz=3", "c"), *CONCRETE, "-material_c_poisson", POISSON]
-        found, _ = self.alike([*one, *shaking, *wall], "friction", (3,))
+        found, _ = self.alike([*one, *shaking, *wall], "friction", (1,))
         self.assertLess(abs(tied - found).max() / abs(found).max(), 1e-8)
 
     def test_column_with_p_delta(self):
@@ -537,7 +530,7 @@ class BesideOtherThings(unittest.TestCase):
 
         tied, clamped = ["-b_tie", "foot:face", "-b_clamp", "back"], ["-b_clamp", "back,foot"]
         falls = [frequency("true", foot, ranks) / frequency("false", foot, ranks)
-                 for foot, ranks in ((clamped, 1), (tied, 1), (tied, 2), (tied, 3))]
+                 for foot, ranks in ((clamped, 1), (tied, 1), (tied, 3))]
         self.assertLess(falls[0], 0.95)
         for fall in falls[1:]:
             self.assertAlmostEqual(fall / falls[0], 1, delta=5e-3)
@@ -553,12 +546,19 @@ class LinksOnATie(unittest.TestCase):
                      "-t_corner_stiffness", "1e6,1e6,1e7", "-t_corner_dashpot", "1e3,1e4,1e5", *more,
                      "-t_initial_velocity", "0.1,0.2,0.5", *clock(1e-5, 0.02, 1e-4), *probes(p="t:corner")]
             modes = Recorded(self, [*scene, *in_modes("t", 10000)], 1, identity=1e-9)
-            for ranks in (1, 2, 3):
-                run = Recorded(self, scene, ranks, identity=1e-11)
-                self.assertGreater(run.energy["devices"], 1)
-                for axis in "xyz":
-                    u, v = run.displacement(f"p.{axis}"), modes.displacement(f"p.{axis}")
-                    self.assertLess(abs(u - v).max(), 1e-8 * abs(v).max())
+            run = Recorded(self, scene, identity=1e-11)
+            self.assertGreater(run.energy["devices"], 1)
+            for axis in "xyz":
+                u, v = run.displacement(f"p.{axis}"), modes.displacement(f"p.{axis}")
+                self.assertLess(abs(u - v).max(), 1e-8 * abs(v).max())
+
+
+ON_RANKS = {"tied bricks that strike a wall": [*Struck.SCENE, *mesh(m1=2, m2=3)],
+            "bricks tied over a gap that strike a wall": [*Struck.SCENE, *mesh(m1=2, m2=3, gap=0.05)],
+            "a block that strikes tied bricks": Struck.two_structures("-t_damping_alpha", 0.3, "-t_damping_beta", 1e-6),
+            "a block that strikes tied bricks with uniform damping": Struck.two_structures("-t_damping_uniform", 0.04),
+            "tied bricks with a face that absorbs": lambda: [
+                *BesideOtherThings().shaken(), *mesh(m1=2, m2=3, gap=0.05), "-t_absorbing", "x_min"]}
 
 
 if __name__ == "__main__":
