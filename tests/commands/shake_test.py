@@ -15,8 +15,6 @@ from two_buildings import pounding
 sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 from parts import shaking  # noqa: E402
 
-PROCESSORS = 2  # runs on two ranks
-
 
 def floor(acceleration, step):
     """A result that holds one channel."""

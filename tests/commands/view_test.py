@@ -22,8 +22,6 @@ sys.dont_write_bytecode = True
 from parts.plot import report, scene_mesh, view  # noqa: E402
 from pounding.results import Missing, load  # noqa: E402
 
-PROCESSORS = 2  # runs on two ranks
-
 CASE = [*program.COARSE_PAIR, "-modes", 3, "-write_modes", "-write_model", "-s1_initial_velocity", "1.5,0,0",
         "-end_time", 0.04, "-fields_interval", 0.002, "-forces", "legs,posts", "-legs_structure", "s1", "-legs_kind", "members",
         "-legs_group", "column", "-posts_structure", "s1", "-posts_kind", "members", "-posts_group", "joint_column",
