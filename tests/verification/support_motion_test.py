@@ -76,9 +76,9 @@ class UniformMotion(WithPulses):
             words += self.x.words(f"{support}_motion_x") + self.z.words(f"{support}_motion_z")
         return words
 
-    def compare(self, ranks, *more, tolerance=1e-9):
-        common = Recorded(self, self.words(*self.ground(), *more), ranks)
-        moved = Recorded(self, self.words(*self.on_supports(), *more), ranks, identity=1e-11)
+    def compare(self, *more, tolerance=1e-9):
+        common = Recorded(self, self.words(*self.ground(), *more))
+        moved = Recorded(self, self.words(*self.on_supports(), *more), identity=1e-11)
         self.assertGreater(sum(common.column("impulse")), 0, "it pounds")
         for axis in "xyz":
             foot = moved.displacement(f"fa.1.{axis}")
@@ -91,32 +91,30 @@ class UniformMotion(WithPulses):
         return moved
 
     def test_rayleigh_damping(self):
-        for ranks in (1, 2):
-            moved = self.compare(ranks, "-a_damping_alpha", 0.5, "-a_damping_beta", 2e-5, "-b_damping_alpha", 0.2,
-                                 "-b_damping_beta", 1e-5)
-            self.assertGreater(moved.energy["damping"], 0)
+        moved = self.compare("-a_damping_alpha", 0.5, "-a_damping_beta", 2e-5, "-b_damping_alpha", 0.2, "-b_damping_beta", 1e-5)
+        self.assertGreater(moved.energy["damping"], 0)
 
     def test_uniform_damping(self):
-        self.compare(2, "-a_damping_uniform", 0.03, "-a_damping_band", "1,200", "-b_damping_alpha", 0.2)
+        self.compare("-a_damping_uniform", 0.03, "-a_damping_band", "1,200", "-b_damping_alpha", 0.2)
 
     def test_links_and_filler(self):
-        moved = self.compare(2, *self.LINKS, "-b_damping_beta", 1e-5, "-stiffness", "element")
+        moved = self.compare(*self.LINKS, "-b_damping_beta", 1e-5, "-stiffness", "element")
         self.assertGreater(moved.energy["devices"], 0)
 
     def test_bearings_that_yield(self):
         """What holds the deck along x is no linear element."""
-        moved = self.compare(2, "-a_bearings_yield_force", "5e3,5e3,0", "-a_bearings_hardening", 0.1)
+        moved = self.compare("-a_bearings_yield_force", "5e3,5e3,0", "-a_bearings_hardening", 0.1)
         self.assertGreater(moved.energy["plastic"], 0)
 
     def test_rigid_deck_and_own_damping(self):
-        self.compare(2, "-a_diaphragm", "deck", "-b_piers_damping_beta", 1e-5, "-b_mass_scaling", 5e-5)
+        self.compare("-a_diaphragm", "deck", "-b_piers_damping_beta", 1e-5, "-b_mass_scaling", 5e-5)
 
     def test_from_rest_under_gravity(self):
-        moved = self.compare(2, "-gravity", 9.81, "-preload", "static", "-a_p_delta", "true", "-a_damping_beta", 1e-5)
+        moved = self.compare("-gravity", 9.81, "-preload", "static", "-a_p_delta", "true", "-a_damping_beta", 1e-5)
         self.assertLess(moved.displacement("pa.1.z")[0], -1e-4)
 
     def test_all_modes(self):
-        self.compare(2, "-a_model", "modal", "-a_modal_vectors", 10000, "-a_damping_beta", 1e-5)
+        self.compare("-a_model", "modal", "-a_modal_vectors", 10000, "-a_damping_beta", 1e-5)
 
 
 class MovedDifferently(WithPulses):
@@ -130,41 +128,41 @@ class MovedDifferently(WithPulses):
             words += [f"-s{i}_groups", group, f"-s{i}_delay", 0.02 * i, f"-s{i}_factor", f"{1 - 0.1 * i!r},1,1"]
         return words + self.z.words("s3_motion_y")
 
-    def run_on(self, ranks, *more):
+    def run_of(self, *more):
         """The ledger closes to round-off."""
-        return Recorded(self, self.words(*self.on_supports(), *more), ranks, identity=1e-11)
+        return Recorded(self, self.words(*self.on_supports(), *more), identity=1e-11)
 
     def compare(self, run, other, tolerance):
         for channel in ("pa.1.x", "pb.2.y", "pa.3.z"):
             assert_follows(self, run.displacement(channel), other.displacement(channel), tolerance, channel)
 
-    def test_ledger_and_ranks(self):
+    BENDS = 2.1e11 * 4e-4  # N m2, of the piers about their local y
+    KINDS = ([*LINKS, "-a_damping_beta", 1e-5],
+             ["-b_piers_bending_skeleton_y", f"{2e4 / BENDS},2e4,{2e5 / BENDS},4e4", "-b_damping_beta", 1e-5],
+             ["-a_bearings_yield_force", "5e3,5e3,0", "-b_diaphragm", "deck", "-a_damping_uniform", 0.03])
+
+    def test_ledger(self):
         """Impacts, friction, dashpots, braces, a filler, bearings that yield, a rigid deck."""
-        bends = 2.1e11 * 4e-4  # N m2, of the piers about their local y
-        for more in ([*self.LINKS, "-a_damping_beta", 1e-5],
-                     ["-b_piers_bending_skeleton_y", f"{2e4 / bends},2e4,{2e5 / bends},4e4", "-b_damping_beta", 1e-5],
-                     ["-a_bearings_yield_force", "5e3,5e3,0", "-b_diaphragm", "deck", "-a_damping_uniform", 0.03]):
-            runs = [self.run_on(ranks, *more) for ranks in (1, 2, 3)]
-            self.assertGreater(runs[0].energy["devices"] + runs[0].energy["plastic"], 0)
-            for other in runs[1:]:
-                self.compare(other, runs[0], 1e-9)
-        self.assertGreater(runs[0].energy["friction"], 0)
-        self.assertGreater(sum(runs[0].column("impulse")), 0, "it pounds")
+        for more in self.KINDS:
+            run = self.run_of(*more)
+            self.assertGreater(run.energy["devices"] + run.energy["plastic"], 0)
+        self.assertGreater(run.energy["friction"], 0)
+        self.assertGreater(sum(run.column("impulse")), 0, "it pounds")
 
     def test_all_modes(self):
         """As the finite elements themselves, beside impacts and friction."""
         more = ["-a_damping_beta", 1e-5, "-time_step", 3e-5]
-        full = self.run_on(2, *more)
+        full = self.run_of(*more)
         self.assertGreater(sum(full.column("impulse")), 0, "it pounds")
-        self.compare(self.run_on(2, *more, "-a_model", "modal", "-a_modal_vectors", 10000), full, 1e-8)
+        self.compare(self.run_of(*more, "-a_model", "modal", "-a_modal_vectors", 10000), full, 1e-8)
 
     def test_continues(self):
         assert_continues(self, self.words(*self.on_supports(), *self.LINKS, "-a_damping_uniform", 0.03), 0.2, 3000)
 
     def test_without_a_difference_no_bit_changes(self):
         """Supports that go by the motion of the ground leave the run as it is without them."""
-        plain = Recorded(self, self.words(*self.ground()), 2)
-        same = Recorded(self, self.words(*self.ground(), "-supports", "s", "-s_groups", "a:feet,b:feet"), 2)
+        plain = Recorded(self, self.words(*self.ground()))
+        same = Recorded(self, self.words(*self.ground(), "-supports", "s", "-s_groups", "a:feet,b:feet"))
         for channel in ("pa.1.x", "pb.2.z"):
             self.assertTrue(numpy.array_equal(plain.velocity(channel), same.velocity(channel)))
 
@@ -186,7 +184,7 @@ class Tower(WithPulses):
                  "-t_top_rotary_inertia", "1,1,1", "-supports", "s", "-s_rotation_y_record",
                  self.x.file, "-s_rotation_y_scale", 0.1, "-s_point", ",".join(map(repr, self.POINT)), "-time_step", step,
                  "-end_time", 1, "-output_interval", step, *probes(("top", "t", "top"), ("foot", "t", "base"))]
-        run = Recorded(self, words, 2)
+        run = Recorded(self, words)
 
         def by_hand(stiffness):
             u = v = angle = rate = 0.0
@@ -321,9 +319,9 @@ class TravellingWave(WithPulses):
             self.solutions.append((dense, history[::5]))
         return self.solutions[0]
 
-    def check(self, ranks, *more, alpha=0.6, beta=5e-6, tolerance=1e-9):
+    def check(self, *more, alpha=0.6, beta=5e-6, tolerance=1e-9):
         damping = ["-v_damping_alpha", alpha, "-v_damping_beta", beta]
-        run = Recorded(self, self.words(*self.on_supports(), *damping, *more), ranks)
+        run = Recorded(self, self.words(*self.on_supports(), *damping, *more))
         dense, exact = self.exact(alpha, beta)
         ground = {"x": self.x, "y": None, "z": self.z}
         for axis in "xyz":
@@ -343,20 +341,17 @@ class TravellingWave(WithPulses):
         return run
 
     def test_against_dense_steps(self):
-        for ranks in (1, 2):
-            self.check(ranks)
+        self.check()
 
     def test_element_by_element_and_with_all_modes(self):
-        self.check(2, "-stiffness", "element")
-        self.check(2, "-v_model", "modal", "-v_modal_vectors", 10000)
+        self.check("-stiffness", "element")
+        self.check("-v_model", "modal", "-v_modal_vectors", 10000)
 
-    def test_ranks_repeats_and_restarts(self):
-        words = self.words(*self.on_supports(), "-v_damping_beta", 5e-6)
-        runs = [Recorded(self, words, ranks) for ranks in (1, 2, 3, 2)]
-        for run in runs[1:]:
-            for channel in ("deck.1.x", "deck.5.y", "deck.7.z", "feet.3.x"):
-                assert_follows(self, run.displacement(channel), runs[0].displacement(channel), 1e-11, channel)
-                self.assertTrue(numpy.array_equal(runs[1].velocity(channel), runs[3].velocity(channel)), channel)
+    def test_repeats_and_restarts(self):
+        words = self.words(*self.on_supports(), "-v_damping_beta", 5e-6, "-end_time", 0.2)
+        runs = [Recorded(self, words, 2) for _ in range(2)]
+        for channel in ("deck.1.x", "deck.5.y", "deck.7.z", "feet.3.x"):
+            self.assertTrue(numpy.array_equal(*(run.velocity(channel) for run in runs)), channel)
         assert_continues(self, words, 0.15, 2500)
 
 
@@ -374,12 +369,12 @@ class AllGround(WithPulses):
 
     def test_clamped_feet_alone(self):
         """No other way than naming the feet: the shapes that were solved for are rigid motions."""
-        for ranks, more in ((1, ["-v_damping_alpha", 0.5, "-v_damping_beta", 1e-5]), (3, braces("v")),
-                            (2, ["-v_bearings_dashpot", "1e5,1e5,1e5,0,0,0", "-v_damping_uniform", 0.03]),
-                            (2, ["-v_bearings_yield_force", "5e3,5e3,0", "-v_bearings_hardening", 0.1]),
-                            (2, ["-v_model", "modal", "-v_modal_vectors", 10000, "-v_damping_beta", 1e-5])):
-            feet = Recorded(self, self.viaduct("v:feet", *more), ranks)
-            whole = Recorded(self, self.viaduct("v", *more), ranks)
+        for more in (["-v_damping_alpha", 0.5, "-v_damping_beta", 1e-5], braces("v"),
+                     ["-v_bearings_dashpot", "1e5,1e5,1e5,0,0,0", "-v_damping_uniform", 0.03],
+                     ["-v_bearings_yield_force", "5e3,5e3,0", "-v_bearings_hardening", 0.1],
+                     ["-v_model", "modal", "-v_modal_vectors", 10000, "-v_damping_beta", 1e-5]):
+            feet = Recorded(self, self.viaduct("v:feet", *more))
+            whole = Recorded(self, self.viaduct("v", *more))
             for channel in ("deck.1.x", "deck.5.y", "deck.7.z", "feet.3.x", "feet.3.z"):
                 assert_follows(self, whole.displacement(channel), feet.displacement(channel), 1e-9, channel)
 
@@ -398,9 +393,9 @@ class AllGround(WithPulses):
         words = ["-motion_x_record", "none", "-supports", "one,two", "-one_groups", "block", "-two_groups", "frame"]
         return words + self.x.words("one_motion_x") + self.x.words("two_motion_x")
 
-    def compare(self, ranks, *more):
-        common = Recorded(self, self.plant(*self.x.words("motion_x"), *more), ranks, identity=1e-10)
-        moved = Recorded(self, self.plant(*self.on_two(), *more), ranks, identity=1e-10)
+    def compare(self, *more):
+        common = Recorded(self, self.plant(*self.x.words("motion_x"), *more), identity=1e-10)
+        moved = Recorded(self, self.plant(*self.on_two(), *more), identity=1e-10)
         self.assertGreater(sum(common.column("impulse")), 0, "it pounds")
         for roof, mat in (("tower_roof", "block_mat"), ("frame_roof", "frame_mat")):
             found, wanted = (run.displacement(f"{roof}.x") - run.displacement(f"{mat}.x") for run in (moved, common))
@@ -411,14 +406,13 @@ class AllGround(WithPulses):
             assert_follows(self, moved.members(item), common.members(item), 1e-6, item)
 
     def test_springs_dashpots_and_soil(self):
-        for ranks in (1, 2):
-            self.compare(ranks, *self.FORCES)
+        self.compare(*self.FORCES)
 
     def test_soil_that_only_presses(self):
-        self.compare(2, "-frame_soil_compression_only", "true", "-gravity", 9.81, "-preload", "static")
+        self.compare("-frame_soil_compression_only", "true", "-gravity", 9.81, "-preload", "static")
 
     def test_reduced(self):
-        self.compare(2, "-block_model", "modal", "-block_modal_vectors", 40, "-frame_model", "modal",
+        self.compare("-block_model", "modal", "-block_modal_vectors", 40, "-frame_model", "modal",
                      "-frame_modal_vectors", 40)
 
     def test_continues(self):
@@ -431,7 +425,7 @@ class AllGround(WithPulses):
     def test_a_point_elsewhere_is_doubted(self):
         for point, doubted in (("3,0,0", False), ("30,0,0", True), ("3,0,-5", True)):
             done = program.run(["-structures", "v", *viaduct("v", 1, 0.0), *STEEL, *SECTION, *self.ground(), "-end_time",
-                                1e-3, "-dry_run", *self.EMBEDDED[:-1], point], 2)
+                                1e-3, "-dry_run", *self.EMBEDDED[:-1], point])
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual("outside of structure v" in done.stdout + done.stderr, doubted, point)
 
@@ -468,7 +462,7 @@ class Embedded(unittest.TestCase):
                                       "-supports", "s", "-s_groups", "t", "-s_embedment", self.DEPTH, "-s_vs",
                                       self.VELOCITY, "-s_half_width", self.HALF, "-s_point",
                                       ",".join(map(repr, self.POINT)), "-time_step", 1e-4, "-end_time", 6,
-                                      "-output_interval", 1e-3, *probes(("foot", "t", "base"))], 2)
+                                      "-output_interval", 1e-3, *probes(("foot", "t", "base"))])
             finally:
                 os.remove(path)
             a0 = 2 * math.pi * frequency * self.DEPTH / self.VELOCITY
@@ -499,13 +493,13 @@ class MovedApart(unittest.TestCase):
                       f"-{name}_body_element", "hex8", f"-{name}_body_material", "stuff"]
         return words + list(more)
 
-    def approach(self, acceleration, step, *more, ranks=program.RANKS):
+    def approach(self, acceleration, step, *more):
         """Support b comes towards a by this acceleration."""
         path = write_samples(-acceleration / 2, step)
         other = write_samples(acceleration / 2, step)
         try:
             return Recorded(self, self.words("-sb_motion_x_record", path, "-sb_motion_x_unit", "m/s2",
-                                             "-sa_motion_x_record", other, "-sa_motion_x_unit", "m/s2", *more), ranks)
+                                             "-sa_motion_x_record", other, "-sa_motion_x_unit", "m/s2", *more))
         finally:
             os.remove(path)
             os.remove(other)
@@ -516,12 +510,11 @@ class MovedApart(unittest.TestCase):
         step, rate = 1e-3, 0.5  # m/s3
         times = step * numpy.arange(401)
         closing = (6 * self.GAP / rate)**(1 / 3)  # rate t^3 / 6 = gap
-        for ranks in (1, 2):
-            run = self.approach(rate * times, step, "-end_time", 1.05 * closing, "-output_interval", 1e-4, ranks=ranks)
-            lag = self.DENSITY * self.LENGTH**2 / (2 * self.YOUNG) * rate * closing  # u = rho a L^2 / 2E, both bars
-            speed = rate * closing**2 / 2
-            self.assertAlmostEqual(run.column("start")[0], closing + lag / speed, delta=3 * run.time_step)
-            self.assertGreater(closing, 100 * run.time_step)
+        run = self.approach(rate * times, step, "-end_time", 1.05 * closing, "-output_interval", 1e-4)
+        lag = self.DENSITY * self.LENGTH**2 / (2 * self.YOUNG) * rate * closing  # u = rho a L^2 / 2E, both bars
+        speed = rate * closing**2 / 2
+        self.assertAlmostEqual(run.column("start")[0], closing + lag / speed, delta=3 * run.time_step)
+        self.assertGreater(closing, 100 * run.time_step)
 
     def test_force_of_a_gap_that_stays_closed(self):
         """Supports that end 5 mm nearer to each other press the bars by E A / 2L times what the gap falls short of
@@ -529,13 +522,33 @@ class MovedApart(unittest.TestCase):
         step, end, way = 1e-3, 0.2, 5e-3
         t = step * numpy.arange(round(end / step) + 1)
         w = 2 * math.pi / end
-        for ranks in (1, 2):
-            run = self.approach(way / end * w * numpy.sin(w * t), step, "-a_damping_alpha", 300, "-b_damping_alpha", 300,
-                                "-end_time", 0.6, "-output_interval", 1e-3, ranks=ranks)
-            behind = run.summary["impacts"]["max_penetration"]  # where the faces stand since they met
-            self.assertLess(behind, 5e-6)
-            exact = self.YOUNG * 0.2**2 / (2 * self.LENGTH) * (way - self.GAP - behind)
-            self.assertAlmostEqual(run.plateau("joint", 0.55, 0.6) / exact, 1, delta=3e-4)
+        run = self.approach(way / end * w * numpy.sin(w * t), step, "-a_damping_alpha", 300, "-b_damping_alpha", 300,
+                            "-end_time", 0.6, "-output_interval", 1e-3)
+        behind = run.summary["impacts"]["max_penetration"]  # where the faces stand since they met
+        self.assertLess(behind, 5e-6)
+        exact = self.YOUNG * 0.2**2 / (2 * self.LENGTH) * (way - self.GAP - behind)
+        self.assertAlmostEqual(run.plateau("joint", 0.55, 0.6) / exact, 1, delta=3e-4)
+
+
+def moved_differently(kind, end=0.15):
+    """Words of the viaducts on feet that a wave reaches one after the other."""
+    MovedDifferently.setUpClass()
+    problem = MovedDifferently()
+    return problem.words(*problem.on_supports(), *problem.KINDS[kind], "-end_time", end)
+
+
+def wave():
+    """Words of a viaduct whose feet move by delays, factors, records and rotations of their own."""
+    TravellingWave.setUpClass()
+    problem = TravellingWave()
+    return problem.words(*problem.on_supports(), "-v_damping_beta", 5e-6, "-end_time", 0.15)
+
+
+# Accelerations are differences of velocities over a step of 4e-5 s.
+ON_RANKS = {"viaducts on moved feet, with links": (lambda: moved_differently(0), {"tolerance": 1e-10}),
+            "viaducts on moved feet, that yield": (lambda: moved_differently(1), {"tolerance": 1e-10}),
+            "viaducts on moved feet, with a rigid deck": (lambda: moved_differently(2), {"tolerance": 1e-10}),
+            "a viaduct that a wave reaches": (wave, {"tolerance": 1e-10})}
 
 
 if __name__ == "__main__":

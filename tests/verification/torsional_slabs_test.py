@@ -94,9 +94,8 @@ class TorsionalSlabs(unittest.TestCase):
     def setUpClass(cls):
         cls.record = write_sine(ACCELERATION, FREQUENCY, END)
 
-    def pound(self, case, overdamping, ranks=1, end=END):
-        return Recorded(self, scene(CASES[case][0], self.record, overdamping, end), ranks,
-                        IDENTITY_OF_STIFF_BODIES)
+    def pound(self, case, overdamping):
+        return Recorded(self, scene(CASES[case][0], self.record, overdamping, END), identity=IDENTITY_OF_STIFF_BODIES)
 
     def check_impacts(self, run, case, overdamping):
         start, impulse = run.column("start"), run.column("impulse")
@@ -145,12 +144,10 @@ class TorsionalSlabs(unittest.TestCase):
             turn = run.displacement(f"{name}_below.x") - run.displacement(f"{name}_above.x")
             self.assertLess(abs(turn).max() / WIDTH, 1e-7)
 
-    def test_same_impacts_on_every_number_of_ranks(self):
-        runs = [self.pound("gap2cm", 5, ranks, 0.38) for ranks in (1, 2, 3)]
-        for other in runs[1:]:
-            self.assertEqual(other.impacts["contact"], runs[0].impacts["contact"])
-            for column in ("start", "impulse"):
-                self.assertLess(abs(other.column(column) / runs[0].column(column) - 1).max(), 1e-6)
+
+# What makes the slabs rigid leaves round-off in their motion.
+ON_RANKS = {"slabs that translate and turn": (
+    lambda: scene(CASES["gap2cm"][0], write_sine(ACCELERATION, FREQUENCY, 0.38), 3, 0.38), {"tolerance": 1e-11})}
 
 
 if __name__ == "__main__":
