@@ -23,13 +23,14 @@ endif()
 # Every file that uses lanes, and what is called in every step: rooms as a whole, or files.
 set(POUNDING_KERNEL_FILES
   "^dynamics/"
-  "^stiffness/(bricks/|shells/|strains/|rows/(chain_line|parity_split)|[a-z_]+[.])"
+  "^stiffness/(bricks/brick_(kernel|lines|stencil)|shells/|strains/|rows/chain_line)"
+  "^stiffness/(assembled_rows|beam_elements|element_sorter|element_stiffness|stiffness|strain_sorter)[.]"
   "^interactions/(solvers/|[a-z_]+[.])"
   "^common/row_products[.]"
   "^ensemble/(member_run|octet_)"
   "^motion/oscillator"
   "^output/(recorder|probe_rows)"
-  "^system/(block_factorisation|coupled_mass|rigid_body|tied_part|trace)")
+  "^system/(block_factorisation|coupled_mass|rigid_body|trace)")
 
 # Moves the kernels of a list of sources to another one.
 function(split_kernels sources kernels)

@@ -10,9 +10,8 @@
 #include "common/matrix3.h"
 #include "common/place_text.h"
 #include "driver/facts.h"
-#include "elements/element.h"
+#include "elements/element_traits.h"
 #include "interactions/pairing/facet_backing.h"
-#include "interactions/pairing/shell_orientation.h"
 #include "mesh/element_properties.h"
 #include "mesh/facet_shares.h"
 

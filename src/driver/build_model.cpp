@@ -30,7 +30,6 @@
 #include "stability/step_target.h"
 #include "stability/structure_limits.h"
 #include "system/load_shapes.h"
-#include "system/start_state.h"
 
 namespace pounding {
 namespace {

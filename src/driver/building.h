@@ -17,7 +17,7 @@
 #include "scene/scene.h"
 #include "stability/step_target.h"
 #include "stability/structure_limits.h"
-#include "system/axial_forces.h"
+#include "system/element_forces.h"
 #include "system/linear_system.h"
 
 namespace pounding {

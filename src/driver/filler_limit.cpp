@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "interactions/filler_pairs.h"
+#include "interactions/filler_rows.h"
 #include "stability/stable_time_step.h"
 #include "stability/structure_limits.h"
 

@@ -11,7 +11,7 @@
 #include "common/parallel.h"
 #include "driver/run_statistics.h"
 #include "driver/total_forces.h"
-#include "elements/shell_forces.h"
+#include "elements/force_rows.h"
 #include "io/csv_file.h"
 #include "system/element_forces.h"
 #include "system/links.h"

@@ -3,9 +3,9 @@
 #include "modal/buckling.h"
 #include "modal/definiteness.h"
 #include "statics/find_support_shapes.h"
-#include "system/build_system.h"
+#include "system/finite_element_system.h"
 #include "system/links.h"
-#include "system/start_state.h"
+#include "system/load_shapes.h"
 
 namespace pounding {
 

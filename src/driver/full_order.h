@@ -6,7 +6,7 @@
 #include "driver/model.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
-#include "system/axial_forces.h"
+#include "system/element_forces.h"
 #include "system/linear_system.h"
 
 namespace pounding {

@@ -12,7 +12,7 @@
 #include "common/parallel.h"
 #include "driver/full_order.h"
 #include "driver/whole_meshes.h"
-#include "interactions/pairing/tangential_rows.h"
+#include "interactions/pairing/interface.h"
 #include "io/new_file.h"
 #include "modal/basis_key.h"
 #include "modal/modal_basis_file.h"

@@ -10,7 +10,7 @@
 #include "common/matrix3.h"
 #include "common/parallel.h"
 #include "driver/mesh_labels.h"
-#include "interactions/pairing/tangential_rows.h"
+#include "interactions/pairing/interface.h"
 #include "io/new_file.h"
 #include "io/schema.h"
 #include "mesh/node_table.h"

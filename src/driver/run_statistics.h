@@ -13,7 +13,7 @@
 #include "driver/stated_peaks.h"
 #include "dynamics/energy_balance.h"
 #include "interactions/filler_rows.h"
-#include "interactions/link_records.h"
+#include "interactions/interaction.h"
 #include "output/impact_catalogue.h"
 #include "output/recorder.h"
 

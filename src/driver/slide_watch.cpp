@@ -5,9 +5,8 @@
 #include "common/number_rows.h"
 #include "driver/run_statistics.h"
 #include "interactions/contact_operator.h"
-#include "interactions/interface_gather.h"
-#include "interactions/interface_traces.h"
-#include "interactions/pairing/tangential_rows.h"
+#include "interactions/interface_rows.h"
+#include "interactions/pairing/interface.h"
 #include "system/trace.h"
 
 namespace pounding {

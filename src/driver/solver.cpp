@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "driver/gap_bounds.h"
-#include "interactions/make_links.h"
+#include "interactions/link_rows.h"
 
 namespace pounding {
 namespace {

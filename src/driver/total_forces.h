@@ -8,8 +8,8 @@
 #include "interactions/structure_links.h"
 #include "mesh/force_places.h"
 #include "mesh/mesh.h"
+#include "system/element_forces.h"
 #include "system/linear_system.h"
-#include "system/wrench.h"
 
 namespace pounding {
 

@@ -4,7 +4,7 @@
 
 #include "common/memory.h"
 #include "dynamics/rest_forces.h"
-#include "system/start_state.h"
+#include "system/load_shapes.h"
 
 namespace pounding {
 namespace {

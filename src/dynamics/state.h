@@ -6,7 +6,7 @@
 
 #include "common/petsc.h"
 #include "common/saved_state.h"
-#include "interactions/support_step.h"
+#include "interactions/interaction.h"
 #include "system/linear_system.h"
 
 namespace pounding {

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "dynamics/update.h"
-#include "interactions/ledger_part.h"
+#include "interactions/interaction.h"
 
 namespace pounding {
 

@@ -1,12 +1,13 @@
 #pragma once
 
+/// Two-node beam in space, three displacements and three rotations per node, flexible in shear
+/// where it has shear areas (Timoshenko), without them an Euler-Bernoulli beam. Local x runs from
+/// node 1 to node 2; local z is `z_axis` made orthogonal to x; y = z cross x.
+
 #include <span>
 
 #include "elements/element_properties.h"
 
-/// Two-node beam in space, three displacements and three rotations per node, flexible in shear
-/// where it has shear areas (Timoshenko), without them an Euler-Bernoulli beam. Local x runs from
-/// node 1 to node 2; local z is `z_axis` made orthogonal to x; y = z cross x.
 namespace pounding {
 
 /// Flexibility in shear over that in bending of a beam of length L [-], 0 without a shear area:
@@ -62,5 +63,17 @@ double added_rotary_part(const ElementProperties& properties, double length);
 /// / 2 about local y (z), as if the halves of the beam turned with its nodes.
 void euler_beam_lumped_mass(std::span<const double> coordinates,
                             const ElementProperties& properties, std::span<double> lumped_mass);
+
+// Two-node bar, pinned at both ends: three displacements per node, force along its axis only.
+
+/// Stiffness E A / L along the axis, shape (6, 6) [N/m], of a bar with node coordinates of shape
+/// (2, 3) [m]. Symmetric to the bit. Throws ElementError for a zero length.
+void bar2_stiffness(std::span<const double> coordinates, const ElementProperties& properties,
+                    std::span<double> stiffness);
+
+/// Lumped mass, shape (6) [kg]: rho A L / 2 in the three directions of each node. Throws
+/// ElementError as the stiffness does.
+void bar2_lumped_mass(std::span<const double> coordinates, const ElementProperties& properties,
+                      std::span<double> lumped_mass);
 
 }  // namespace pounding

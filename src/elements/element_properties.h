@@ -67,4 +67,15 @@ struct ElementFace {
 inline constexpr int max_element_nodes = 8;
 inline constexpr int max_element_size = 24;
 
+/// Node coordinates relative to the first node, so that an element far from the origin keeps its
+/// digits.
+template <std::size_t node_count>
+std::array<Vector3, node_count> relative_nodes(std::span<const double> coordinates) {
+  std::array<Vector3, node_count> nodes{};
+  for (std::size_t a = 0; a < node_count; ++a) {
+    for (std::size_t i = 0; i < 3; ++i) nodes[a][i] = coordinates[3 * a + i] - coordinates[i];
+  }
+  return nodes;
+}
+
 }  // namespace pounding

@@ -2,21 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 
-#include "elements/bar2.h"
 #include "elements/beam2.h"
-#include "elements/hex8.h"
+#include "elements/flat_shell.h"
 #include "elements/measured_costs.h"
 #include "elements/point.h"
-#include "elements/shell3.h"
-#include "elements/shell4.h"
-#include "elements/tet4.h"
-#include "elements/wedge6.h"
+#include "elements/solids.h"
 
 namespace pounding {
-
 namespace {
 
 using Coordinates = std::span<const double>;
@@ -137,6 +133,14 @@ constexpr bool words_have_rows() {
 static_assert(table_is_sound(), "rows in the order of the types, their words in element_words");
 static_assert(words_have_rows(), "a word of element_words has no row");
 
+/// A wrong shape is a mistake of the program, not of the user.
+void require_size(std::size_t found, int expected, const char* what) {
+  if (found != static_cast<std::size_t>(expected)) {
+    throw std::logic_error(std::string("element: size of ") + what + " is " +
+                           std::to_string(found) + ", not " + std::to_string(expected));
+  }
+}
+
 }  // namespace
 
 const ElementTraits& traits_of(ElementType type) {
@@ -153,6 +157,40 @@ int shared_by_neighbours(ElementType type) {
   int fewest = max_element_nodes;
   for (const ElementFace& face : traits_of(type).faces) fewest = std::min(fewest, face.count);
   return is_solid(type) ? fewest : 1;
+}
+
+ElementLayout element_layout(ElementType type) {
+  return traits_of(type).layout;
+}
+
+void element_matrices(ElementType type, std::span<const double> coordinates,
+                      const ElementProperties& properties, std::span<double> stiffness,
+                      std::span<double> lumped_mass) {
+  const int size = element_layout(type).size();
+  require_size(stiffness.size(), size * size, "stiffness");
+  element_lumped_mass(type, coordinates, properties, lumped_mass);
+  traits_of(type).stiffness(coordinates, properties, stiffness);
+}
+
+void element_lumped_mass(ElementType type, std::span<const double> coordinates,
+                         const ElementProperties& properties, std::span<double> lumped_mass) {
+  const ElementLayout layout = element_layout(type);
+  require_size(coordinates.size(), 3 * layout.nodes, "coordinates");
+  require_size(lumped_mass.size(), layout.size(), "lumped_mass");
+  traits_of(type).lumped_mass(coordinates, properties, lumped_mass);
+}
+
+void element_dashpots(ElementType type, const ElementProperties& properties,
+                      std::span<double> damping) {
+  const ElementLayout layout = element_layout(type);
+  require_size(damping.size(), layout.size() * layout.size(), "damping");
+  if (type == ElementType::soil) {
+    ground_spring_matrix(properties.ground_springs, &GroundSpring::dashpot, damping);
+  } else if (is_spring(type)) {
+    spring_matrix(layout, properties.dashpot, damping);
+  } else {
+    std::ranges::fill(damping, 0.0);
+  }
 }
 
 }  // namespace pounding

@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "elements/local_frame.h"
-#include "elements/symmetric_matrix.h"
 
 namespace pounding {
 

@@ -6,7 +6,6 @@
 
 #include "elements/beam2.h"
 #include "elements/local_frame.h"
-#include "elements/symmetric_matrix.h"
 
 namespace pounding {
 namespace {

@@ -5,7 +5,7 @@
 #include "elements/element_traits.h"
 
 /// Geometric stiffness of beams and bars, by their axial force: pure functions of coordinates,
-/// matrices as in element.h.
+/// matrices as in element_traits.h.
 namespace pounding {
 
 /// Whether an element of this type has an axial force that turns with it: beams, and bars that

@@ -8,7 +8,6 @@
 #include "elements/element_properties.h"
 
 namespace pounding {
-
 namespace {
 
 constexpr double smallest_relative_length = 1e-12;
@@ -83,6 +82,36 @@ Vector3 rotate_diagonal_to_global(const Matrix3& frame, const Vector3& local) {
     for (std::size_t k = 0; k < 3; ++k) global[i] += frame[k][i] * frame[k][i] * local[k];
   }
   return global;
+}
+
+void mirror_lower_triangle(std::span<double> matrix, int size) {
+  const std::size_t n = size;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < i; ++j) matrix[j * n + i] = matrix[i * n + j];
+  }
+}
+
+void condense_last(std::span<double> matrix, int size, int kept, std::span<double> condensed) {
+  const std::size_t n = size;
+  const std::size_t m = kept;
+  // Gaussian elimination from the last dof backwards; symmetric, so it needs no pivoting.
+  for (std::size_t p = n; p-- > m;) {
+    const double pivot = matrix[p * n + p];
+    if (!(pivot > 0)) {
+      std::ostringstream message;
+      message << "internal modes without stiffness (pivot " << pivot
+              << "); check young and poisson";
+      throw ElementError(message.str());
+    }
+    for (std::size_t i = 0; i < p; ++i) {
+      const double factor = matrix[p * n + i] / pivot;
+      for (std::size_t j = 0; j <= i; ++j) matrix[i * n + j] -= factor * matrix[p * n + j];
+    }
+  }
+  for (std::size_t i = 0; i < m; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) condensed[i * m + j] = matrix[i * n + j];
+  }
+  mirror_lower_triangle(condensed, kept);
 }
 
 }  // namespace pounding

@@ -1,11 +1,12 @@
 #pragma once
 
+/// Length and local axes of two-node elements, and the turn of their matrices to global axes.
+
 #include <span>
 
 #include "common/matrix3.h"
 #include "common/types.h"
 
-/// Length and local axes of two-node elements, and the turn of their matrices to global axes.
 namespace pounding {
 
 /// A segment from node 1 to node 2: unit direction and length [m].
@@ -30,5 +31,17 @@ void rotate_to_global(const Matrix3& frame, std::span<double> matrix, int size);
 /// Diagonal of R' diag(local) R: a lumped mass of local axes seen from the global ones, without the
 /// coupling terms that a lumped mass cannot hold; the trace is kept.
 Vector3 rotate_diagonal_to_global(const Matrix3& frame, const Vector3& local);
+
+// Small dense symmetric matrices, row-major, of which the lower triangle is the one computed.
+
+/// Copies the lower triangle of the (size, size) matrix onto the upper one: K(i, j) and K(j, i) are
+/// then the same bits.
+void mirror_lower_triangle(std::span<double> matrix, int size);
+
+/// Static condensation of the dofs kept..size-1, which carry no force, of a symmetric matrix of
+/// shape (size, size): K_uu - K_ua inv(K_aa) K_au in `condensed`, shape (kept, kept), both
+/// triangles filled. `matrix` (lower triangle read) is overwritten. Throws ElementError when K_aa
+/// is not positive definite.
+void condense_last(std::span<double> matrix, int size, int kept, std::span<double> condensed);
 
 }  // namespace pounding

@@ -1,9 +1,9 @@
-#include "elements/shell3.h"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <sstream>
+
+#include "elements/flat_shell.h"
 
 namespace pounding {
 
@@ -26,12 +26,9 @@ struct FlatTriangle {
 };
 
 FlatTriangle checked_triangle(std::span<const double> coordinates) {
-  std::array<Vector3, node_count> x{};  // relative to the first node, to keep digits far away
-  for (std::size_t a = 0; a < node_count; ++a) {
-    for (std::size_t i = 0; i < 3; ++i) x[a][i] = coordinates[3 * a + i] - coordinates[i];
-  }
+  const std::array<Vector3, node_count> x = relative_nodes<node_count>(coordinates);
   const Vector3 normal = cross(x[1], x[2]);
-  const Vector3 third{x[2][0] - x[1][0], x[2][1] - x[1][1], x[2][2] - x[1][2]};
+  const Vector3 third = minus(x[2], x[1]);
   FlatTriangle triangle;
   triangle.area = norm(normal) / 2;
   triangle.longest_edge = std::max({norm(x[1]), norm(x[2]), norm(third)});

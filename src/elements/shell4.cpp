@@ -1,12 +1,11 @@
-#include "elements/shell4.h"
-
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <sstream>
 
+#include "elements/flat_shell.h"
 #include "elements/gauss_rule.h"
-#include "elements/symmetric_matrix.h"
+#include "elements/local_frame.h"
 
 namespace pounding {
 
@@ -31,15 +30,6 @@ struct FlatQuad {
 
 double cross2(const Vector2& a, const Vector2& b) {
   return a[0] * b[1] - a[1] * b[0];
-}
-
-Vector3 minus(const Vector3& a, const Vector3& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Vector3 unit(const Vector3& a) {
-  const double length = norm(a);
-  return {a[0] / length, a[1] / length, a[2] / length};
 }
 
 /// Refuses corners that are flat or re-entrant: the Jacobian is then positive everywhere.
@@ -73,10 +63,7 @@ void require_little_warp(double height, double area) {
 }
 
 FlatQuad checked_quad(std::span<const double> coordinates) {
-  std::array<Vector3, node_count> x{};  // relative to the first node, to keep digits far away
-  for (std::size_t a = 0; a < node_count; ++a) {
-    for (std::size_t i = 0; i < 3; ++i) x[a][i] = coordinates[3 * a + i] - coordinates[i];
-  }
+  const std::array<Vector3, node_count> x = relative_nodes<node_count>(coordinates);
   const Vector3 first = minus(x[2], x[0]);
   const Vector3 second = minus(x[3], x[1]);
   const Vector3 normal = cross(first, second);
@@ -88,8 +75,8 @@ FlatQuad checked_quad(std::span<const double> coordinates) {
     throw ElementError(message.str());
   }
   FlatQuad quad;
-  quad.frame[2] = unit(normal);
-  quad.frame[0] = unit(minus(first, second));  // along xi at the centre
+  quad.frame[2] = normalised(normal);
+  quad.frame[0] = normalised(minus(first, second));  // along xi at the centre
   quad.frame[1] = cross(quad.frame[2], quad.frame[0]);
   // The normal is orthogonal to both diagonals: heights alternate about the mean plane.
   const double height = dot(quad.frame[2], x[1]) / 2;

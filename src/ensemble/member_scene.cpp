@@ -8,11 +8,11 @@
 #include "driver/rest.h"
 #include "driver/rest_gaps.h"
 #include "driver/time_step.h"
-#include "interactions/pairing/filler_parts.h"
+#include "interactions/pairing/gap_field.h"
 #include "modal/reduced_system.h"
 #include "scene/factor_reader.h"
 #include "stability/structure_limits.h"
-#include "system/start_state.h"
+#include "system/load_shapes.h"
 
 namespace pounding {
 namespace {

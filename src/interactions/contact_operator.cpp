@@ -51,26 +51,19 @@ ContactOperator::ContactOperator(MPI_Comm comm, const std::vector<Constraint>& c
 }
 
 void ContactOperator::set_rows(std::span<const Constraint> constraints) {
-  row_begin_.assign(1, 0);
-  row_dof_.clear();
-  row_coefficient_.clear();
+  rows_.clear();
   for (const Constraint& constraint : constraints) {
     for (const ConstraintTerm& term : constraint.terms) {
-      const auto found = column_.find({term.structure, term.node, term.component});
-      if (found == column_.end()) continue;
-      row_dof_.push_back(found->second);
-      row_coefficient_.push_back(term.coefficient);
+      const int dof = column(term.structure, term.node, term.component);
+      if (dof >= 0) rows_.add(dof, term.coefficient);
     }
-    row_begin_.push_back(row_dof_.size());
+    rows_.end_row();
   }
 }
 
-double ContactOperator::apply(int row, std::span<const double> x) const {
-  const auto columns = row_dofs(row);
-  const auto values = row_coefficients(row);
-  double sum = 0;
-  for (std::size_t k = 0; k < columns.size(); ++k) sum += values[k] * x[columns[k]];
-  return sum;
+int ContactOperator::column(int structure, GlobalIndex node, int component) const {
+  const auto found = column_.find({structure, node, component});
+  return found == column_.end() ? -1 : found->second;
 }
 
 void ContactOperator::add_transposed(int row, double value, std::span<double> y) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "interactions/pairing/interface.h"
+#include "interactions/solvers/sparse_rows.h"
 #include "mesh/mesh.h"
 
 namespace pounding::interactions {
@@ -31,32 +32,33 @@ class ContactOperator {
   /// Other rows over the same dofs; not collective.
   void set_rows(std::span<const Constraint> constraints);
 
-  int rows() const { return static_cast<int>(row_begin_.size()) - 1; }
+  int rows() const { return static_cast<int>(rows_.rows()); }
   int dofs() const { return static_cast<int>(dofs_.size()); }
   const std::vector<InterfaceDof>& dof_list() const { return dofs_; }
 
-  std::span<const int> row_dofs(int row) const { return slice(row_dof_, row); }
-  std::span<const double> row_coefficients(int row) const { return slice(row_coefficient_, row); }
+  /// Column of a displacement; -1: it is clamped, or in no row.
+  int column(int structure, GlobalIndex node, int component) const;
+
+  std::span<const int> row_dofs(int row) const {
+    return rows_.columns(static_cast<std::size_t>(row));
+  }
+  std::span<const double> row_coefficients(int row) const {
+    return rows_.values(static_cast<std::size_t>(row));
+  }
 
   /// (L x)_row for x over the interface's dofs.
-  double apply(int row, std::span<const double> x) const;
+  double apply(int row, std::span<const double> x) const {
+    return row_product(rows_, static_cast<std::size_t>(row), x);
+  }
   /// y += value * (row of L)^T.
   void add_transposed(int row, double value, std::span<double> y) const;
 
  private:
-  template <typename Value>
-  std::span<const Value> slice(const std::vector<Value>& values, int row) const {
-    const std::size_t r = row;
-    return {values.data() + row_begin_[r], row_begin_[r + 1] - row_begin_[r]};
-  }
-
   using Numbers = std::map<std::tuple<int, GlobalIndex, int>, int>;
 
   std::vector<InterfaceDof> dofs_;
   Numbers column_;  ///< per structure, node and component; clamped dofs are not in it
-  std::vector<std::size_t> row_begin_{0};
-  std::vector<int> row_dof_;
-  std::vector<double> row_coefficient_;
+  SparseRows rows_;
 };
 
 /// Local dof of an interface dof on the rank that owns it, -1 elsewhere.

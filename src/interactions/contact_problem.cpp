@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "common/magnitude.h"
-#include "interactions/contact_components.h"
 #include "interactions/delassus.h"
 
 namespace pounding::interactions {

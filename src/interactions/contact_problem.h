@@ -9,7 +9,7 @@
 #include "interactions/interface_rows.h"
 #include "interactions/pairing/interface.h"
 #include "interactions/sliding_pairs.h"
-#include "interactions/solvers/coupled_lcp.h"
+#include "interactions/solvers/proportioning.h"
 #include "interactions/solvers/sparse_rows.h"
 #include "system/linear_system.h"
 

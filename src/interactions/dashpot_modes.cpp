@@ -6,7 +6,7 @@
 #include "common/dense_matrix.h"
 #include "interactions/laws/dashpot_law.h"
 #include "interactions/laws/law_of.h"
-#include "interactions/link_rows.h"
+#include "interactions/structure_links.h"
 #include "system/links.h"
 #include "system/trace.h"
 

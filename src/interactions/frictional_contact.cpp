@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "common/magnitude.h"
-#include "interactions/pairing/tangential_rows.h"
+#include "interactions/pairing/interface.h"
 
 namespace pounding::interactions {
 

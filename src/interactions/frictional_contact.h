@@ -8,7 +8,6 @@
 #include "common/saved_state.h"
 #include "interactions/contact_operator.h"
 #include "interactions/delassus.h"
-#include "interactions/interface_compliance.h"
 #include "interactions/pairing/interface.h"
 #include "interactions/solvers/friction_solver.h"
 #include "interactions/solvers/sparse_rows.h"

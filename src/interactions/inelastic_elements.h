@@ -5,10 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "elements/element.h"
+#include "elements/element_traits.h"
 #include "interactions/interaction.h"
 #include "interactions/laws/element_law.h"
-#include "interactions/link_records.h"
 #include "mesh/halo.h"
 #include "mesh/mesh.h"
 #include "system/linear_system.h"

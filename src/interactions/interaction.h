@@ -1,17 +1,79 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "common/profile.h"
 #include "common/saved_state.h"
 #include "common/types.h"
-#include "interactions/ledger_part.h"
-#include "interactions/support_step.h"
 #include "system/trace.h"
 
 namespace pounding::interactions {
+
+/// Motion of supports relative to the scene's ground, per column of SupportShapes; empty where the
+/// ground moves as one. Before the step to t_n:
+struct SupportState {
+  std::vector<double> displacement;  ///< r_n [m, rad]
+  std::vector<double> velocity;      ///< r'_{n-1/2} [m/s, rad/s]
+};
+
+/// Motion of the supports in one step, per column of SupportShapes; empty where the ground moves as
+/// one. It goes by the scheme of the structures, so that supports which all move alike give what a
+/// common ground gives:
+///
+///     r'_{n+1/2} = r'_{n-1/2} + h r''_n,      r_{n+1} = r_n + dt r'_{n+1/2}
+///
+/// with h = dt, but dt / 2 in the first step.
+struct SupportStep {
+  std::vector<double> acceleration;     ///< r''_n [m/s2, rad/s2]
+  std::vector<double> displacement;     ///< r_n [m, rad]
+  std::vector<double> velocity_before;  ///< r'_{n-1/2} [m/s, rad/s]
+  std::vector<double> velocity;         ///< r'_{n+1/2}
+  std::vector<double> velocity_mean;    ///< of these two
+
+  explicit SupportStep(std::size_t columns)
+      : acceleration(columns, 0.0),
+        displacement(columns, 0.0),
+        velocity_before(columns, 0.0),
+        velocity(columns, 0.0),
+        velocity_mean(columns, 0.0) {}
+
+  /// Before the step to t_n, `acceleration` being known; `duration`: h [s].
+  void begin(const SupportState& state, double duration) {
+    displacement = state.displacement;
+    velocity_before = state.velocity;
+    for (std::size_t c = 0; c < acceleration.size(); ++c) {
+      velocity[c] = velocity_before[c] + duration * acceleration[c];
+      velocity_mean[c] = (velocity_before[c] + velocity[c]) / 2;
+    }
+  }
+  /// After it.
+  void finish(double time_step, SupportState& state) const {
+    state.velocity = velocity;
+    for (std::size_t c = 0; c < velocity.size(); ++c) {
+      state.displacement[c] += time_step * velocity[c];
+    }
+  }
+};
+
+/// Sums of interactions on one structure that a step leaves for the energy ledger, those of this
+/// rank.
+struct LedgerPart {
+  double link_energy_before = 0;     ///< held between u_{n-1} and u_n [J]
+  double link_loss = 0;              ///< taken in the step and not kept [J]
+  double link_loss_before = 0;       ///< the same of the step before, of gathered rows [J]
+  double damping_loss = 0;           ///< beside that of K, by beta of elements that yield [J]
+  double plastic_loss = 0;           ///< taken in the step by yielding, damage and crushing [J]
+  double plastic_loss_before = 0;    ///< the same of the step before, of gathered rows [J]
+  double link_input = 0;             ///< work of a wave from below [J]
+  double support_input = 0;          ///< work of supports' motion and loads, contacts apart [J]
+  double contact_support_input = 0;  ///< of supports against contact impulses [J]
+  double contact_work = 0;           ///< 1/2 lambda^T L v- of normal impulses [J]
+  double friction_loss = 0;          ///< -1/2 lambda_t^T L_t (v- + v+) [J]
+};
 
 /// Displacement [m, rad] and velocity [m/s, rad/s] of some dofs before a step.
 struct Before {
@@ -84,6 +146,44 @@ class Interaction {
 
   virtual void save(SavedState& saved) const = 0;
   virtual void load(const SavedState& saved) = 0;
+};
+
+/// Extremes of a recorded link, and the work it took.
+struct LinkTotals {
+  double largest_elongation = 0;  ///< magnitude [m, rad]
+  double largest_force = 0;       ///< magnitude [N, N m]
+  double work = 0;                ///< sum of N_n (e_{n+1} - e_{n-1}) / 2 [J]
+  double yielded = 0;             ///< 1: it left its straight line for good
+};
+
+/// Elongation and force of chosen links in the step at hand, and their extremes and work so far.
+/// Reads and changes nothing else. Local.
+class LinkRecords {
+ public:
+  /// `links`: which ones to record, numbers among those of their owner. `push_only`: what is below
+  /// zero is no elongation of theirs, the joint is open.
+  void watch(std::vector<std::size_t> links, bool push_only = false);
+  bool empty() const { return links_.empty(); }
+  const std::vector<std::size_t>& links() const { return links_; }
+
+  /// Link k of those chosen in the step from t_n: e_n [m, rad], N_n [N, N m].
+  void note(std::size_t k, double elongation, double force, bool yielded);
+  void add_work(std::size_t k, double work) { totals_[k].work += work; }
+
+  double elongation(std::size_t k) const { return elongation_[k]; }
+  double force(std::size_t k) const { return force_[k]; }
+  const LinkTotals& totals(std::size_t k) const { return totals_[k]; }
+
+  /// Under a name for each chosen link, in their order.
+  void save(const std::vector<std::string>& names, SavedState& saved) const;
+  void load(const std::vector<std::string>& names, const SavedState& saved);
+
+ private:
+  bool push_only_ = false;
+  std::vector<std::size_t> links_;
+  std::vector<double> elongation_;
+  std::vector<double> force_;
+  std::vector<LinkTotals> totals_;
 };
 
 }  // namespace pounding::interactions

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
-#include <tuple>
 
 #include "interactions/pairing/contact_face.h"
-#include "interactions/pairing/pair_terms.h"
+#include "interactions/pairing/interface.h"
 
 namespace pounding::interactions {
 namespace {
@@ -34,17 +32,9 @@ std::vector<ConstraintTerm> SlidingPairs::all_terms(const SlidingFaces& faces) {
 
 SlidingPairs::SlidingPairs(const ContactOperator& contact, const Interface& interface)
     : faces_(interface.sliding), pairs_(faces_.rows.size()), changed_(faces_.rows.size(), 0) {
-  std::map<std::tuple<int, GlobalIndex, int>, int> number;
-  for (std::size_t i = 0; i < contact.dof_list().size(); ++i) {
-    const InterfaceDof& dof = contact.dof_list()[i];
-    number[{dof.structure, dof.node, dof.component}] = static_cast<int>(i);
-  }
   for (const SlidingFaces::Node& node : faces_.nodes) {
     std::array<int, 3>& columns = columns_.emplace_back();
-    for (int d = 0; d < 3; ++d) {
-      const auto found = number.find({node.structure, node.node, d});
-      columns[d] = found == number.end() ? -1 : found->second;
-    }
+    for (int d = 0; d < 3; ++d) columns[d] = contact.column(node.structure, node.node, d);
   }
   const std::vector<double> rest(contact.dof_list().size(), 0.0);
   for (std::size_t row = 0; row < faces_.rows.size(); ++row) pair(row, rest);

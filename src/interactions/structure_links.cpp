@@ -1,11 +1,17 @@
 #include "interactions/structure_links.h"
 
+#include <algorithm>
+#include <cmath>
+#include <map>
 #include <utility>
 
 #include "interactions/laws/law_of.h"
+#include "system/support_shapes.h"
 
 namespace pounding::interactions {
 namespace {
+
+constexpr double unstretched = 1e-9;  ///< elongation per unit of a support's motion, round-off
 
 /// Name of the memory of a link; all links of an element but that along x say which one they are,
 /// and the dashpot of a spring that it is no stiffness.
@@ -49,6 +55,27 @@ std::vector<std::unique_ptr<LinkLaw>> laws_of(const LinearSystem& system, double
 }
 
 }  // namespace
+
+std::vector<std::vector<double>> carried_by_supports(const LinearSystem& system) {
+  if (!system.supports) return {};
+  const std::size_t columns = system.supports->columns.size();
+  const Trace& trace = system.links->trace();
+  std::vector<std::vector<double>> carried;
+  for (const Link& link : system.links->links()) {
+    std::vector<double>& row = carried.emplace_back(link.supports);
+    row.resize(columns, 0.0);
+    for (std::size_t i = 0; i < link.place.size(); ++i) {
+      if (link.place[i] < 0) continue;
+      const auto of_place = trace.carried(static_cast<std::size_t>(link.place[i]));
+      for (std::size_t c = 0; c < columns; ++c) row[c] += link.weight[i] * of_place[c];
+    }
+  }
+  const auto is_stretched = [](const std::vector<double>& row) {
+    return std::ranges::any_of(row, [](double part) { return std::abs(part) > unstretched; });
+  };
+  if (std::ranges::none_of(carried, is_stretched)) carried.clear();
+  return carried;
+}
 
 StructureLinks::StructureLinks(const LinearSystem& system, std::size_t structure, double time_step)
     : structure_(structure),
@@ -102,6 +129,55 @@ void StructureLinks::note_records(std::span<const double> now, std::span<const d
     const double whole = force[b] + laws_[b]->counted(now[b]);
     records_.note(k, recorded_[b], whole, laws_[b]->has_yielded(memory_[b]));
     records_.add_work(k, whole * stretch[b]);
+  }
+}
+
+YieldGroups::YieldGroups(std::span<const Link> links) {
+  std::map<std::int64_t, std::size_t> circles;  // by element
+  std::map<std::int64_t, int> gauges;
+  for (std::size_t b = 0; b < links.size(); ++b) {
+    const LinkOrigin& origin = links[b].origin;
+    const auto component = static_cast<std::size_t>(origin.component);
+    if (origin.part == SpringPart::gauge) gauges[links[b].number] = static_cast<int>(b);
+    if (origin.section) groups_.push_back({{b}});
+    if (origin.section || origin.part != SpringPart::stiffness || origin.region == nullptr ||
+        !origin.region->nonlinear.yields(component)) {
+      continue;
+    }
+    const NonlinearSpring& spring = origin.region->nonlinear;
+    std::size_t place = groups_.size();
+    if (spring.is_in_circle(component)) {
+      place = circles.try_emplace(links[b].number, place).first->second;
+    }
+    if (place == groups_.size()) groups_.emplace_back();
+    groups_[place].links.push_back(b);
+    groups_[place].pressing = origin.region->stiffness[spring.circle[2]];
+    // Hardening carries its part without friction; a pendulum's slope is apart from it.
+    const double part = spring.radius > 0 ? 1 : 1 - spring.hardening;
+    groups_[place].friction = spring.friction * part * groups_[place].pressing;
+  }
+  for (const auto& [number, place] : circles) {
+    const auto gauge = gauges.find(number);
+    if (gauge != gauges.end()) groups_[place].gauge = gauge->second;
+  }
+}
+
+void YieldGroups::yield(std::span<const std::unique_ptr<LinkLaw>> laws, std::span<const double> now,
+                        LawMemory& memory) const {
+  for (const Group& group : groups_) {
+    const double pressed = group.gauge < 0 ? 0 : std::max(0.0, -now[group.gauge]);
+    double square = 0;
+    for (const std::size_t b : group.links) {
+      square += std::pow(laws[b]->trial(now[b], memory[b]), 2);
+    }
+    const double size = std::sqrt(square);
+    const double capacity =
+        group.gauge < 0 ? laws[group.links.front()]->capacity() : group.friction * pressed;
+    const double kept = size > capacity ? capacity / size : 1;
+    for (const std::size_t b : group.links) {
+      laws[b]->yield(now[b], kept, memory[b]);
+      if (group.gauge >= 0) laws[b]->press(group.pressing * pressed, memory[b]);
+    }
   }
 }
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "common/disjoint_sets.h"
-#include "elements/element.h"
+#include "elements/element_traits.h"
 #include "mesh/bounding_box.h"
 #include "mesh/component_bits.h"
 #include "mesh/near_nodes.h"

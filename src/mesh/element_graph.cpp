@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "elements/element.h"
+#include "elements/element_traits.h"
 #include "elements/measured_costs.h"
 
 namespace pounding {

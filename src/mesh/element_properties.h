@@ -1,6 +1,6 @@
 #pragma once
 
-#include "elements/element.h"
+#include "elements/element_traits.h"
 #include "scene/scene.h"
 
 namespace pounding {

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "common/error.h"
-#include "elements/element.h"
+#include "elements/element_traits.h"
 #include "mesh/bounding_box.h"
 
 namespace pounding {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "common/matrix3.h"
-#include "elements/element.h"
+#include "elements/element_traits.h"
 #include "mesh/component_bits.h"
 
 namespace pounding {

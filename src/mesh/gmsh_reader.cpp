@@ -12,7 +12,7 @@
 
 #include "common/error.h"
 #include "common/number_set.h"
-#include "elements/element.h"
+#include "elements/element_traits.h"
 #include "mesh/element_sizes.h"
 #include "mesh/facet_shares.h"
 #include "mesh/geometry_file.h"

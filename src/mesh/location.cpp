@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/parallel.h"
-#include "elements/element.h"
+#include "elements/element_traits.h"
 
 namespace pounding {
 namespace {

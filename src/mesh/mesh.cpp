@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "common/parallel.h"
-#include "elements/element.h"
+#include "elements/element_traits.h"
 
 namespace pounding {
 namespace {

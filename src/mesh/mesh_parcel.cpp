@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "elements/element.h"
+#include "elements/element_traits.h"
 #include "mesh/node_planes.h"
 
 namespace pounding {

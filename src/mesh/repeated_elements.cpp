@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/error.h"
-#include "elements/element.h"
+#include "elements/element_traits.h"
 
 namespace pounding {
 namespace {

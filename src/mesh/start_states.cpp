@@ -12,7 +12,7 @@
 #include "common/finite_file.h"
 #include "common/matrix3.h"
 #include "common/place_text.h"
-#include "elements/element.h"
+#include "elements/element_traits.h"
 #include "mesh/bounding_box.h"
 #include "scene/option_values.h"
 

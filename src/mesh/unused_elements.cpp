@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "common/number_set.h"
-#include "elements/element.h"
+#include "elements/element_traits.h"
 
 namespace pounding {
 namespace {

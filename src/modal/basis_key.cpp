@@ -6,7 +6,7 @@
 #include "common/error.h"
 #include "common/finite_file.h"
 #include "common/hash.h"
-#include "elements/element.h"
+#include "elements/element_traits.h"
 #include "mesh/element_properties.h"
 #include "system/matrix_system.h"
 

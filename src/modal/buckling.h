@@ -2,7 +2,7 @@
 
 #include "mesh/mesh.h"
 #include "scene/scene.h"
-#include "system/axial_forces.h"
+#include "system/element_forces.h"
 #include "system/linear_system.h"
 
 namespace pounding {

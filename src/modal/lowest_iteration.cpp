@@ -7,7 +7,6 @@
 #include "modal/eigen_solver.h"
 #include "modal/factorisation.h"
 #include "system/factor_plan.h"
-#include "system/near_null_space.h"
 
 namespace pounding {
 namespace {

@@ -20,7 +20,6 @@
 #include "modal/static_loads.h"
 #include "system/admissible_motions.h"
 #include "system/load_shapes.h"
-#include "system/start_state.h"
 #include "system/support_shapes.h"
 
 namespace pounding {

@@ -9,9 +9,9 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
-#include "stiffness/diagonal_stiffness.h"
-#include "system/critical_time_step.h"
+#include "stiffness/stiffness.h"
 #include "system/links.h"
+#include "system/mass_scaling.h"
 #include "system/support_shapes.h"
 
 namespace pounding {

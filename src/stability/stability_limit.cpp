@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "modal/scaled_operator.h"
-#include "system/critical_time_step.h"
+#include "system/mass_scaling.h"
 
 namespace pounding {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "system/critical_time_step.h"
+#include "system/mass_scaling.h"
 
 namespace pounding {
 

@@ -10,7 +10,7 @@
 #include "modal/modal_analysis.h"
 #include "stability/stable_time_step.h"
 #include "stability/structure_limits.h"
-#include "system/build_system.h"
+#include "system/finite_element_system.h"
 #include "system/rotary_scaling.h"
 
 namespace pounding {

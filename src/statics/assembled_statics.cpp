@@ -10,7 +10,6 @@
 #include "common/parallel.h"
 #include "statics/link_terms.h"
 #include "system/factor_plan.h"
-#include "system/near_null_space.h"
 
 namespace pounding {
 namespace {

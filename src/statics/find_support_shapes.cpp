@@ -7,7 +7,7 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "statics/assembled_statics.h"
-#include "system/near_null_space.h"
+#include "system/factor_plan.h"
 
 namespace pounding {
 namespace {

@@ -7,7 +7,7 @@
 #include "common/lanes.h"
 #include "common/matrix3.h"
 #include "common/types.h"
-#include "elements/element.h"
+#include "elements/element_traits.h"
 
 namespace pounding::stiffness {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "elements/element.h"
+#include "elements/element_traits.h"
 #include "mesh/mesh.h"
 
 /// Place and dofs of an element, which every sweep over a mesh asks first.

@@ -4,6 +4,8 @@
 
 #include "elements/geometric_stiffness.h"
 #include "mesh/element_properties.h"
+#include "stiffness/bricks/brick_stencil.h"
+#include "stiffness/shells/shell_kernel.h"
 
 namespace pounding::stiffness {
 namespace {
@@ -154,8 +156,7 @@ void ElementSorter::add_general(const Element& element) {
 /// Elements that fit in no row leave the set for those of general shape.
 template <std::size_t lines>
 ElementRows<lines> ElementSorter::form_rows(RowSet<lines>& set) {
-  ElementRows<lines> rows = forms_.best_axis ? best_rows(set.rows, mesh_.node_count())
-                                             : find_rows(set.rows, mesh_.node_count(), 0);
+  ElementRows<lines> rows = best_rows(set.rows, mesh_.node_count());
   std::vector<Element> kept;
   auto left = rows.left_over.begin();
   for (std::size_t e = 0; e < set.elements.size(); ++e) {
@@ -174,13 +175,13 @@ ElementRows<lines> ElementSorter::form_rows(RowSet<lines>& set) {
 std::vector<std::unique_ptr<ElementLines>> ElementSorter::element_lines(bool outer) {
   std::vector<std::unique_ptr<ElementLines>> lines;
   for (const auto& [frame, set] : largest_first(brick_sets_[outer ? 1 : 0])) {
-    lines.push_back(std::make_unique<BrickLines>(places_, element_shapes_.axes(frame),
-                                                 brick_shapes_, form_rows(*set), forms_));
+    lines.push_back(
+        brick_lines(places_, element_shapes_.axes(frame), brick_shapes_, form_rows(*set)));
   }
   for (const auto& [key, set] : largest_first(rectangle_sets_[outer ? 1 : 0])) {
     const auto& [frame, normal] = key;
-    lines.push_back(std::make_unique<ShellLines>(places_, element_shapes_.axes(frame), normal,
-                                                 rectangle_shapes_, form_rows(*set), forms_));
+    lines.push_back(shell_lines(places_, element_shapes_.axes(frame), normal, rectangle_shapes_,
+                                form_rows(*set)));
   }
   return lines;
 }

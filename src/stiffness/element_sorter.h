@@ -11,10 +11,9 @@
 #include "stiffness/assembled_rows.h"
 #include "stiffness/beam_elements.h"
 #include "stiffness/bricks/brick_lines.h"
-#include "stiffness/element_kinds.h"
 #include "stiffness/element_loop.h"
 #include "stiffness/element_shapes.h"
-#include "stiffness/rows/product_forms.h"
+#include "stiffness/rows/product.h"
 #include "stiffness/shells/shell_lines.h"
 #include "stiffness/strain_sorter.h"
 

@@ -38,14 +38,12 @@ class TouchCounter {
 
 /// Chains to which nothing else adds hand over their forces.
 void hand_over_alone(const std::vector<std::unique_ptr<ElementLines>>& all,
-                     const ProductForms& forms, const TouchCounter& counter,
-                     std::vector<char>& handed_over) {
+                     const TouchCounter& counter, std::vector<char>& handed_over) {
   for (const auto& lines : all) {
     std::vector<char> alone;
     for (std::size_t c = 0; c < lines->chain_count(); ++c) {
       const DofRange range = lines->chain_range(c);
-      const bool hands_over =
-          forms.hand_over && !range.empty() && counter.alone(range, lines->chain_dofs(c));
+      const bool hands_over = !range.empty() && counter.alone(range, lines->chain_dofs(c));
       alone.push_back(hands_over ? 1 : 0);
       if (alone.back() == 0) continue;
       std::fill(handed_over.begin() + range.begin, handed_over.begin() + range.end, 1);
@@ -90,7 +88,7 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
     argument_ = ZeroedArray(places);
     force_ = ZeroedArray(places);
     kinds_ = sorter.kinds();
-    plan(forms);
+    plan();
   });
   for (GlobalIndex* const count :
        {&kinds_.bricks, &kinds_.rectangles, &kinds_.general, &kinds_.beams, &kinds_.other}) {
@@ -101,7 +99,7 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
 ElementStiffness::~ElementStiffness() = default;
 
 /// Decides which chains of nodes may hand their forces over, by going through a product.
-void ElementStiffness::plan(const ProductForms& forms) {
+void ElementStiffness::plan() {
   std::vector<LocalIndex> early = inner_.dofs;
   early.insert(early.end(), sparse_->owned_rows().begin(), sparse_->owned_rows().end());
   TouchCounter counter(owned_dofs_);
@@ -115,7 +113,7 @@ void ElementStiffness::plan(const ProductForms& forms) {
   }
   std::vector<char> handed_over(owned_dofs_, 0);
   for (const Part* part : {&inner_, &outer_}) {
-    hand_over_alone(part->lines, forms, counter, handed_over);
+    hand_over_alone(part->lines, counter, handed_over);
   }
   for (LocalIndex dof = 0; dof < owned_dofs_; ++dof) {
     if (handed_over[dof] == 0) append(late_ranges_, dof);

@@ -9,9 +9,7 @@
 #include "scene/scene.h"
 #include "stiffness/assembled_rows.h"
 #include "stiffness/beam_elements.h"
-#include "stiffness/element_kinds.h"
-#include "stiffness/rows/element_lines.h"
-#include "stiffness/rows/product_forms.h"
+#include "stiffness/rows/product.h"
 #include "stiffness/stiffness.h"
 
 namespace pounding::stiffness {
@@ -55,7 +53,7 @@ class ElementStiffness final : public Stiffness {
     std::unique_ptr<BeamElements> beams;
     std::vector<LocalIndex> dofs;  ///< owned, of all but the rows; some more than once
   };
-  void plan(const ProductForms& forms);
+  void plan();
   void add_general(const Part& part) const;
   StiffnessArgument relative_to_origin(StiffnessArgument w) const;
 

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "common/petsc.h"
+#include "mesh/mesh.h"
 #include "stiffness/rows/product.h"
 
 namespace pounding::stiffness {
@@ -41,5 +45,33 @@ class AssembledStiffness final : public Stiffness {
   VecHandle argument_;
   VecHandle force_;
 };
+
+/// K as a diagonal: omega^2 of generalised coordinates whose basis is orthonormal in M. Nothing is
+/// exchanged between ranks.
+class DiagonalStiffness final : public Stiffness {
+ public:
+  /// `diagonal` of the owned dofs. Collective over `comm`.
+  DiagonalStiffness(MPI_Comm comm, std::vector<double> diagonal);
+  using Stiffness::apply;
+  void start(const StiffnessArgument&) const override {}
+  void finish(const StiffnessArgument& w, ForceReceiver& receiver) const override;
+  void apply(Vec w, Vec q) const override;
+  Mat matrix() const override { return matrix_.get(); }
+
+ private:
+  std::vector<double> diagonal_;
+  mutable std::vector<double> force_;
+  MatHandle matrix_;
+};
+
+// Empty PETSc matrices, from which an assembly starts.
+
+/// An empty symmetric AIJ matrix with room for what the elements of some blocks of a structure
+/// couple (all if `chosen` is empty); rows and columns over its owned dofs. Collective.
+MatHandle create_matrix(const Mesh& mesh,
+                        const std::function<bool(const ElementBlock&)>& chosen = {});
+
+/// Global numbers of all local dofs, owned then ghost.
+std::vector<PetscInt> global_numbers(const Mesh& mesh);
 
 }  // namespace pounding::stiffness

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "mesh/element_properties.h"
-#include "stiffness/strains/extrusion.h"
+#include "stiffness/strains/hexahedron_strains.h"
 
 namespace pounding::stiffness {
 namespace {

@@ -9,11 +9,10 @@
 #include "scene/scene.h"
 #include "stiffness/element_loop.h"
 #include "stiffness/element_shapes.h"
-#include "stiffness/rows/dof_places.h"
+#include "stiffness/rows/product.h"
 #include "stiffness/strains/hexahedron_strains.h"
-#include "stiffness/strains/quadrangle_strains.h"
+#include "stiffness/strains/shell_strains.h"
 #include "stiffness/strains/strain_elements.h"
-#include "stiffness/strains/triangle_strains.h"
 
 namespace pounding::stiffness {
 

@@ -1,12 +1,42 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
-#include "system/node_blocks.h"
+#include "common/types.h"
 
 namespace pounding {
+
+/// Owned dofs of one node, at most six, that follow each other.
+struct NodeDofs {
+  LocalIndex begin = 0;
+  int count = 0;
+};
+
+/// Six by six numbers of a pair of nodes, row by row; 0 where a node has no dof.
+using NodeBlock = std::array<double, 36>;
+
+/// A symmetric matrix over the dofs of a few nodes of this rank, by blocks of two nodes.
+struct NodeBlocks {
+  std::vector<NodeDofs> nodes;                     ///< by their dofs
+  std::map<std::array<int, 2>, NodeBlock> blocks;  ///< (row, column) into nodes, row >= column
+};
+
+/// An order in which to eliminate the vertices of a graph, and the graph of the factor.
+struct Elimination {
+  std::vector<int> order;                 ///< vertex by vertex
+  std::vector<std::vector<int>> columns;  ///< per vertex: those left that it is connected with then
+};
+
+/// Rounds of vertices of the smallest degree that are no neighbours of each other (multiple minimum
+/// degree). `neighbours` of each vertex, symmetric, without itself. Nothing where the columns would
+/// hold more than `most` entries.
+std::optional<Elimination> eliminate(std::vector<std::set<int>> neighbours, std::size_t most);
 
 /// Sparse block factorisation of M + S, M diagonal and S symmetric positive semidefinite,
 ///

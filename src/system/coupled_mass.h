@@ -4,9 +4,7 @@
 #include <vector>
 
 #include "system/block_factorisation.h"
-#include "system/node_blocks.h"
 #include "system/rigid_body.h"
-#include "system/tied_part.h"
 
 namespace pounding {
 

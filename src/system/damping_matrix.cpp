@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 
-#include "elements/element.h"
+#include "elements/element_traits.h"
 #include "interactions/laws/law_of.h"
 #include "mesh/element_properties.h"
 #include "stiffness/element_loop.h"
-#include "stiffness/sparse_matrix.h"
+#include "stiffness/stiffness.h"
 
 namespace pounding {
 namespace {

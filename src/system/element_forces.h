@@ -1,16 +1,37 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "common/types.h"
 #include "mesh/force_places.h"
 #include "mesh/mesh.h"
+#include "scene/scene.h"
 #include "system/linear_system.h"
 #include "system/trace.h"
 
 namespace pounding {
+
+/// Force along and moment about x, y, z [N, N m].
+using Wrench = std::array<double, 6>;
+
+/// Adds a force along, or a moment about, an axis at `x` to a wrench about `point`; `component` as
+/// of dofs, 0-2 and 3-5.
+inline void add_unit_force(const Vector3& point, const Vector3& x, int component, double force,
+                           Wrench& wrench) {
+  const auto c = static_cast<std::size_t>(component);
+  wrench[c] += force;
+  if (c >= 3) return;
+  const std::size_t next = (c + 1) % 3;  // moment = arm x force
+  const std::size_t last = (c + 2) % 3;
+  wrench[3 + next] += (x[last] - point[last]) * force;
+  wrench[3 + last] -= (x[next] - point[next]) * force;
+}
 
 /// Elastic forces of chosen elements of a structure, those of K_e u_e or at the centres of shells:
 /// each is a linear form of the displacements of the nodes there, which in generalised coordinates
@@ -52,7 +73,7 @@ class ElementForces {
   std::vector<double> field_;
 };
 
-/// Names of the forces of an element, of shell_forces.h or end_forces.h.
+/// Names of the forces of an element, see force_rows.h.
 std::span<const std::string_view> element_force_names(ElementType type);
 
 /// Rows of the members or shells of an item, from `first` on, element after element in the item's
@@ -65,5 +86,21 @@ std::vector<ElementForces::Row> member_rows(const Structure& structure, const Me
 std::vector<ElementForces::Row> total_rows(const Structure& structure, const Mesh& mesh,
                                            const ForceItem& item, const ResolvedForce& passing,
                                            std::size_t first);
+
+/// The most compressed beam or bar of a structure.
+struct LargestCompression {
+  double force = 0;   ///< compression above 0; 0 if there is none [N]
+  std::string place;  ///< the element and its group; empty if there is none
+};
+
+/// Values of a field over the owned dofs at all local dofs, ghosts included. Collective.
+std::vector<double> with_ghosts(const Mesh& mesh, const std::vector<double>& owned);
+
+/// Gives every beam and bar of a mesh the axial force that it has under the displacements of its
+/// owned dofs. Forces are rounded to a power of two of 1e-9 of the largest one, so that the
+/// round-off of a solution, which differs from run to run, does not reach the stiffness. The same
+/// on all ranks; collective.
+LargestCompression set_axial_forces(const Structure& structure,
+                                    const std::vector<double>& displacement, Mesh& mesh);
 
 }  // namespace pounding

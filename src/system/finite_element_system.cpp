@@ -12,12 +12,13 @@
 #include "mesh/location.h"
 #include "stiffness/element_loop.h"
 #include "stiffness/element_stiffness.h"
-#include "stiffness/sparse_matrix.h"
+#include "stiffness/stiffness.h"
 #include "system/each_element.h"
 #include "system/element_bounds.h"
 #include "system/inelastic_laws.h"
 #include "system/links.h"
 #include "system/massless_followers.h"
+#include "system/matrix_system.h"
 #include "system/rotary_scaling.h"
 #include "system/scaled_mass.h"
 
@@ -303,8 +304,9 @@ std::string describe(const stiffness::ElementKinds& kinds) {
 
 }  // namespace
 
-LinearSystem build_finite_element_system(const Structure& structure, const Mesh& mesh,
-                                         StiffnessMethod method, bool with_matrix) {
+LinearSystem build_system(const Structure& structure, const Mesh& mesh, StiffnessMethod method,
+                          bool with_matrix) {
+  if (!structure.matrices.empty()) return build_matrix_system(structure, mesh);
   LinearSystem system = describe_system(structure, mesh);
   system.links = Links::build(structure, mesh);
   const bool by_element = multiplies_elements(mesh, method);

@@ -7,10 +7,10 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
-#include "elements/element.h"
+#include "elements/element_traits.h"
 #include "mesh/location.h"
+#include "system/inelastic_laws.h"
 #include "system/support_shapes.h"
-#include "system/yielding_beams.h"
 
 namespace pounding {
 namespace {

@@ -13,10 +13,10 @@
 #include "common/dense_eigenvalues.h"
 #include "common/disjoint_sets.h"
 #include "common/error.h"
-#include "elements/element.h"
+#include "elements/element_traits.h"
 #include "interactions/laws/law_of.h"
 #include "mesh/element_properties.h"
-#include "system/elimination_order.h"
+#include "system/block_factorisation.h"
 
 namespace pounding {
 namespace {

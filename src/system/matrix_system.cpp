@@ -15,7 +15,7 @@
 #include "common/parallel.h"
 #include "common/place_text.h"
 #include "io/matrix_market.h"
-#include "system/critical_time_step.h"
+#include "system/mass_scaling.h"
 #include "system/square_matrix.h"
 
 namespace pounding {

@@ -9,7 +9,6 @@
 #include "common/dense_solver.h"
 #include "common/matrix3.h"
 #include "mesh/element_properties.h"
-#include "system/critical_time_step.h"
 #include "system/mass_scaling.h"
 
 namespace pounding {

@@ -147,23 +147,18 @@ void ScaledMass::share(LinearSystem& system) const {
   MassScaling& report = system.mass_scaling;
   report = report_;
   report.time_step = structure_.mass_scaling;
-  std::array<GlobalIndex, 2> counts{report.elements, report.dofs};
-  std::array<double, 2> largest{report.largest_factor, report.row_frequency};
-  MPI_Allreduce(MPI_IN_PLACE, counts.data(), 2, MPI_INT64_T, MPI_SUM, mesh_.comm);
-  MPI_Allreduce(MPI_IN_PLACE, largest.data(), 2, MPI_DOUBLE, MPI_MAX, mesh_.comm);
-  report.elements = counts[0];
-  report.dofs = counts[1];
-  report.largest_factor = largest[0];
-  report.row_frequency = largest[1];
+  for (GlobalIndex* const count : {&report.elements, &report.dofs}) {
+    MPI_Allreduce(MPI_IN_PLACE, count, 1, MPI_INT64_T, MPI_SUM, mesh_.comm);
+  }
+  for (double* const largest : {&report.largest_factor, &report.row_frequency}) {
+    MPI_Allreduce(MPI_IN_PLACE, largest, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm);
+  }
   system.rigid_bodies = bodies_;
   for (RigidBodyReport& body : system.rigid_bodies) {
-    std::array<GlobalIndex, 4> sums{body.bodies, body.nodes, body.dofs, body.motions};
-    MPI_Allreduce(MPI_IN_PLACE, sums.data(), 4, MPI_INT64_T, MPI_SUM, mesh_.comm);
+    for (GlobalIndex* const sum : {&body.bodies, &body.nodes, &body.dofs, &body.motions}) {
+      MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPI_INT64_T, MPI_SUM, mesh_.comm);
+    }
     MPI_Allreduce(MPI_IN_PLACE, &body.mass, 1, MPI_DOUBLE, MPI_SUM, mesh_.comm);
-    body.bodies = sums[0];
-    body.nodes = sums[1];
-    body.dofs = sums[2];
-    body.motions = sums[3];
   }
 }
 

@@ -5,11 +5,11 @@
 #include <span>
 #include <vector>
 
-#include "elements/element.h"
+#include "elements/element_traits.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
+#include "system/block_factorisation.h"
 #include "system/linear_system.h"
-#include "system/node_blocks.h"
 
 namespace pounding {
 

@@ -145,7 +145,7 @@ SteppedModel build_stepped_model(MPI_Comm comm, const ModelRequest& request,
   double stable = std::numeric_limits<double>::infinity();
   for (const Mesh& mesh : model.meshes) {
     model.structures.push_back(concrete_structure(mesh.structure, request));
-    model.systems.push_back(build_finite_element_system(model.structures.back(), mesh, method));
+    model.systems.push_back(pounding::build_system(model.structures.back(), mesh, method));
     const LinearSystem& system = model.systems.back();
     stable = std::min(stable, stable_time_step(system.damping, system.element_frequency_bound));
   }

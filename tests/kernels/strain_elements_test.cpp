@@ -10,10 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "common/matrix3.h"
-#include "elements/element.h"
+#include "elements/element_traits.h"
 #include "stiffness/strains/hexahedron_strains.h"
-#include "stiffness/strains/quadrangle_strains.h"
-#include "stiffness/strains/triangle_strains.h"
+#include "stiffness/strains/shell_strains.h"
 
 namespace pounding::stiffness {
 namespace {

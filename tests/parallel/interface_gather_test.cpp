@@ -1,9 +1,8 @@
-#include "interactions/interface_gather.h"
-
 #include <gtest/gtest.h>
 #include <petscsys.h>
 
 #include "common/parallel.h"
+#include "interactions/interface_rows.h"
 
 namespace pounding {
 namespace interface_gather_test {

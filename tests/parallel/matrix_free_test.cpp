@@ -21,8 +21,8 @@ struct Pair {
 
 Pair build_pair(const GlobalMesh& mesh, const Structure& structure, bool with_matrix = false) {
   Pair pair{build_system(mesh, structure), build_system(mesh, structure)};
-  pair.by_element.system = build_finite_element_system(structure, pair.by_element.mesh,
-                                                       StiffnessMethod::element, with_matrix);
+  pair.by_element.system = pounding::build_system(structure, pair.by_element.mesh,
+                                                  StiffnessMethod::element, with_matrix);
   return pair;
 }
 

@@ -241,7 +241,7 @@ TEST(ShellStiffness, IsChosenForShells) {
   FrameMesh frame = floor_on_columns();
   const auto built = testing_support::build_system(frame.mesh(), frame.structure());
   const LinearSystem system =
-      build_finite_element_system(frame.structure(), built.mesh, StiffnessMethod::automatic);
+      pounding::build_system(frame.structure(), built.mesh, StiffnessMethod::automatic);
   EXPECT_EQ(system.stiffness_method,
             "element by element (0 bricks, 80 rectangles, 0 general, 60 beams, 0 others)");
 }
@@ -253,7 +253,7 @@ TEST(ShellStiffness, IsChosenForIrregularQuadranglesAndNotForFrames) {
   });
   const auto method = [](FrameMesh& frame, StiffnessMethod asked) {
     const auto built = testing_support::build_system(frame.mesh(), frame.structure());
-    return build_finite_element_system(frame.structure(), built.mesh, asked).stiffness_method;
+    return pounding::build_system(frame.structure(), built.mesh, asked).stiffness_method;
   };
   const std::string general =
       "element by element (0 bricks, 0 rectangles, 96 general, 0 beams, 0 others)";

@@ -16,7 +16,7 @@ struct BuiltSystem {
 inline BuiltSystem build_system(MPI_Comm comm, const GlobalMesh& global, const Structure& structure,
                                 const Partition& partition) {
   BuiltSystem built{distribute_mesh(comm, structure.name, global, partition, 0), {}};
-  built.system = build_finite_element_system(structure, built.mesh);
+  built.system = pounding::build_system(structure, built.mesh);
   return built;
 }
 

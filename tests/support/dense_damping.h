@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "elements/element.h"
+#include "elements/element_traits.h"
 #include "mesh/element_properties.h"
 #include "mesh/global_mesh.h"
 #include "scene/scene.h"

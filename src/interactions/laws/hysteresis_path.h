@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 
 #include "scene/hysteresis.h"
@@ -28,5 +29,8 @@ class HysteresisPath {
   /// forces of the skeleton beyond its first line, which sliders alone can follow; 1 of all others.
   virtual State follow(double from, double to, std::span<double> memory, double strength) const = 0;
 };
+
+/// Path of a law by its rule.
+std::unique_ptr<HysteresisPath> make_path(const Hysteresis& law);
 
 }  // namespace pounding::interactions

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "interactions/laws/make_path.h"
+#include "interactions/laws/hysteresis_path.h"
 
 namespace pounding::interactions {
 namespace {

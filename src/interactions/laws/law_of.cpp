@@ -3,14 +3,8 @@
 #include <utility>
 #include <vector>
 
-#include "interactions/laws/damper_law.h"
 #include "interactions/laws/dashpot_law.h"
-#include "interactions/laws/gauge_law.h"
-#include "interactions/laws/hysteretic_link.h"
-#include "interactions/laws/pendulum_law.h"
-#include "interactions/laws/relieving_law.h"
-#include "interactions/laws/series_law.h"
-#include "interactions/laws/soil_law.h"
+#include "interactions/laws/hysteretic_law.h"
 #include "interactions/laws/tension_law.h"
 #include "interactions/laws/yield_law.h"
 
@@ -54,39 +48,45 @@ std::unique_ptr<LinkLaw> dashpot_of(const LinkOrigin& origin, double time_step) 
   return std::make_unique<DashpotLaw>(strength / (2 * time_step));
 }
 
-/// Law of a bar, or of a component of a spring, whose stiffness is no part of K.
+/// Law with these arguments, less what K holds of it already where that is so.
+template <typename Law, typename... Arguments>
+std::unique_ptr<LinkLaw> stiff(const LinkOrigin& origin, Arguments&&... arguments) {
+  if (!origin.in_stiffness) return std::make_unique<Law>(std::forward<Arguments>(arguments)...);
+  return std::make_unique<RelievingLaw<Law>>(std::forward<Arguments>(arguments)...);
+}
+
+/// Law of a bar, or of a component of a spring.
 std::unique_ptr<LinkLaw> stiff_law(const LinkOrigin& origin, double time_step,
                                    const UniformDamping* uniform) {
-  if (origin.section) return std::make_unique<HystereticLink>(*origin.section);
+  if (origin.section) return stiff<HystereticLink>(origin, *origin.section);
   const Region& region = *origin.region;
   const bool spring = is_spring(region.element);
   const double stiffness = spring ? origin.share * region.stiffness[origin.component]
                                   : region.material.young * region.area / origin.length;
   if (region.nonlinear.radius > 0 && region.nonlinear.is_in_circle(origin.component)) {
-    return std::make_unique<PendulumLaw>(stiffness, region.nonlinear.hardening,
-                                         region.nonlinear.radius);
+    return stiff<PendulumLaw>(origin, stiffness, region.nonlinear.hardening,
+                              region.nonlinear.radius);
   }
   const auto component = static_cast<std::size_t>(origin.component);
   if (region.nonlinear.is_hysteretic(component)) {
-    return std::make_unique<HystereticLink>(
-        region.nonlinear.law_of(component, stiffness, spring ? 1 : origin.length));
+    return stiff<HystereticLink>(
+        origin, region.nonlinear.law_of(component, stiffness, spring ? 1 : origin.length));
   }
   if (region.nonlinear.yields(component)) {
-    return std::make_unique<YieldLaw>(stiffness, region.nonlinear.hardening,
-                                      region.nonlinear.yield_force[component],
-                                      region.nonlinear.friction > 0);
+    return stiff<YieldLaw>(origin, stiffness, region.nonlinear.hardening,
+                           region.nonlinear.yield_force[component], region.nonlinear.friction > 0);
   }
   // The elongation of a compression-only spring is how far it is pressed down.
   const double damping = origin.beta * stiffness + (spring ? origin.share * region.dashpot[2] : 0);
   const double rate = damping / (2 * time_step);
   const double slack = region.nonlinear.slack;
-  if (uniform == nullptr) return std::make_unique<TensionLaw>(stiffness, rate, slack);
+  if (uniform == nullptr) return stiff<TensionLaw>(origin, stiffness, rate, slack);
   std::vector<MaxwellBranch> branches;
   for (const DampingFilter& filter : uniform->filters) {
     branches.push_back({uniform->at_rest() * filter.weight * stiffness, filter.rate});
   }
-  return std::make_unique<TensionLaw>(stiffness, rate, slack, uniform->at_rest(),
-                                      std::move(branches), time_step);
+  return stiff<TensionLaw>(origin, stiffness, rate, slack, uniform->at_rest(), std::move(branches),
+                           time_step);
 }
 
 }  // namespace
@@ -105,9 +105,7 @@ std::unique_ptr<LinkLaw> law_of(const LinkOrigin& origin, double time_step,
   if (is_spring(region.element) && origin.part == SpringPart::dashpot) {
     return dashpot_of(origin, time_step);
   }
-  auto law = stiff_law(origin, time_step, uniform);
-  if (!origin.in_stiffness) return law;
-  return std::make_unique<RelievingLaw>(std::move(law));
+  return stiff_law(origin, time_step, uniform);
 }
 
 }  // namespace pounding::interactions

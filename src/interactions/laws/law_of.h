@@ -1,12 +1,40 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "interactions/laws/link_law.h"
 #include "scene/scene.h"
 
 namespace pounding::interactions {
+
+/// Law of a link whose tangent k is part of K already, as in a structure reduced to the modes that
+/// it has with every link at its stiffest: the pull of the link itself, less k e_n, so that both
+/// together are the link. Its energy likewise, less 1/2 k e_n e_{n+1}: it is negative where K
+/// counts more than the link holds.
+template <typename Law>
+class RelievingLaw final : public Law {
+ public:
+  using Law::Law;
+  using Memory = LinkLaw::Memory;
+
+  double force(double before, double now, double after, Memory memory = {}) const override {
+    return Law::force(before, now, after, memory) - Law::tangent() * now;
+  }
+  double solve(double before, double now, double free_after, double compliance,
+               Memory memory = {}) const override {
+    if (this->is_explicit()) return force(before, now, free_after, memory);
+    const double held = counted(now);
+    return Law::solve(before, now, free_after + compliance * held, compliance, memory) - held;
+  }
+  double energy(double now, double after, Memory memory = {}) const override {
+    return Law::energy(now, after, memory) - Law::tangent() * now * after / 2;
+  }
+  double tangent() const override { return 0; }
+  double counted(double now) const override { return Law::tangent() * now; }
+  bool is_idle(double /*now*/, Memory = {}) const override { return false; }
+};
 
 /// Whether the elements of a region are links, or hold some: tension-only bars, compression-only
 /// springs, what yields, springs with dashpots, soil under a mat.

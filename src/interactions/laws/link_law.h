@@ -16,21 +16,25 @@ namespace pounding::interactions {
 /// stores. Pure functions: no MPI, no PETSc.
 class LinkLaw {
  public:
+  using Memory = std::span<const double>;
+
   virtual ~LinkLaw() = default;
 
   /// N_n [N] of known elongations [m].
-  virtual double force(double before, double now, double after,
-                       std::span<const double> memory = {}) const = 0;
+  virtual double force(double before, double now, double after, Memory memory = {}) const = 0;
   /// N_n [N] where e_{n+1} = free_after - compliance N_n; `free_after` [m] without the link,
-  /// `compliance` = dt^2 b^T M^-1 b [m/N], not negative.
-  virtual double solve(double before, double now, double free_after, double compliance,
-                       std::span<const double> memory = {}) const = 0;
+  /// `compliance` = dt^2 b^T M^-1 b [m/N], not negative. That of an explicit law unless it says
+  /// otherwise.
+  virtual double solve(double before, double now, double free_after, double /*compliance*/,
+                       Memory memory = {}) const {
+    return force(before, now, free_after, memory);
+  }
   /// W_{n+1/2} [J], the energy that the link holds between two elongations one step apart.
-  virtual double energy(double now, double after, std::span<const double> memory = {}) const = 0;
+  virtual double energy(double /*now*/, double /*after*/, Memory = {}) const { return 0; }
   /// Largest dN/de [N/m], that of the element in the matrix that sets the stable step.
-  virtual double tangent() const = 0;
+  virtual double tangent() const { return 0; }
   /// Whether it pulls at no elongation that it can reach in this step: it need not be looked at.
-  virtual bool is_idle(double now, std::span<const double> memory = {}) const = 0;
+  virtual bool is_idle(double /*now*/, Memory = {}) const { return false; }
 
   /// Whether its force follows from e_n and its memory alone, whatever the other rows pull.
   virtual bool is_explicit() const { return false; }
@@ -40,49 +44,43 @@ class LinkLaw {
   /// from e_n alone.
   virtual bool holds_a_known_force() const { return false; }
   /// N_n [N] of a step in which it does not let go, the most that it can be.
-  virtual double full(double /*now*/, std::span<const double> /*memory*/) const { return 0; }
+  virtual double full(double /*now*/, Memory) const { return 0; }
   /// Least e_{n+1} of such a step [m].
-  virtual double holds_down_to(double /*before*/, std::span<const double> /*memory*/) const {
-    return 0;
-  }
+  virtual double holds_down_to(double /*before*/, Memory) const { return 0; }
   /// Elongation up to which it never pulls [m].
-  virtual double slack(std::span<const double> /*memory*/) const { return 0; }
+  virtual double slack(Memory) const { return 0; }
   /// Takes e_0 of the rest from which the run starts, before its first step.
   virtual void rest(double /*now*/, std::span<double> /*memory*/) const {}
   /// Whether it has left its straight line for good.
-  virtual bool has_yielded(std::span<const double> /*memory*/) const { return false; }
+  virtual bool has_yielded(Memory) const { return false; }
 
   /// Whether its loss is plastic work: of yielding, damage or crushing.
   virtual bool loses_plastic_work() const { return false; }
   /// Largest elongation over that of the first corner of its skeleton; below 0 without one.
-  virtual double ductility(std::span<const double> /*memory*/) const { return -1; }
+  virtual double ductility(Memory) const { return -1; }
   /// Energy that a law with a skeleton lost so far [J].
-  virtual double lost(std::span<const double> /*memory*/) const { return 0; }
+  virtual double lost(Memory) const { return 0; }
 
   /// Rate r [N/m] of a law N_n = r (e_{n+1} - e_{n-1}) + offset, 0 of any other: such links are
   /// solved for together, and their elongations are counted from e_n, so that these have no
   /// round-off of a large one. `share`: of a step, for which the force acts; half of the first one.
   virtual double rate(double /*share*/ = 1) const { return 0; }
   /// Its offset [N], which knows differences of elongations only.
-  virtual double offset(double /*before*/, double /*now*/, double /*share*/,
-                        std::span<const double> /*memory*/) const {
+  virtual double offset(double /*before*/, double /*now*/, double /*share*/, Memory) const {
     return 0;
   }
   /// Force that a law would carry in a step from e_n if it did not yield in it [N]; 0 of a law that
   /// never yields.
-  virtual double trial(double /*now*/, std::span<const double> /*memory*/) const { return 0; }
+  virtual double trial(double /*now*/, Memory) const { return 0; }
   /// Most of its trial that it carries [N]; 0 of a law that never yields.
   virtual double capacity() const { return 0; }
   /// Takes the force that presses on it in a step from t_n [N], before any force of its own is
   /// asked for.
   virtual void press(double /*force*/, std::span<double> /*memory*/) const {}
   /// Whether it was ever pressed harder than the law goes.
-  virtual bool was_overpressed(std::span<const double> /*memory*/) const { return false; }
+  virtual bool was_overpressed(Memory) const { return false; }
   /// Energy that the change of this force since the last step gives it from outside [J].
-  virtual double given(double /*before*/, double /*now*/,
-                       std::span<const double> /*memory*/) const {
-    return 0;
-  }
+  virtual double given(double /*before*/, double /*now*/, Memory) const { return 0; }
   /// Yields in a step from e_n, before any force of it is asked for, until `kept` of its trial is
   /// left; 1: it does not yield.
   virtual void yield(double /*now*/, double /*kept*/, std::span<double> /*memory*/) const {}

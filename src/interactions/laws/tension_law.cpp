@@ -14,7 +14,7 @@ double positive_root(double a, double b, double c) {
 
 }  // namespace
 
-double TensionLaw::energy(double now, double after, std::span<const double> memory) const {
+double TensionLaw::energy(double now, double after, Memory memory) const {
   const double slack = this->slack(memory);
   double held = stiffness_ * std::max(0.0, now - slack) * std::max(0.0, after - slack) / 2;
   for (std::size_t i = 0; i < branches_.size() && !memory.empty(); ++i) {
@@ -23,20 +23,19 @@ double TensionLaw::energy(double now, double after, std::span<const double> memo
   return held;
 }
 
-double TensionLaw::force(double before, double now, double after,
-                         std::span<const double> memory) const {
+double TensionLaw::force(double before, double now, double after, Memory memory) const {
   const double slack = this->slack(memory);
   return stretched_force(damping(1, memory), before - slack, now - slack, after - slack);
 }
 
 double TensionLaw::solve(double before, double now, double free_after, double compliance,
-                         std::span<const double> memory) const {
+                         Memory memory) const {
   const double slack = this->slack(memory);
   return solve_stretched(damping(1, memory), before - slack, now - slack, free_after - slack,
                          compliance);
 }
 
-TensionLaw::Damping TensionLaw::damping(double share, std::span<const double> memory) const {
+TensionLaw::Damping TensionLaw::damping(double share, Memory memory) const {
   Damping all{damping_rate_, 0};
   for (std::size_t i = 0; i < branches_.size() && !memory.empty(); ++i) {
     const double kept = 1 + branches_[i].rate * share * time_step_ / 2;
@@ -104,6 +103,57 @@ void TensionLaw::remember(double before, double now, double after, double share,
     const double grown = share * branches_[i].stiffness * way / 2;
     memory[i] = (memory[i] * (1 - turn) + grown) / (1 + turn);
   }
+}
+
+FillerLaw::FillerLaw(const Filler& filler, double thickness, double area)
+    : points_(1), spring_(filler.stiffness(thickness, area), 0) {
+  for (const Filler::Point& point : filler.table) {
+    points_.push_back({point.strain * thickness, point.pressure * area});
+  }
+}
+
+double FillerLaw::first_loading(double compression) const {
+  if (compression <= 0) return 0;
+  std::size_t next = 1;
+  while (next + 1 < points_.size() && points_[next].compression < compression) ++next;
+  const Point& low = points_[next - 1];
+  const Point& high = points_[next];
+  const double slope = (high.force - low.force) / (high.compression - low.compression);
+  return low.force + slope * (compression - low.compression);
+}
+
+void FillerLaw::yield(double now, double /*kept*/, std::span<double> memory) const {
+  memory[1] = std::max(memory[0], now - first_loading(now) / spring_.tangent());
+}
+
+double FillerLaw::full(double now, Memory memory) const {
+  return spring_.tangent() * std::max(0.0, now - memory[1]);
+}
+
+double FillerLaw::force(double before, double now, double after, Memory memory) const {
+  const double crushed = memory[1];
+  if (before > crushed) return spring_.force(before - crushed, now - crushed, after - crushed);
+  return after >= before ? full(now, memory) : 0;
+}
+
+double FillerLaw::solve(double before, double now, double free_after, double compliance,
+                        Memory memory) const {
+  const double crushed = memory[1];
+  if (before > crushed) {
+    return spring_.solve(before - crushed, now - crushed, free_after - crushed, compliance);
+  }
+  const double most = full(now, memory);
+  if (compliance <= 0) return free_after >= before ? most : 0;
+  return std::clamp((free_after - before) / compliance, 0.0, most);
+}
+
+double FillerLaw::energy(double now, double after, Memory memory) const {
+  return spring_.energy(now - memory[0], after - memory[0]);
+}
+
+void FillerLaw::remember(double /*before*/, double /*now*/, double /*after*/, double /*share*/,
+                         std::span<double> memory) const {
+  memory[0] = memory[1];
 }
 
 }  // namespace pounding::interactions

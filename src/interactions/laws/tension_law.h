@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "interactions/laws/link_law.h"
+#include "scene/filler.h"
 
 namespace pounding::interactions {
 
@@ -34,7 +35,7 @@ struct MaxwellBranch {
 /// than it took, for any step and however it switches. (Frozen at k e_n the tension feeds growing
 /// orbits below the limit of the taut bar.) N_n grows with e_{n+1}, so that the step has one
 /// solution; damping does not limit it.
-class TensionLaw final : public LinkLaw {
+class TensionLaw : public LinkLaw {
  public:
   /// `stiffness` k [N/m]; `damping_rate` c / (2 dt) [N/m]; `slack` [m].
   TensionLaw(double stiffness, double damping_rate, double slack = 0)
@@ -50,16 +51,13 @@ class TensionLaw final : public LinkLaw {
         branches_(std::move(branches)),
         time_step_(time_step) {}
 
-  double force(double before, double now, double after,
-               std::span<const double> memory = {}) const override;
+  double force(double before, double now, double after, Memory memory = {}) const override;
   double solve(double before, double now, double free_after, double compliance,
-               std::span<const double> memory = {}) const override;
-  double energy(double now, double after, std::span<const double> memory = {}) const override;
+               Memory memory = {}) const override;
+  double energy(double now, double after, Memory memory = {}) const override;
   double tangent() const override { return stiffness_; }
-  bool is_idle(double now, std::span<const double> memory = {}) const override {
-    return now <= slack(memory);
-  }
-  double slack(std::span<const double> memory) const override {
+  bool is_idle(double now, Memory memory = {}) const override { return now <= slack(memory); }
+  double slack(Memory memory) const override {
     return memory.empty() ? slack_ : slack_ + memory.back();
   }
   /// q of the branches, and the part of the slack by a rest.
@@ -74,7 +72,7 @@ class TensionLaw final : public LinkLaw {
     double rate = 0;    ///< [N/m]
     double offset = 0;  ///< [N]
   };
-  Damping damping(double share, std::span<const double> memory) const;
+  Damping damping(double share, Memory memory) const;
   /// S_n; elongations here and below less the slack.
   double spring_force(double before, double now, double after) const;
   double stretched_force(const Damping& damping, double before, double now, double after) const;
@@ -87,6 +85,56 @@ class TensionLaw final : public LinkLaw {
   double at_rest_ = 1;
   std::vector<MaxwellBranch> branches_;
   double time_step_ = 0;
+};
+
+/// Law of the filler of a joint at one pair of a contact. Its elongation is how far the faces have
+/// come together since they touched it, d = compression [m]; with the force F(d) of its table under
+/// first loading, the stiffness k on which it unloads, and the crushed length p_n, which it
+/// remembers,
+///
+///     p_n = max( p_{n-1}, d_n - F(d_n) / k )
+///
+/// it holds the energy of a spring k which presses once d exceeds p_n, W_{n+1/2} = 1/2 k
+/// max(0, d_n - p_n) max(0, d_{n+1} - p_n), as TensionLaw does. It presses by N_n = k (d_n - p_n),
+/// which is F(d_n) while it crushes. Where it lets go in the step N_n is less, that of TensionLaw,
+/// so that it gives no more than it holds; where it was not pressed at d_{n-1} it does not throw
+/// back beyond d_{n-1}. Its loss is never less than nothing, for any compressions: a filler that
+/// crushes or lets go does not move the stable step of k.
+class FillerLaw final : public LinkLaw {
+ public:
+  /// `thickness` [m], `area` [m2] of the pair.
+  FillerLaw(const Filler& filler, double thickness, double area);
+
+  /// F [N] at a compression [m] under first loading; beyond the table on its last slope.
+  double first_loading(double compression) const;
+
+  double force(double before, double now, double after, Memory memory = {}) const override;
+  double solve(double before, double now, double free_after, double compliance,
+               Memory memory = {}) const override;
+  bool holds_a_known_force() const override { return true; }
+  double full(double now, Memory memory) const override;
+  double holds_down_to(double before, Memory memory) const override {
+    return before > memory[1] ? memory[1] : before;
+  }
+  double energy(double now, double after, Memory memory = {}) const override;
+  double tangent() const override { return spring_.tangent(); }
+  bool is_idle(double now, Memory memory = {}) const override { return now <= memory[0]; }
+  bool loses_plastic_work() const override { return true; }
+  bool has_yielded(Memory memory) const override { return memory[0] > 0; }
+  /// Crushes it, whatever `kept` is: its table tells how far.
+  void yield(double now, double kept, std::span<double> memory) const override;
+  /// p of the end of the last step, and of the step that is being made.
+  std::size_t memory_size() const override { return 2; }
+  void remember(double before, double now, double after, double share,
+                std::span<double> memory) const override;
+
+ private:
+  struct Point {
+    double compression = 0;  ///< [m]
+    double force = 0;        ///< [N]
+  };
+  std::vector<Point> points_;  ///< (0, 0) first
+  TensionLaw spring_;
 };
 
 }  // namespace pounding::interactions

@@ -15,17 +15,11 @@ void YieldLaw::yield(double now, double kept, std::span<double> memory) const {
   memory[1] = kept < 1 ? now - kept * (now - memory[0]) : memory[0];
 }
 
-double YieldLaw::force(double /*before*/, double now, double /*after*/,
-                       std::span<const double> memory) const {
+double YieldLaw::force(double /*before*/, double now, double /*after*/, Memory memory) const {
   return after_ * now + elastic_ * (now - memory[1]);
 }
 
-double YieldLaw::solve(double before, double now, double free_after, double /*compliance*/,
-                       std::span<const double> memory) const {
-  return force(before, now, free_after, memory);
-}
-
-double YieldLaw::energy(double now, double after, std::span<const double> memory) const {
+double YieldLaw::energy(double now, double after, Memory memory) const {
   return (after_ * now * after + elastic_ * (now - memory[0]) * (after - memory[0])) / 2;
 }
 

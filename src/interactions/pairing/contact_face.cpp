@@ -1,11 +1,11 @@
 #include "interactions/pairing/contact_face.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
 #include "interactions/pairing/facet_backing.h"
-#include "interactions/pairing/shell_orientation.h"
 
 namespace pounding::interactions {
 namespace {
@@ -136,6 +136,15 @@ void add_axis(const GlobalMesh& mesh, const Facet& facet, const std::optional<Ve
   ++face.beams;
 }
 
+/// Shares of a carrier that are none.
+constexpr double nothing = 1e-9;
+
+/// Whether a carrier displaces its follower at its own place, apart from turning it.
+bool displaces(const Carrier& carrier) {
+  return std::ranges::any_of(std::array{0, 7, 14},
+                             [&](std::size_t k) { return std::abs(carrier.block[k]) > nothing; });
+}
+
 }  // namespace
 
 ContactFace build_contact_face(const GlobalMesh& mesh, std::span<const Region> regions,
@@ -238,6 +247,25 @@ std::optional<FacetPoint> meet_facet(const GlobalMesh& mesh, const Facet& facet,
   const auto count = static_cast<std::size_t>(facet.count);
   for (std::size_t a = 0; a < count; ++a) corners[a] = mesh.position(facet.nodes[a]);
   return meet_corners(std::span(corners).first(count), origin, direction, tolerance);
+}
+
+std::vector<char> carried_nodes(const GlobalMesh& mesh, const ContactFace& face,
+                                const std::vector<char>& has_row) {
+  std::map<GlobalIndex, std::size_t> number;
+  for (std::size_t i = 0; i < face.nodes.size(); ++i) number[face.nodes[i]] = i;
+  std::vector<char> carried(face.nodes.size(), 0);
+  for (const RigidNodes& part : mesh.rigid) {
+    for (const TiedNode& tied : part.tied) {
+      const auto own = number.find(tied.node);
+      if (own == number.end()) continue;
+      carried[own->second] = std::ranges::all_of(tied.carriers, [&](const Carrier& carrier) {
+        const auto other = number.find(carrier.node);
+        return mesh.free_components[carrier.node] == 0 || !displaces(carrier) ||
+               (other != number.end() && has_row[other->second] != 0);
+      });
+    }
+  }
+  return carried;
 }
 
 }  // namespace pounding::interactions

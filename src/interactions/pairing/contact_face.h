@@ -83,4 +83,11 @@ std::optional<FacetPoint> meet_facet(const GlobalMesh& mesh, const Facet& facet,
                                      const Vector3& origin, const Vector3& direction,
                                      double tolerance, double reach = 0);
 
+/// Nodes of a face that ties let follow none but other nodes of it: what these carry in contact
+/// holds them too, so that rows of both would share it in no unique way. `has_row`: per node of the
+/// face, whether it faces something. Carriers that are clamped altogether need no row. One value
+/// per node of the face, 1 for those; serial.
+std::vector<char> carried_nodes(const GlobalMesh& mesh, const ContactFace& face,
+                                const std::vector<char>& has_row);
+
 }  // namespace pounding::interactions

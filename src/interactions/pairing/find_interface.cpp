@@ -9,16 +9,12 @@
 #include <utility>
 
 #include "common/error.h"
-#include "interactions/pairing/carried_nodes.h"
-#include "interactions/pairing/common_area.h"
 #include "interactions/pairing/contact_checks.h"
+#include "interactions/pairing/contact_face.h"
 #include "interactions/pairing/contact_sides.h"
-#include "interactions/pairing/crossing.h"
 #include "interactions/pairing/facet_finder.h"
-#include "interactions/pairing/filler_parts.h"
 #include "interactions/pairing/gap_field.h"
-#include "interactions/pairing/pair_terms.h"
-#include "interactions/pairing/sliding_builder.h"
+#include "interactions/pairing/interface.h"
 #include "interactions/pairing/stop_rows.h"
 #include "mesh/bounding_box.h"
 
@@ -37,7 +33,7 @@ class PairFinder {
     report_.contact = contact_.name;
     report_.normal = sides_.secondary.face.mean_normal;
     report_.inner_facets = sides_.secondary.face.inner_facets + sides_.primary.face.inner_facets;
-    find_tangent_axes();
+    report_.tangent_axes = axes_across(report_.normal);
   }
 
   void find(Interface& interface) {
@@ -82,15 +78,6 @@ class PairFinder {
   [[noreturn]] void refuse_sliding_lines() const {
     throw UserError("option -" + contact_.name +
                     "_sliding: edges and beams that cross keep their pairs; leave it out");
-  }
-
-  void find_tangent_axes() {
-    int normal_axis = 0;
-    const Vector3& normal = sides_.secondary.face.mean_normal;
-    for (int d = 1; d < 3; ++d) {
-      if (std::abs(normal[d]) > std::abs(normal[normal_axis]) + 1e-9) normal_axis = d;
-    }
-    report_.tangent_axes = {normal_axis == 0 ? 1 : 0, normal_axis == 2 ? 1 : 2};
   }
 
   /// Lines, beams among them: they meet where they cross, mostly between nodes of both.

@@ -1,13 +1,5 @@
 #pragma once
 
-#include <array>
-#include <string>
-#include <vector>
-
-#include "interactions/pairing/sliding_faces.h"
-#include "mesh/global_mesh.h"
-#include "mesh/node_links.h"
-
 /// Contact geometry: which secondary node faces which place of the primary face, along which
 /// normal, at which initial gap.
 ///
@@ -15,7 +7,51 @@
 /// primary. The gap is g = g0 + L u with L u = n . (u_primary - u_secondary); g > 0 is open. The
 /// impulse lambda >= 0 [N s] is a compression; L^T lambda acts on the dofs, which pushes the
 /// primary along +n and the secondary along -n.
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/matrix3.h"
+#include "mesh/global_mesh.h"
+#include "mesh/node_links.h"
+
 namespace pounding::interactions {
+
+/// The parts of the faces of a scene along which pairs are found anew as they slide, as the meshes
+/// are: rows of the interface, the facets that each may come to face and the nodes of both.
+struct SlidingFaces {
+  struct Node {
+    int structure = 0;
+    GlobalIndex node = 0;  ///< file order
+    Vector3 position{};    ///< [m]
+  };
+  struct Facet {
+    int count = 0;               ///< 3 or 4 nodes
+    std::array<int, 4> nodes{};  ///< into `nodes`
+    double half_thickness = 0;   ///< of a shell [m]
+    double size = 0;             ///< side of a square of its area [m]
+  };
+  struct Row {
+    int constraint = 0;
+    int contact = 0;            ///< index into the scene's contacts
+    int node = 0;               ///< secondary, into `nodes`
+    Vector3 normal{};           ///< outward there, unit
+    double half_thickness = 0;  ///< of a shell there [m]
+    double depth = 0;           ///< how far behind it a facet may lie [m]
+    double offset = 0;          ///< the gap given less that of the meshes [m]
+    int first = 0;              ///< of the facets that it may face, into `candidates`
+    int end = 0;
+  };
+  std::vector<Node> nodes;
+  std::vector<Facet> facets;
+  std::vector<Row> rows;
+  std::vector<int> candidates;
+
+  bool empty() const { return rows.empty(); }
+};
 
 /// One term of a constraint: coefficient times the displacement component of a node.
 struct ConstraintTerm {
@@ -125,5 +161,31 @@ void pass_rows(Stream& stream, AnyInterface& interface) {
   stream.array(sliding.candidates);
   stream(interface.model_size);
 }
+
+/// The outward normal of the secondary side of a constraint, whose terms are the last ones: a unit
+/// vector.
+Vector3 normal_of(const Constraint& constraint);
+
+/// Global axes of the plane that is most nearly across a unit vector.
+std::array<int, 2> axes_across(const Vector3& normal);
+
+/// Two unit vectors across a unit vector and each other; axes for an axis.
+std::array<Vector3, 2> tangents_of(const Vector3& normal);
+
+/// Two rows per constraint: what L is for gap rates, for the displacements along two tangents, in
+/// the order of the constraints, with the same weights.
+std::vector<Constraint> tangential_rows(std::span<const Constraint> constraints);
+
+/// How far outside a facet, or deeper than its elements are, relative to its size, a node may lie
+/// and still face it: shells in one plane lie as deep as they are thick.
+constexpr double facet_tolerance = 1e-6;
+
+/// Weights of a facet's nodes where those within 1e-6 of 0 are 0, and one within 1e-6 of 1 is the
+/// node itself.
+std::array<double, 4> snapped(std::array<double, 4> weights);
+
+/// Adds a node to a constraint, with a weight along a normal.
+void add_terms(int structure, GlobalIndex node, double weight, const Vector3& normal,
+               Constraint& constraint);
 
 }  // namespace pounding::interactions

@@ -8,8 +8,8 @@
 #include "common/error.h"
 #include "common/matrix3.h"
 #include "interactions/pairing/contact_sides.h"
-#include "interactions/pairing/filler_parts.h"
-#include "interactions/pairing/pair_terms.h"
+#include "interactions/pairing/gap_field.h"
+#include "interactions/pairing/interface.h"
 #include "mesh/group_names.h"
 #include "scene/stop_reader.h"
 
@@ -107,7 +107,10 @@ class StopRows {
     }
     const Vector3 way = wall ? Vector3{0, 0, 0} : minus(primary_.position(other), here);
     const Vector3 ahead = direction(here, way);
-    if (report_.pairs == 0) take_axes(ahead);
+    if (report_.pairs == 0) {
+      report_.normal = ahead;
+      report_.tangent_axes = axes_across(ahead);
+    }
     for (std::size_t side = 0; side < contact_.gap.values.size(); ++side) {
       const double sign = side == 0 ? 1 : -1;
       const Vector3 normal{sign * ahead[0], sign * ahead[1], sign * ahead[2]};
@@ -137,15 +140,6 @@ class StopRows {
                       ", and no line joins them; give a direction x,y,z");
     }
     return normalised(way);
-  }
-
-  void take_axes(const Vector3& ahead) {
-    report_.normal = ahead;
-    int normal_axis = 0;
-    for (int d = 1; d < 3; ++d) {
-      if (std::abs(ahead[d]) > std::abs(ahead[normal_axis]) + 1e-9) normal_axis = d;
-    }
-    report_.tangent_axes = {normal_axis == 0 ? 1 : 0, normal_axis == 2 ? 1 : 2};
   }
 
   static std::string text(const Vector3& x) {

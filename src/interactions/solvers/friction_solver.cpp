@@ -6,7 +6,7 @@
 
 #include "common/dense_solver.h"
 #include "common/magnitude.h"
-#include "interactions/solvers/double_limits.h"
+#include "interactions/solvers/sparse_rows.h"
 
 namespace pounding::interactions {
 namespace {

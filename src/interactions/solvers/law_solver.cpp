@@ -9,6 +9,7 @@
 
 #include "common/dense_solver.h"
 #include "common/disjoint_sets.h"
+#include "common/magnitude.h"
 #include "common/row_products.h"
 
 namespace pounding::interactions {
@@ -24,12 +25,6 @@ constexpr double strongest = 1e6;
 
 double motion_product(const OnBody::Motion& a, const OnBody::Motion& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
-
-double largest_of(const std::vector<double>& force) {
-  double largest = 0;
-  for (const double value : force) largest = std::max(largest, std::abs(value));
-  return largest;
 }
 
 }  // namespace
@@ -186,7 +181,7 @@ void LawSolver::solve(double share, const Elongations& elongations, std::span<co
   for (int i = 0; i < most_law_sweeps; ++i) {
     solve_blocks(problem);
     const double change = solve_others(problem);
-    if (change <= settled * largest_of(force)) break;
+    if (change <= settled * largest_magnitude(force)) break;
   }
 }
 

@@ -7,7 +7,7 @@
 
 #include "common/dot_product.h"
 #include "common/magnitude.h"
-#include "interactions/solvers/double_limits.h"
+#include "interactions/solvers/sparse_rows.h"
 
 namespace pounding::interactions {
 namespace {

@@ -2,10 +2,17 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace pounding::interactions {
+
+/// Round-off of one operation on numbers near one.
+inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// Residual or bound of a problem without a finite one.
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Sparse matrix in compressed rows. The entries of a row are in the order in which they were
 /// added, by ascending columns where `entry` or a principal part is asked for.

@@ -42,31 +42,21 @@ std::span<const LocalIndex> longest_stretch(const DofPlaces& places,
   return 2 * best >= nodes.size() ? nodes.subspan(best_begin, best) : nodes.first(0);
 }
 
-/// Nodes of which some component is not clamped.
-std::size_t count_moving(const DofPlaces& places, std::span<const LocalIndex> nodes) {
-  return static_cast<std::size_t>(std::count_if(nodes.begin(), nodes.end(), [&](LocalIndex node) {
-    const Place& place = place_of(places, node);
-    return *std::max_element(place.begin(), place.begin() + 3) >= 0;
-  }));
-}
-
-void set_core(const DofPlaces& places, std::span<const LocalIndex> nodes, const ProductForms& forms,
-              BrickChain& chain) {
+void set_core(const DofPlaces& places, std::span<const LocalIndex> nodes, BrickChain& chain) {
   const auto core = longest_stretch(places, nodes);
-  if (core.empty() || (!forms.part_cores && core.size() < count_moving(places, nodes))) return;
+  if (core.empty()) return;
   chain.first = static_cast<int>(core.data() - nodes.data());
   chain.core = static_cast<int>(core.size());
   chain.range = {place_of(places, core.front())[0], places.node_end[core.back()]};
-  chain.row = forms.rows && chain.range.end - chain.range.begin == 3 * chain.core;
+  chain.row = chain.range.end - chain.range.begin == 3 * chain.core;
 }
 
 }  // namespace
 
-const BrickChain& BrickChains::add(const DofPlaces& places, const std::vector<LocalIndex>& nodes,
-                                   const ProductForms& forms) {
+const BrickChain& BrickChains::add(const DofPlaces& places, const std::vector<LocalIndex>& nodes) {
   BrickChain chain;
   chain.length = static_cast<int>(nodes.size());
-  set_core(places, nodes, forms, chain);
+  set_core(places, nodes, chain);
   chain.begin = static_cast<int>(places_.size());
   for (int p = chain.first; p < chain.first + chain.core; ++p) {
     places_.push_back(place_of(places, nodes[p])[0]);

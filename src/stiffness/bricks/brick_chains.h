@@ -4,9 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "stiffness/rows/dof_places.h"
 #include "stiffness/rows/product.h"
-#include "stiffness/rows/product_forms.h"
 
 namespace pounding::stiffness {
 
@@ -33,8 +31,7 @@ struct BrickChain {
 class BrickChains {
  public:
   /// Adds a chain; returns it.
-  const BrickChain& add(const DofPlaces& places, const std::vector<LocalIndex>& nodes,
-                        const ProductForms& forms = {});
+  const BrickChain& add(const DofPlaces& places, const std::vector<LocalIndex>& nodes);
   const BrickChain& at(int number) const { return chains_[number]; }
   /// Dof of a component (0-2) of a chain's node; -1 where there is none.
   LocalIndex place(const BrickChain& chain, int node, int component) const;

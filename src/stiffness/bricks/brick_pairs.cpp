@@ -25,8 +25,7 @@ std::ptrdiff_t count_neighbours(const BrickRows& rows, std::size_t near, std::si
 class PairFinder {
  public:
   /// `third`: the thickness is the second axis after that of the runs, else the first one.
-  PairFinder(const BrickRows& rows, const ProductForms& forms, bool third)
-      : rows_(rows), forms_(forms) {
+  PairFinder(const BrickRows& rows, bool third) : rows_(rows) {
     const int axis = rows.run_axis;
     if (third) {
       corners_ = {0, 2, 1, 3};
@@ -43,7 +42,7 @@ class PairFinder {
           {find_place(r, corners_[0], corners_[1]), find_place(r, corners_[2], corners_[3])});
     }
     find_extents();
-    if (forms_.lent_lines) find_alone();
+    find_alone();
     for (std::size_t pair = 0; pair < result_.pairs.size(); ++pair) add_steps(pair);
     return std::move(result_);
   }
@@ -133,7 +132,6 @@ class PairFinder {
   }
 
   bool worth_sharing(const Piece& a, const Piece& b) const {
-    if (!forms_.both_sides) return false;
     if (rows_.runs[a.run].shape != rows_.runs[b.run].shape) return false;
     const int shared = std::min(a.end, b.end) - std::max(a.begin, b.begin);
     return shared >= least_shared || (a.begin == b.begin && a.end == b.end);
@@ -169,7 +167,6 @@ class PairFinder {
   }
 
   const BrickRows& rows_;
-  ProductForms forms_;
   std::array<std::size_t, 4> corners_{};  ///< places in ElementRun::chain: near, far, near, far
   std::map<std::tuple<int, int, int>, std::size_t> numbers_;
   std::vector<std::array<Place, 2>> places_;               ///< per run
@@ -179,10 +176,9 @@ class PairFinder {
 
 }  // namespace
 
-BrickPairs pair_chains(const BrickRows& rows, const ProductForms& forms) {
-  BrickPairs third = PairFinder(rows, forms, true).run();
-  if (!forms.best_thickness) return third;
-  BrickPairs second = PairFinder(rows, forms, false).run();
+BrickPairs pair_chains(const BrickRows& rows) {
+  BrickPairs third = PairFinder(rows, true).run();
+  BrickPairs second = PairFinder(rows, false).run();
   const auto clearly_fewer = [](const BrickPairs& a, const BrickPairs& b) {
     return 10 * a.steps.size() < 9 * b.steps.size();
   };

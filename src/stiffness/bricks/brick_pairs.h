@@ -5,7 +5,7 @@
 
 #include "stiffness/bricks/brick_kernel.h"
 #include "stiffness/rows/element_rows.h"
-#include "stiffness/rows/product_forms.h"
+#include "stiffness/rows/product.h"
 
 /// Chains of nodes that face each other through the thickness of their bricks, and the order in
 /// which the bricks between pairs of chains are done.
@@ -44,6 +44,6 @@ struct BrickPairs {
 /// clearly fewer steps (in a slab one brick thick, its own), else the one along which runs follow
 /// each other less often: pairs that follow each other then share chains, and few are in use at a
 /// time.
-BrickPairs pair_chains(const BrickRows& rows, const ProductForms& forms = {});
+BrickPairs pair_chains(const BrickRows& rows);
 
 }  // namespace pounding::stiffness

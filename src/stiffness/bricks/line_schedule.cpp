@@ -33,10 +33,8 @@ class LinePool {
 
 class Scheduler {
  public:
-  Scheduler(const BrickPairs& pairs, const std::vector<ChainForm>& chains, int stride,
-            const ProductForms& forms)
-      : forms_(forms),
-        pairs_(pairs),
+  Scheduler(const BrickPairs& pairs, const std::vector<ChainForm>& chains, int stride)
+      : pairs_(pairs),
         chains_(chains),
         pool_(arrays_per_line * stride),
         chain_states_(chains.size()),
@@ -80,7 +78,7 @@ class Scheduler {
       if (pair_step.pair[i] < 0) continue;
       PairState& pair = pair_states_[index(pair_step.pair[i])];
       if (!pair.open) {
-        const bool covered = forms_.set_behind && i == 2 && pair_step.offset[i] == 0 &&
+        const bool covered = i == 2 && pair_step.offset[i] == 0 &&
                              pair_step.count + 1 == pairs_.pairs[index(pair_step.pair[i])].length;
         open(pair_step.pair[i], !covered);
         step.first_behind = covered;
@@ -100,8 +98,7 @@ class Scheduler {
 
   void open(int number, bool clear) {
     const ChainPair& pair = pairs_.pairs[index(number)];
-    const bool load = forms_.row_pairs && pair.alone && chains_[index(pair.near)].row &&
-                      chains_[index(pair.far)].row;
+    const bool load = pair.alone && chains_[index(pair.near)].row && chains_[index(pair.far)].row;
     PairState& state = pair_states_[index(number)];
     state.open = true;
     state.place = {{pair.near, pair.far},
@@ -152,14 +149,11 @@ class Scheduler {
   bool join_chain(int number, const ChainPair& pair) {
     ChainState& chain = chain_states_[index(number)];
     if (chain.joins++ > 0) return false;
-    if (pair.length == chains_[index(number)].length && (forms_.set_joins || pair.alone)) {
-      return true;
-    }
+    if (pair.length == chains_[index(number)].length) return true;
     result_.loads[index(chain.load)].clear = true;
     return false;
   }
 
-  ProductForms forms_;
   const BrickPairs& pairs_;
   const std::vector<ChainForm>& chains_;
   LinePool pool_;
@@ -171,8 +165,8 @@ class Scheduler {
 }  // namespace
 
 LineSchedule schedule_lines(const BrickPairs& pairs, const std::vector<ChainForm>& chains,
-                            int stride, const ProductForms& forms) {
-  return Scheduler(pairs, chains, stride, forms).run();
+                            int stride) {
+  return Scheduler(pairs, chains, stride).run();
 }
 
 }  // namespace pounding::stiffness

@@ -74,6 +74,6 @@ struct ChainForm {
 
 /// Array c of a line starts c * stride doubles after the first.
 LineSchedule schedule_lines(const BrickPairs& pairs, const std::vector<ChainForm>& chains,
-                            int stride, const ProductForms& forms = {});
+                            int stride);
 
 }  // namespace pounding::stiffness

@@ -1,13 +1,14 @@
 #pragma once
 
+/// Moves values between the dofs of nodes and the arrays that the bricks work on. Arrays are
+/// written up to most_lanes - 1 values beyond their length.
+
 #include <array>
 #include <cstddef>
 
 #include "common/matrix3.h"
 #include "stiffness/rows/product.h"
 
-/// Moves values between the dofs of nodes and the arrays that the bricks work on. Arrays are
-/// written up to most_lanes - 1 values beyond their length.
 namespace pounding::stiffness {
 
 /// Three arrays, one per component.
@@ -34,5 +35,19 @@ void store_row(const ComponentArrays& from, int count, double* q);
 /// Vectors v <- R v, or v <- R' v, in three arrays of a line from `line`.
 void rotate_vectors(const Matrix3& rotation, bool back, int count, std::ptrdiff_t stride,
                     double* line);
+
+// Moves values between the dofs of nodes that own six components in a row and the arrays that
+// rectangles work on.
+
+/// One array per component: x, y, z and the rotations about them.
+using SixArrays = std::array<double*, 6>;
+
+/// w of `count` nodes whose dofs start at places[p].
+void load_shell_nodes(const StiffnessArgument& w, const LocalIndex* places, int count,
+                      const SixArrays& to);
+
+/// The way back: dof `first` stands at q[0].
+void store_shell_nodes(const SixArrays& from, const LocalIndex* places, int count, LocalIndex first,
+                       double* q);
 
 }  // namespace pounding::stiffness

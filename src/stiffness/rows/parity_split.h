@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "elements/element.h"
+#include "elements/element_traits.h"
 
 /// How the matrix of an element that is unchanged by reflections falls apart into small blocks.
 namespace pounding::stiffness {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "common/types.h"
 
@@ -48,6 +49,66 @@ class StoredForces final : public ForceReceiver {
 
  private:
   double* product_;
+};
+
+/// Where the value of a dof stands: owned dofs in an array of their own, ghosts in another. A place
+/// below owned_dofs is an owned dof; owned_dofs + i is ghost value i; -1 is a clamped component.
+struct DofPlaces {
+  LocalIndex owned_dofs = 0;
+  std::vector<LocalIndex> of_dof;                  ///< per local dof, owned then ghost
+  std::vector<std::array<LocalIndex, 6>> of_node;  ///< per local node: its components
+  std::vector<LocalIndex> node_end;                ///< per owned node: one beyond its last dof
+};
+
+/// Value at a place; 0 at -1. `owned` is indexed by dof.
+template <typename Values>
+inline double value_at(LocalIndex place, LocalIndex owned_dofs, const Values& owned,
+                       const double* ghosts) {
+  if (place < 0) return 0;
+  return place < owned_dofs ? owned[place] : ghosts[place - owned_dofs];
+}
+
+/// The product of elements in rows, of one kind and one frame. It visits chains of nodes in the
+/// order of the mesh's numbering and keeps those in use in a small buffer, so that w is read and q
+/// written once. The forces of a chain whose dofs nothing else touches later need not go to q: they
+/// are handed over.
+class ElementLines {
+ public:
+  virtual ~ElementLines() = default;
+
+  /// Chains in the order in which `apply` is done with them.
+  virtual std::size_t chain_count() const = 0;
+  /// Owned dofs of a chain to which the elements add.
+  virtual std::vector<LocalIndex> chain_dofs(std::size_t place) const = 0;
+  /// All dofs of the chain's nodes, those included to which the elements do not add, if they are
+  /// owned and follow each other; else an empty range.
+  virtual DofRange chain_range(std::size_t place) const = 0;
+  /// Decides for every chain whether its forces, final as they are, are handed over and not added
+  /// to q; only for those with a range. Call once.
+  virtual void set_handed_over(const std::vector<char>& handed_over) = 0;
+
+  /// q += K w on the owned dofs that these elements touch, but for forces that are handed over.
+  /// Allocates nothing.
+  virtual void apply(const StiffnessArgument& w, const double* ghosts, double* q,
+                     ForceReceiver& receiver) const = 0;
+};
+
+/// Ways of the element-wise product for elements of some kind: without any of them it is the same
+/// to round-off. All are in use; tests leave them out.
+struct ProductForms {
+  bool bricks = true;      ///< boxes in rows, split by their mid-planes; else by their strains
+  bool rectangles = true;  ///< rectangular shells likewise
+  bool strains = true;     ///< elements of general shape by their strains; else sparse rows
+  bool beams = true;       ///< from their local stiffnesses; else sparse rows
+};
+
+/// How many elements of a structure, over all ranks, are applied in which way.
+struct ElementKinds {
+  GlobalIndex bricks = 0;      ///< split by their mid-planes, in rows
+  GlobalIndex rectangles = 0;  ///< shells likewise
+  GlobalIndex general = 0;     ///< other hexahedra, quadrangles, triangles, by their strains
+  GlobalIndex beams = 0;       ///< from their local stiffnesses
+  GlobalIndex other = 0;       ///< in a sparse matrix
 };
 
 }  // namespace pounding::stiffness

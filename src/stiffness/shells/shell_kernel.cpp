@@ -1,9 +1,76 @@
 #include "stiffness/shells/shell_kernel.h"
 
-#include "stiffness/shells/parity_kernel.h"
+#include <array>
+#include <cstddef>
+
+#include "common/wide_lanes.h"
+#include "stiffness/rows/parity_split.h"
 
 namespace pounding::stiffness {
 namespace {
+
+constexpr std::size_t corner_count = 4;
+/// Corner bits of Gmsh's node order.
+constexpr std::array<std::size_t, corner_count> gmsh_corner{0, 1, 3, 2};
+
+/// Rows of H.
+constexpr std::size_t sum = 0;
+constexpr std::size_t along = 1;   // the run
+constexpr std::size_t across = 2;  // it
+constexpr std::size_t both = 3;
+
+/// Place in B of component c, row s, both named by the run.
+std::size_t place(std::size_t c, std::size_t s, int run_axis) {
+  constexpr std::array<std::size_t, 6> other_component{1, 0, 2, 4, 3, 5};
+  constexpr std::array<std::size_t, 4> other_row{sum, across, along, both};
+  return run_axis == 0 ? s + corner_count * c : other_row[s] + corner_count * other_component[c];
+}
+
+/// c += b x for a number b.
+POUNDING_INLINE void add_times(double b, const WideLanes& x, WideLanes& c) {
+  add_product(all_wide(b), x, c);
+}
+
+/// (x, y) <- B (x, y), B = 00 01 11.
+POUNDING_INLINE void multiply2(const std::array<double, 3>& b, WideLanes& x, WideLanes& y) {
+  WideLanes first = b[0] * x;
+  WideLanes second = b[1] * x;
+  add_times(b[1], y, first);
+  add_times(b[2], y, second);
+  x = first;
+  y = second;
+}
+
+/// (x, y, z) <- B (x, y, z), B = 00 01 02 11 12 22.
+POUNDING_INLINE void multiply3(const std::array<double, 6>& b, WideLanes& x, WideLanes& y,
+                               WideLanes& z) {
+  WideLanes first = b[0] * x;
+  WideLanes second = b[1] * x;
+  WideLanes third = b[2] * x;
+  add_times(b[1], y, first);
+  add_times(b[3], y, second);
+  add_times(b[4], y, third);
+  add_times(b[2], z, first);
+  add_times(b[4], z, second);
+  add_times(b[5], z, third);
+  x = first;
+  y = second;
+  z = third;
+}
+
+/// All bits set in the lanes of elements that a run of which `left` are left still has.
+POUNDING_INLINE WideMask lanes_below(int left) {
+  return lane_numbers < static_cast<std::int64_t>(left);
+}
+
+/// Forces of the far ends at the nodes of a vector from node i on: those of the elements from i on
+/// reach the nodes from i + 1 on, the last one's is kept in `carry` for the next call, which takes
+/// it out at its first node.
+POUNDING_INLINE WideLanes carry_over(const WideLanes& far, WideLanes& carry) {
+  const WideLanes shifted = shifted_back(carry, far);
+  carry = far;
+  return shifted;
+}
 
 /// One component of the four nodes of each rectangle of a vector: rows of H with axis 1 as 0: no,
 /// 1: yes; `even` along the run without, `odd` with axis 0.
@@ -137,6 +204,25 @@ void add_half(const ShellSplit& split, const std::array<ShellLine, 2>& lines, in
 }
 
 }  // namespace
+
+std::optional<ShellSplit> split_rectangle(const ElementProperties& properties,
+                                          const std::array<double, 2>& lengths, int run_axis) {
+  BlockPicker picker(stiffness_by_parity(ElementType::shell4, properties,
+                                         {lengths[0], lengths[1], 0}, gmsh_corner));
+  const auto value = [&](std::size_t c, std::size_t s) { return place(c, s, run_axis); };
+  ShellSplit split;
+  split.stretch = picker.take2(value(0, along), value(1, across));
+  split.bending = {picker.take2(value(1, both), value(5, across)),
+                   picker.take2(value(0, both), value(5, along))};
+  split.shear = picker.take3(value(0, across), value(1, along), value(5, sum));
+  split.drilling = picker.take1(value(5, both));
+  split.curvature = picker.take2(value(3, across), value(4, along));
+  split.slope = {picker.take2(value(2, along), value(4, sum)),
+                 picker.take2(value(2, across), value(3, sum))};
+  split.twist = picker.take3(value(2, both), value(3, along), value(4, across));
+  split.hourglass = {picker.take1(value(3, both)), picker.take1(value(4, both))};
+  return picker.took_all() ? std::optional(split) : std::nullopt;
+}
 
 void add_shell_run(const ShellSplit& split, const std::array<ShellLine, 2>& lines, int line_stride,
                    int count) {

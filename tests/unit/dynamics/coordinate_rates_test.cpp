@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/gap_watch.h"
-#include "stiffness/diagonal_stiffness.h"
+#include "stiffness/stiffness.h"
 
 namespace pounding {
 namespace coordinate_rates_test {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "stiffness/diagonal_stiffness.h"
+#include "stiffness/stiffness.h"
 
 namespace pounding {
 namespace structure_step_test {

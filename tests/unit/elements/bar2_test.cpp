@@ -1,5 +1,3 @@
-#include "elements/bar2.h"
-
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -9,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "dense_model.h"
+#include "elements/beam2.h"
 
 namespace pounding {
 namespace bar2_test {

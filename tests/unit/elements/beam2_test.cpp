@@ -9,7 +9,7 @@
 
 #include "common/matrix3.h"
 #include "dense_model.h"
-#include "elements/element.h"
+#include "elements/element_traits.h"
 
 namespace pounding {
 namespace beam2_test {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dense_eigen.h"
-#include "elements/element.h"
+#include "elements/element_traits.h"
 
 namespace pounding::testing_support {
 

@@ -1,5 +1,3 @@
-#include "elements/element.h"
-
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "dense_model.h"
+#include "elements/element_traits.h"
 
 namespace pounding {
 namespace element_test {

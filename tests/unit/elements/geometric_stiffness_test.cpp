@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "elements/element.h"
+#include "elements/element_traits.h"
 
 namespace pounding {
 namespace geometric_stiffness_test {

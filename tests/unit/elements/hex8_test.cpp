@@ -1,5 +1,3 @@
-#include "elements/hex8.h"
-
 #include <array>
 #include <cmath>
 #include <vector>
@@ -7,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "brick_mesh.h"
+#include "elements/solids.h"
 
 namespace pounding {
 namespace hex8_test {

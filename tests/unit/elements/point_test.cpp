@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "elements/element.h"
+#include "elements/element_traits.h"
 
 namespace pounding {
 namespace point_test {

@@ -1,5 +1,3 @@
-#include "elements/shell_forces.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "elements/force_rows.h"
 #include "shell_model.h"
 #include "turned_shell.h"
 

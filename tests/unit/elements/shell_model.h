@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "dense_model.h"
-#include "elements/shell3.h"
-#include "elements/shell4.h"
+#include "elements/flat_shell.h"
 
 namespace pounding::testing_support {
 

@@ -1,5 +1,3 @@
-#include "elements/tet4.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -7,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "elements/solids.h"
 #include "solid_cantilever.h"
 #include "solid_refusal.h"
 

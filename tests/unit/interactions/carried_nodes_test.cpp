@@ -1,6 +1,6 @@
-#include "interactions/pairing/carried_nodes.h"
-
 #include <gtest/gtest.h>
+
+#include "interactions/pairing/contact_face.h"
 
 namespace pounding::interactions {
 namespace carried_nodes_test {

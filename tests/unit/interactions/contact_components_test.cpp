@@ -1,9 +1,9 @@
-#include "interactions/contact_components.h"
-
 #include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "interactions/delassus.h"
 
 namespace pounding::interactions {
 namespace contact_components_test {

@@ -1,6 +1,6 @@
-#include "interactions/pairing/crossing.h"
-
 #include <gtest/gtest.h>
+
+#include "interactions/pairing/facet_finder.h"
 
 namespace pounding::interactions {
 namespace crossing_test {

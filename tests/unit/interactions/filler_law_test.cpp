@@ -1,5 +1,3 @@
-#include "interactions/laws/filler_law.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "interactions/laws/tension_law.h"
 
 namespace pounding::interactions {
 namespace filler_law_test {

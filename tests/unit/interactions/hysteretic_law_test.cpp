@@ -7,8 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "interactions/laws/hysteretic_link.h"
-#include "interactions/laws/make_path.h"
+#include "interactions/laws/hysteresis_path.h"
 #include "interactions/laws/yield_law.h"
 
 namespace pounding::interactions {

@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "interactions/laws/dashpot_law.h"
-#include "interactions/laws/filler_law.h"
 #include "interactions/laws/tension_law.h"
 #include "interactions/laws/yield_law.h"
 

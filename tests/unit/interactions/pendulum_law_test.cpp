@@ -1,12 +1,11 @@
-#include "interactions/laws/pendulum_law.h"
-
 #include <array>
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "interactions/laws/relieving_law.h"
+#include "interactions/laws/law_of.h"
+#include "interactions/laws/yield_law.h"
 
 namespace pounding::interactions {
 namespace pendulum_law_test {
@@ -63,7 +62,7 @@ TEST(PendulumLaw, LosesWhatFrictionTakesWhateverPresses) {
 }
 
 TEST(PendulumLaw, RelievedItPullsLessByWhatTheMatrixHolds) {
-  const RelievingLaw law(std::make_unique<PendulumLaw>(stiffness, hardening, radius));
+  const RelievingLaw<PendulumLaw> law(stiffness, hardening, radius);
   std::array<double, 5> memory{};
   law.press(10, memory);
   law.yield(0.1, 0.5, memory);

@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "common/magnitude.h"
-#include "interactions/solvers/coupled_lcp.h"
 #include "interactions/solvers/lcp.h"
 #include "support/full_rows.h"
 

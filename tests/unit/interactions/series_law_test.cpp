@@ -1,11 +1,10 @@
-#include "interactions/laws/series_law.h"
-
 #include <cmath>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "interactions/laws/dashpot_law.h"
 #include "support/passive_oscillator.h"
 
 namespace pounding::interactions {

@@ -1,5 +1,3 @@
-#include "interactions/laws/soil_law.h"
-
 #include <cmath>
 #include <complex>
 #include <random>
@@ -7,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "interactions/laws/dashpot_law.h"
 #include "support/passive_oscillator.h"
 
 namespace pounding::interactions {

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "interactions/laws/damper_law.h"
-#include "interactions/laws/relieving_law.h"
+#include "interactions/laws/dashpot_law.h"
+#include "interactions/laws/law_of.h"
 
 namespace pounding::interactions {
 namespace yield_law_test {
@@ -74,7 +74,7 @@ TEST(YieldLaw, DoesNotYieldBelowItsForce) {
 }
 
 TEST(YieldLaw, BesideItsOwnStiffnessInKIsTheSame) {
-  const RelievingLaw relieving(std::make_unique<YieldLaw>(1000, 0.1, 100));
+  const RelievingLaw<YieldLaw> relieving(1000, 0.1, 100);
   const YieldLaw law(1000, 0.1, 100);
   std::vector<double> one(2, 0.0);
   std::vector<double> other(2, 0.0);

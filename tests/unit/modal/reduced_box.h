@@ -20,7 +20,7 @@ struct ReducedBox {
     }
     const Partition partition = partition_meshes({&global, 1}, {}, 1);
     mesh = distribute_mesh(MPI_COMM_SELF, "box", global, partition, 0);
-    system = build_finite_element_system(structure, mesh);
+    system = pounding::build_system(structure, mesh);
     for (const GlobalIndex node : global.groups.at("x_max").nodes) {
       request.contact_points.push_back({node, 0});
     }

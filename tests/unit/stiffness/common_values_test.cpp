@@ -1,8 +1,8 @@
-#include "stiffness/common_values.h"
-
 #include <array>
 
 #include <gtest/gtest.h>
+
+#include "stiffness/element_shapes.h"
 
 namespace pounding::stiffness {
 namespace common_values_test {

@@ -1,5 +1,3 @@
-#include "stiffness/element_frames.h"
-
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -7,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "elements/gauss_rule.h"
+#include "stiffness/element_shapes.h"
 
 namespace pounding::stiffness {
 namespace element_frames_test {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "system/elimination_order.h"
+#include "system/block_factorisation.h"
 #include "unit/elements/dense_eigen.h"
 
 namespace pounding {

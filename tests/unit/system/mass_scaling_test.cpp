@@ -8,9 +8,8 @@
 
 #include "common/dense_eigenvalues.h"
 #include "common/error.h"
-#include "elements/element.h"
+#include "elements/element_traits.h"
 #include "support/refusal.h"
-#include "system/critical_time_step.h"
 #include "unit/elements/dense_eigen.h"
 
 namespace pounding {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "system/critical_time_step.h"
+#include "system/mass_scaling.h"
 #include "unit/elements/dense_eigen.h"
 #include "unit/elements/turned_shell.h"
 

@@ -1,5 +1,3 @@
-#include "system/tied_part.h"
-
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -10,6 +8,7 @@
 #include "common/rigid_motion.h"
 #include "mesh/tied_nodes.h"
 #include "system/coupled_mass.h"
+#include "system/rigid_body.h"
 
 namespace pounding {
 namespace tied_part_test {

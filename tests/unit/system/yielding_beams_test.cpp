@@ -1,8 +1,8 @@
-#include "system/yielding_beams.h"
-
 #include <stdexcept>
 
 #include <gtest/gtest.h>
+
+#include "system/inelastic_laws.h"
 
 namespace pounding {
 namespace yielding_beams_test {

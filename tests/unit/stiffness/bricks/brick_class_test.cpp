@@ -1,10 +1,9 @@
-#include "stiffness/bricks/brick_class.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "elements/gauss_rule.h"
+#include "stiffness/bricks/brick_stencil.h"
 
 namespace pounding::stiffness {
 namespace brick_class_test {

@@ -1,4 +1,3 @@
-#include "stiffness/shells/shell_class.h"
 
 #include <array>
 #include <cmath>
