@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "driver/subject_facts.h"
+#include "driver/report.h"
 
 namespace pounding {
 

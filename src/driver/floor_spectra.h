@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "driver/facts.h"
 #include "motion/ground_motion.h"
 #include "motion/response_spectrum.h"
+#include "motion/synthetic.h"
 #include "output/recorder.h"
 #include "scene/scene.h"
 
@@ -38,5 +40,51 @@ std::vector<ProbeSpectrum> compute_ground_spectra(const Scene& scene, const Grou
 /// counts; `digits`: significant ones. Throws UserError if it cannot be written.
 void write_floor_spectra(const std::string& path, std::span<const ProbeSpectrum> spectra,
                          double start, int digits);
+
+/// Capacities of the scene's equipment, in its order [m/s2]. Throws UserError: a file that is no
+/// spectrum, a band that the capacity or the floor spectra do not have. Serial.
+std::vector<TargetSpectrum> read_capacities(const Scene& scene);
+
+/// Increasing frequencies of floor spectra with those of the capacities that lie between the first
+/// and the last of them: a capacity has its corners there.
+std::vector<double> with_capacities(std::vector<double> frequencies,
+                                    std::span<const TargetSpectrum> capacities);
+
+/// Spectra of items in a cabinet, an oscillator on the floor: those of the cabinet's absolute
+/// acceleration at the damping ratio and in the directions of the item, with `<item> cabinet` in
+/// place of a probe. `floors`: spectra of the probes. Rank 0, after the recorder finished.
+std::vector<ProbeSpectrum> cabinet_spectra(const Scene& scene, const Recorder& recorder,
+                                           std::span<const ProbeSpectrum> floors);
+
+/// Places and capacities of the items, and the rules that python/pounding judges them by.
+Facts equipment_facts(const Scene& scene, std::span<const TargetSpectrum> capacities);
+
+/// Peaks of acceleration that depend neither on the time step nor on the output interval: largest
+/// magnitudes of the recorded accelerations after a low-pass without phase (signal_treatment.h).
+struct StatedPeaks {
+  double frequency = 0;              ///< of the low-pass [Hz]
+  std::vector<double> acceleration;  ///< per channel of the recorder, absolute [m/s2]
+};
+
+/// The peaks of the records from `spectra.start` on. Rank 0, after Recorder::finish.
+StatedPeaks stated_peaks(const Scene& scene, const Recorder& recorder);
+
+/// One line if samples at this interval [s], of steps of so long [s], cannot hold the low-pass that
+/// is asked for.
+std::vector<std::string> lowered_peak_warnings(const Scene& scene, double interval,
+                                               double time_step);
+
+/// One line that names the probes whose sampled peak goes with the output interval. Of runs with
+/// impacts: others have no impulse within a sample.
+std::vector<std::string> peak_warnings(const Scene& scene, const StatedPeaks& peaks,
+                                       const Recorder& recorder);
+
+/// The frequency [Hz] of the low-pass before stated peaks of records at this interval [s]: what was
+/// asked, or the highest that they can hold.
+double stated_frequency(const Scene& scene, double interval);
+
+/// Largest magnitude of an acceleration after that low-pass, from record `first` on.
+double stated_peak(std::span<const double> acceleration, double interval, double frequency,
+                   std::size_t first);
 
 }  // namespace pounding

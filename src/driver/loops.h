@@ -2,7 +2,10 @@
 
 #include <memory>
 
-#include "driver/observed_run.h"
+#include <mpi.h>
+
+#include "driver/field_plan.h"
+#include "scene/scene.h"
 
 namespace pounding {
 
@@ -12,5 +15,11 @@ namespace pounding {
 /// "x.dashpot"); a pair with filler after its contact and its number among the pairs. Throws
 /// UserError for a group without links. Collective.
 std::unique_ptr<Observer> make_loops(const ObservedRun& run);
+
+/// Takes every law in one dimension of a scene through cycles of `law_cycles`, from nothing, two of
+/// each amplitude, and writes laws.csv into its output folder: elongation, force, energy held and
+/// lost. No mesh is read: laws of bars are those of their strain, per length. Throws UserError
+/// where the scene has none. Collective.
+void write_law_loops(MPI_Comm comm, const Scene& scene);
 
 }  // namespace pounding

@@ -10,13 +10,15 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
-#include "driver/full_order.h"
 #include "driver/whole_meshes.h"
 #include "interactions/pairing/interface.h"
 #include "io/new_file.h"
-#include "modal/basis_key.h"
 #include "modal/modal_basis_file.h"
+#include "modal/shifted_solver.h"
+#include "statics/assembled_statics.h"
+#include "system/finite_element_system.h"
 #include "system/links.h"
+#include "system/load_shapes.h"
 #include "system/mass_scaling.h"
 #include "system/matrix_system.h"
 
@@ -308,6 +310,26 @@ void find_bases(MPI_Comm comm, const Scene& scene, std::span<const GlobalMesh> m
     }
     model.buildings[reduction.s].basis = std::move(reduction.basis);
   }
+}
+
+LinearSystem assemble_structure(const Model& model, std::size_t s, const Structure& structure,
+                                const Mesh& mesh, StiffnessMethod method, bool with_matrix) {
+  LinearSystem system = build_system(structure, mesh, method, with_matrix);
+  system.loads = shape_loads(model.scene_loads(), static_cast<int>(s), mesh);
+  system.start = shape_start(model.starts[s], system, mesh);
+  return system;
+}
+
+void require_stable(const Structure& structure, const Mesh& mesh, const LinearSystem& system,
+                    const std::optional<LargestCompression>& compression) {
+  require_passive_matrices(structure, system);
+  if (compression) require_no_buckling(structure, mesh, system, *compression);
+}
+
+void follow_supports(const Model& model, const Structure& structure, const Mesh& mesh,
+                     SolverChoice solver, LinearSystem& system) {
+  system.supports = find_support_shapes(structure, mesh, system, model.support_columns(), solver);
+  if (system.supports && system.links) system.links->find_trace(system, mesh);
 }
 
 }  // namespace pounding

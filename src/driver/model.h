@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -10,23 +11,91 @@
 #include <vector>
 
 #include "common/profile.h"
-#include "driver/building.h"
-#include "driver/separation_rules.h"
-#include "driver/step_limits.h"
+#include "driver/beam_waves.h"
+#include "interactions/pairing/absorbing_faces.h"
 #include "interactions/pairing/interface.h"
+#include "mesh/connectivity.h"
+#include "mesh/divide_beams.h"
 #include "mesh/force_places.h"
 #include "mesh/mesh.h"
+#include "mesh/mesh_files.h"
 #include "mesh/nodal_load.h"
 #include "mesh/probe_set.h"
+#include "mesh/spread_springs.h"
+#include "modal/modal_analysis.h"
+#include "modal/modal_basis.h"
 #include "motion/ground_motion.h"
 #include "motion/load_histories.h"
 #include "motion/support_motion.h"
 #include "scene/scene.h"
+#include "stability/resolved_motion.h"
+#include "stability/stable_time_step.h"
+#include "stability/step_target.h"
 #include "statics/equilibrium.h"
+#include "system/element_forces.h"
 #include "system/linear_system.h"
 #include "system/load_shapes.h"
 
 namespace pounding {
+
+/// Findings of the checks of a structure's mesh.
+struct MeshFindings {
+  Connectivity connectivity;
+  std::vector<UnusedElements> unused;  ///< places that no option of the scene names
+  MeshFiles files;
+  std::vector<DividedLines> divided;  ///< regions whose lines were cut into beams
+};
+
+/// One structure of the scene as it was built: its mesh and its system, and all that was found out
+/// about them. Constant during a run.
+struct Building {
+  const Structure* structure = nullptr;     ///< as the user asked for it; of the scene
+  const Mesh* mesh = nullptr;               ///< this rank's part; borrowed from the model
+  const LinearSystem* system = nullptr;     ///< borrowed from the model
+  MeshFindings findings;                    ///< on rank 0 only
+  interactions::AbsorbingReport absorbing;  ///< on rank 0 only
+  std::vector<SpreadReport> spread;         ///< on rank 0 only
+  std::optional<ModalBasis> basis;          ///< if the structure is reduced; no rows
+  ModalResult modal;
+  std::vector<double> mode_gaps;     ///< change of the gap of each contact row by each mode,
+                                     ///< shape (modes, rows), see modes_at_contacts
+  std::vector<BeamWaves> beams;      ///< of its regions of beams
+  std::optional<StepDesign> design;  ///< if its time step has a target
+  std::optional<LargestCompression> compression;  ///< under its weight, with P-Delta at full order
+  StructureLimits limits;
+  double energy_margin = 0;  ///< of the time step in force [-]
+
+  /// The structure at full order: the design for its step, if that has a target, else as asked for.
+  const Structure& full_order() const { return design ? design->structure : *structure; }
+  const std::string& name() const { return system->name; }
+  const ModalBasis* basis_or_null() const { return basis ? &*basis : nullptr; }
+  /// Where the largest of a value per owned dof is: a place, or a generalised coordinate. The same
+  /// on all ranks. Collective.
+  std::string locate_largest(std::span<const double> values) const;
+};
+
+/// One side of a joint: how far its modes let it move along the normal.
+struct SeparationSide {
+  std::string structure;  ///< "wall" for a rigid one
+  double peak = 0;        ///< largest of all pairs [m]
+  int modes = 0;
+  double frequency = 0;  ///< of the mode that moves it most [Hz]
+  double ratio = 0;      ///< its damping ratio [-]
+};
+
+/// The joint that a contact would need if nothing were to hit, by response spectrum: peaks of each
+/// mode from the ground motion of the scene, combined by their correlations (CQC), directions by
+/// the root of the sum of squares. Each rule is the largest of all pairs of the contact.
+struct Separation {
+  std::size_t contact = 0;  ///< of the scene
+  SeparationSide secondary, primary;
+  double gap = 0;          ///< at rest, the smallest [m]
+  double sum = 0;          ///< u1 + u2 [m]
+  double srss = 0;         ///< sqrt(u1^2 + u2^2): EN 1998-1 4.4.2.7, ASCE 7-16 12.12.3 [m]
+  double ddc = 0;          ///< sqrt(u1^2 + u2^2 - 2 rho u1 u2), rho below [m]
+  double modal = 0;        ///< CQC over the modes of both, the second's with the other sign [m]
+  double correlation = 0;  ///< of the two modes that move the sides most [-]
+};
 
 /// Gaps of the pairs of a contact before the run, the smallest and the largest [m].
 struct JointGaps {

@@ -4,16 +4,14 @@
 #include <array>
 #include <filesystem>
 
-#include "driver/contact_history.h"
-#include "driver/energy_watch.h"
+#include "driver/contact_watches.h"
 #include "driver/field_plan.h"
 #include "driver/forces.h"
 #include "driver/loops.h"
-#include "driver/mesh_labels.h"
+#include "driver/model_file.h"
 #include "driver/run_progress.h"
-#include "driver/slide_watch.h"
 #include "driver/storeys.h"
-#include "driver/uplift_watch.h"
+#include "driver/watchdog.h"
 #include "driver/yield_table.h"
 
 namespace pounding {

@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "driver/impact_watch.h"
-#include "driver/observed_run.h"
+#include "driver/contact_watches.h"
+#include "driver/field_plan.h"
 #include "output/recorder.h"
 
 namespace pounding {

@@ -2,17 +2,27 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <numbers>
+#include <sstream>
 #include <string_view>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
 #include "common/error.h"
+#include "common/hash.h"
 #include "common/library_versions.h"
 #include "common/parallel.h"
 #include "common/version.h"
+#include "io/file_digest.h"
+#include "output/result_folder.h"
 #include "scene/option_table.h"
 #include "scene/option_values.h"
 #include "scene/resolved_options.h"
@@ -107,6 +117,76 @@ std::vector<InputFile> input_files(const SceneOrigin& origin, const std::string&
   return std::move(inputs.files);
 }
 
+std::string hash_of(const GroundMotion& motion, const SupportMotion* supports,
+                    const LoadHistories* loads) {
+  Hash hash;
+  for (int direction = 0; direction < 3; ++direction) {
+    const Accelerogram& component = motion.component(direction);
+    hash.add(component.time_step);
+    hash.add(component.start);
+    hash.add_all(component.acceleration);
+    const Accelerogram& incident = motion.incident(direction);
+    if (!incident.acceleration.empty()) {
+      hash.add(incident.time_step);
+      hash.add(incident.start);
+      hash.add_all(incident.acceleration);
+    }
+  }
+  for (std::size_t c = 0; supports != nullptr && c < supports->columns().size(); ++c) {
+    hash.add(supports->own(c).time_step);
+    hash.add(supports->own(c).start);
+    hash.add_all(supports->own(c).acceleration);
+  }
+  for (std::size_t l = 0; loads != nullptr && l < loads->size(); ++l) {
+    hash.add_all(loads->function(l).times);
+    hash.add_all(loads->function(l).values);
+  }
+  return hash.text();
+}
+
+/// Contents of the files of an option, as options of their own.
+void add_matrices(const std::string& option, const std::string& folder,
+                  std::map<std::string, std::string>& options) {
+  for (const char* matrix : {"stiffness", "mass", "damping"}) {
+    const std::string path = matrix_file(folder, matrix);
+    if (!path.empty()) options[option + " (its " + matrix + ")"] = digest_of_file(path).sha256;
+  }
+}
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse_folder(const std::string& option, const std::string& folder,
+                                const std::string& why) {
+  throw UserError("option -" + option + " " + folder +
+                  ": the folder cannot be created or written (" + why + "); give another one");
+}
+
+void try_writing(const std::string& option, const std::string& folder) {
+  std::string trial = folder + "/.trial-XXXXXX";
+  const int file = mkstemp(trial.data());
+  const bool written = file >= 0 && write(file, "trial\n", 6) == 6;
+  const std::string why = std::strerror(errno);
+  if (file >= 0) {
+    close(file);
+    unlink(trial.c_str());
+  }
+  if (!written) refuse_folder(option, folder, why);
+}
+
+bool tells_the_scene(const std::string& option) {
+  return option == "structures" || option == "contacts" || option.ends_with("_mesh") ||
+         option.ends_with("_mesh_set") || option.ends_with("_matrices") ||
+         option.starts_with("motion_");
+}
+
+std::map<std::string, std::string> scene_options(const std::string& resolved) {
+  std::map<std::string, std::string> options;
+  for (const auto& [name, value] : resolved_values(resolved)) {
+    if (tells_the_scene(name)) options[name] = value;
+  }
+  return options;
+}
+
 }  // namespace
 
 Provenance note_provenance(MPI_Comm comm, const SceneOrigin& origin, const std::string& resolved) {
@@ -163,6 +243,75 @@ void add_provenance(const Provenance& provenance, nlohmann::ordered_json& summar
                                  {"sha256", input.digest.sha256}});
   }
   for (const auto& [name, version] : library_versions()) summary["versions"][name] = version;
+}
+
+std::map<std::string, std::string> lasting_options(MPI_Comm comm, const std::string& resolved) {
+  std::map<std::string, std::string> options;
+  for (const auto& [name, value] : resolved_values(resolved)) {
+    if (!may_differ(name, Comparison::restart)) options[name] = value;
+  }
+  on_rank0(comm, [&] {
+    const std::map<std::string, std::string> named = options;
+    for (const auto& [name, folder] : named) {
+      if (name.ends_with("_matrices") && folder != "none") add_matrices(name, folder, options);
+      if (name.ends_with("_soil_table") && folder != "none") {
+        options[name + " (its content)"] = digest_of_file(folder).sha256;
+      }
+    }
+  });
+  return options;
+}
+
+RunIdentity identity_of(MPI_Comm comm, const std::string& resolved, const Model& model) {
+  RunIdentity identity{lasting_options(comm, resolved), model.time_step,
+                       hash_of(*model.motion, model.supports.get(), model.load_histories.get())};
+  for (const Building& building : model.buildings) {
+    if (!follows_spectra(*building.structure, building.beams)) continue;
+    for (const Region& region : building.structure->regions) {
+      identity.beam_frequency =
+          std::max(identity.beam_frequency, region.resolved_frequency / (2 * std::numbers::pi));
+    }
+  }
+  return identity;
+}
+
+void try_folder(const std::string& option, const std::string& folder) {
+  std::error_code failure;
+  const std::vector<fs::path> missing = missing_folders(fs::path(folder).lexically_normal());
+  fs::create_directories(folder, failure);
+  if (failure) refuse_folder(option, folder, failure.message());
+  if (!fs::is_directory(folder, failure)) refuse_folder(option, folder, "it is a file");
+  const auto restore = [&missing] {
+    std::error_code ignored;
+    for (const fs::path& made : missing) fs::remove(made, ignored);
+  };
+  try {
+    try_writing(option, folder);
+  } catch (const UserError&) {
+    restore();
+    throw;
+  }
+  restore();
+}
+
+std::vector<std::string> replaced_results(const Scene& scene, const std::string& resolved) {
+  std::ifstream file(scene.output + "/resolved.yaml");
+  if (!file || !scene.restart.empty()) return {};
+  std::ostringstream text;
+  text << file.rdbuf();
+  const auto before = scene_options(text.str());
+  const auto now = scene_options(resolved);
+  if (before.empty() || before == now) return {};
+  const auto other = std::ranges::find_if(now, [&before](const auto& option) {
+    const auto found = before.find(option.first);
+    return found != before.end() && found->second != option.second;
+  });
+  const std::string what = other == now.end()
+                               ? "other structures or motions"
+                               : "-" + other->first + " " + shown_value(before.at(other->first)) +
+                                     ", now " + shown_value(other->second);
+  return {"the folder " + scene.output + " holds results of another scene (" + what +
+          "); this run replaces them"};
 }
 
 }  // namespace pounding

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <span>
 #include <string>
 #include <utility>
@@ -8,8 +9,9 @@
 #include <mpi.h>
 #include <nlohmann/json_fwd.hpp>
 
-#include "driver/building.h"
+#include "driver/model.h"
 #include "io/file_digest.h"
+#include "output/checkpoint.h"
 #include "scene/scene.h"
 #include "scene/scene_origin.h"
 
@@ -52,5 +54,23 @@ std::string provenance_comment(const Provenance& provenance);
 
 /// Adds it to summary.json: `started`, `ended` (now), `machine`, `inputs`, `overrides`, `versions`.
 void add_provenance(const Provenance& provenance, nlohmann::ordered_json& summary);
+
+/// The options that a continued run has in common with the run before; `resolved`: those in force.
+/// On rank 0 also the contents of matrices brought in. Throws UserError on every rank alike.
+/// Collective.
+std::map<std::string, std::string> lasting_options(MPI_Comm comm, const std::string& resolved);
+
+/// Identity of a run, with which a checkpoint is compared. Collective.
+RunIdentity identity_of(MPI_Comm comm, const std::string& resolved, const Model& model);
+
+/// The folder of results before the work: whether it can be used, and its content.
+
+/// Tries that the folder can be made and written, and leaves everything as it was. Throws
+/// UserError. Rank 0.
+void try_folder(const std::string& option, const std::string& folder);
+
+/// One line where the folder holds results of other structures, meshes or motions than `resolved`
+/// tells, which this run replaces; none where a run is continued. Rank 0.
+std::vector<std::string> replaced_results(const Scene& scene, const std::string& resolved);
 
 }  // namespace pounding

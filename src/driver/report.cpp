@@ -4,7 +4,6 @@
 #include <cstdio>
 
 #include "common/version.h"
-#include "driver/subject_facts.h"
 #include "io/new_file.h"
 #include "io/schema.h"
 #include "scene/resolved_options.h"

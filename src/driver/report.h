@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "driver/equipment_capacity.h"
+#include "driver/facts.h"
 #include "driver/floor_spectra.h"
 #include "driver/model.h"
 #include "driver/provenance.h"
@@ -46,5 +46,60 @@ void print_results(const FinishedRun& run);
 /// `summary.json`: every number that the run printed, whence it is, and resolved options. Throws
 /// UserError if it cannot be written.
 void write_summary(const std::string& path, const FinishedRun& run);
+
+/// Facts of each subject of a run, for rank 0, as the report prints and summary.json has them.
+
+/// Facts of the ground motion by direction as it was understood, null where there is none, and of
+/// the components in which supports move otherwise, and of the loads (record_facts.cpp).
+Facts motion_facts(const GroundMotion& motion);
+Facts support_facts(const SupportMotion& supports);
+Facts load_facts(const Scene& scene, const Model& model);
+
+/// Facts of a structure as it was built, of soil under its mat, spread springs and absorbing faces
+/// (structure_facts.cpp); of its damping, basis and modes, scaled mass and stable step
+/// (mode_facts.cpp).
+Facts structure_facts(const Building& building);
+Facts damping_facts(const Building& building);
+Facts soil_facts(const Structure& structure);
+Facts spread_facts(const Building& building);
+Facts absorbing_facts(const Building& building);
+Facts reduction_facts(const Building& building);
+Facts mode_facts(const Building& building);
+Facts scaling_facts(const Building& building);
+Facts step_limit_facts(const Building& building);
+
+/// Facts of a contact as it was found, those of a run null; of all contacts after a run; of the
+/// impacts; of the joints that would be needed (contact_facts.cpp).
+Facts contact_facts(const Scene& scene, const Model& model, std::size_t contact);
+Facts joint_facts(const Scene& scene, const Model& model, const RunStatistics& run);
+Facts impact_facts(const Scene& scene, const RunStatistics& run, const ImpactCatalogue& impacts);
+Facts separation_facts(const Scene& scene, const Model& model);
+
+/// Facts of the forces that hold a scene at rest that starts there (run_facts.cpp).
+Facts rest_facts(const Scene& scene, const Model& model);
+
+/// Facts of the ranks' parts, the kernels in use, the time step, a step on ranks that are not
+/// there, energies, phases and warnings (run_facts.cpp).
+Facts partition_facts(const Model& model);
+Facts kernel_facts();
+Facts time_step_facts(const Scene& scene, const Model& model);
+Facts energy_facts(const RunStatistics& run);
+Facts phase_facts(const PhaseReport& report);
+Facts warning_facts(std::span<const std::string> lines);
+
+/// Facts of the records: loops, contact ratios of springs that press only, forces, drifts, probes;
+/// the report has the peaks of spectra too (record_facts.cpp).
+Facts loop_facts(const RunStatistics& run);
+Facts yield_facts(const RunStatistics& run);
+Facts contact_ratio_facts(const Scene& scene, const RunStatistics& run);
+Facts force_facts(const RunStatistics& run);
+Facts drift_facts(const StoreyDrifts& drifts);
+Facts probe_facts(const Scene& scene, const RunStatistics& run, const Recorder& recorder,
+                  const std::vector<ProbeSpectrum>& spectra);
+
+/// How the fidelity of a run was come to, none without an accepted error; and the error of its
+/// floor spectra beside full order, none where it was not estimated (run_facts.cpp).
+Facts climb_facts(const Scene& scene);
+Facts fidelity_facts(const Scene& scene, const RunStatistics& run);
 
 }  // namespace pounding

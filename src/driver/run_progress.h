@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "driver/observed_run.h"
+#include "driver/field_plan.h"
 #include "output/impact_catalogue.h"
 
 namespace pounding {
@@ -46,5 +46,13 @@ class RunProgress {
 /// Shows how far a run is; `impacts` must outlive it.
 std::unique_ptr<Observer> make_progress_watch(const ObservedRun& run,
                                               const ImpactCatalogue& impacts);
+
+/// Whether somebody sees the standard output as it is written. mpirun gives rank 0 a terminal of
+/// its own even where its output goes to a file or a pipe: there the output of mpirun itself
+/// counts.
+bool is_watched();
+
+/// Columns of the terminal of the standard output, 80 where it does not say.
+int terminal_width();
 
 }  // namespace pounding

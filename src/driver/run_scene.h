@@ -6,8 +6,8 @@
 
 #include <mpi.h>
 
-#include "driver/fidelity_estimate.h"
 #include "driver/model.h"
+#include "driver/run_statistics.h"
 #include "output/impact_catalogue.h"
 #include "output/recorder.h"
 #include "scene/scene_origin.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -7,17 +9,60 @@
 #include <utility>
 #include <vector>
 
+#include <mpi.h>
+
 #include "common/matrix3.h"
-#include "driver/fidelity_estimate.h"
-#include "driver/phase_report.h"
-#include "driver/stated_peaks.h"
+#include "common/profile.h"
+#include "driver/floor_spectra.h"
 #include "dynamics/energy_balance.h"
 #include "interactions/filler_rows.h"
 #include "interactions/interaction.h"
+#include "motion/spectrum_shape.h"
 #include "output/impact_catalogue.h"
 #include "output/recorder.h"
 
 namespace pounding {
+
+/// Time and memory of one phase over all ranks.
+struct PhaseUse {
+  double seconds = 0;       ///< wall time, largest over the ranks [s]
+  double peak = 0;          ///< resident memory, sum of the ranks' largest [bytes]
+  double largest_rank = 0;  ///< largest of one rank [bytes]
+  double held = 0;          ///< at the end of the phase, all ranks together [bytes]
+};
+
+struct PhaseReport {
+  std::vector<PhaseUse> phases;  ///< per Phase; memory of those of the start-up and of `step` only
+  double peak = 0;               ///< of the whole run, sum of the ranks' largest [bytes]
+  /// Largest memory of Gmsh's processes, which have gone when the ranks take theirs [bytes].
+  double mesher = 0;
+  std::size_t dofs = 0;  ///< free ones, for memory per dof
+};
+
+/// Time and memory that the ranks noted. Collective.
+PhaseReport report_phases(MPI_Comm comm, const Profile& profile, std::size_t dofs);
+
+/// Error of a reduced run's floor spectra beside full order, see
+/// fidelity/full_order_window.h; the same on every rank, but for the words.
+struct FidelityEstimate {
+  using Bands = std::array<double, compared_bands.size()>;
+  double start = 0;                       ///< of the window [s]
+  double end = 0;                         ///< [s]
+  std::string reason;                     ///< for the place of the window; rank 0
+  std::vector<ChannelDistance> channels;  ///< that move; rms with both parts, the largest of the
+                                          ///< window's
+  Bands rms{};                            ///< of all channels, per band: root of the sum of the
+                                          ///< squares of the two parts [-]
+  Bands window{};                         ///< of the part of the window [-]
+  Bands spread{};                         ///< and of the run's answer to a small disturbance [-]
+  double disturbance = 0;                 ///< part by which the ground's motion was changed [-]
+  double impulse = 0;                     ///< in the window, of the reduced run [N s]
+  double full_impulse = 0;                ///< and of full order [N s]
+  std::size_t full_dofs = 0;
+  double time_step = 0;      ///< of full order [s]
+  double wall_time = 0;      ///< of the estimate [s]
+  double full_run_time = 0;  ///< that the whole run would take at full order [s]
+};
 
 /// How far the pairs of a contact have closed since the start of a run.
 struct JointClosing {

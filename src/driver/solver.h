@@ -7,7 +7,6 @@
 
 #include "common/profile.h"
 #include "dynamics/cd_lagrange.h"
-#include "dynamics/gap_watch.h"
 #include "dynamics/unilateral_contact.h"
 #include "interactions/contact_problem.h"
 #include "interactions/filler_rows.h"
@@ -109,5 +108,13 @@ class Solver {
   std::vector<double> impulses_;  ///< see row_actions; room where something gives way
   std::vector<double> works_;
 };
+
+/// Bounds of the gap rates of structures at a time step [s] with their energy margins (see
+/// EnergyNorm), the same on all ranks; `contact` may be null. `progress_interval` [s]: see
+/// Progress. Collective over `comm`.
+std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSystem> systems,
+                                        std::span<const double> energy_margins, double time_step,
+                                        const interactions::ContactProblem* contact,
+                                        double progress_interval);
 
 }  // namespace pounding

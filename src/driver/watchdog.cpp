@@ -5,8 +5,10 @@
 #include <sstream>
 
 #include "common/error.h"
+#include "driver/run_statistics.h"
 #include "mesh/location.h"
 #include "modal/reduced_system.h"
+#include "output/energy_ledger.h"
 
 namespace pounding {
 namespace {
@@ -46,6 +48,26 @@ std::string complaint(const StructureEnergy& energy, double omega) {
   }
   return text.str();
 }
+
+class EnergyWatch final : public Observer {
+ public:
+  explicit EnergyWatch(const ObservedRun& run)
+      : run_(run), ledger_(run.model.steps / run.scene.energy_interval + 2) {}
+
+  std::int64_t next_due(std::int64_t step) const override { return run_.next_ledger_step(step); }
+  StepNeeds begin(const CdLagrange& /*stepper*/) override { return {.energies = true}; }
+  void observe(const CdLagrange& stepper) override;
+  void save(SavedState& saved) override {
+    if (rank_of(run_.comm) == 0) ledger_.save(saved);
+  }
+  void load(const SavedState& saved) override { ledger_.load(saved); }
+  void report(RunStatistics& statistics) override;
+  Phase phase() const override { return Phase::energy; }
+
+ private:
+  ObservedRun run_;
+  EnergyLedger ledger_;
+};
 
 }  // namespace
 
@@ -134,6 +156,26 @@ ClosedLine close_line(MPI_Comm comm, const Model& model, const State& state,
     closed.round_off.push_back(energy_round_off(model, s, closed.energies[s]));
   }
   return closed;
+}
+
+void EnergyWatch::observe(const CdLagrange& stepper) {
+  EnergyBalance& energy = run_.solver.stepper().energy();
+  const ClosedLine closed =
+      close_line(run_.comm, run_.model, stepper.state(), run_.solver.contact(), energy);
+  run_.solver.note_energies(energy.closed_steps() - 1, closed.energies, closed.round_off);
+  ledger_.add(closed.line);
+}
+
+void EnergyWatch::report(RunStatistics& statistics) {
+  statistics.energy = ledger_.last();
+  statistics.energy_residual = run_.solver.stepper().energy().relative_residual();
+  on_rank0(run_.comm, [&] {
+    write_energy(run_.scene.output + "/energy.csv", ledger_.lines(), run_.scene.csv_digits);
+  });
+}
+
+std::unique_ptr<Observer> make_energy_watch(const ObservedRun& run) {
+  return std::make_unique<EnergyWatch>(run);
 }
 
 }  // namespace pounding

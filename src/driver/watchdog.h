@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "driver/field_plan.h"
 #include "driver/model.h"
 #include "dynamics/energy_balance.h"
 #include "dynamics/state.h"
@@ -46,5 +48,9 @@ ClosedLine close_line(MPI_Comm comm, const Model& model, const State& state,
 /// Throws DivergenceError if some rank's contact problem had no finite answer and so was left out.
 /// `contact` may be null. Collective.
 void watch_contact(MPI_Comm comm, const interactions::ContactProblem* contact, double time);
+
+/// Lines of the energy ledger: `energy.csv`. Each stops a run whose numbers cannot be trusted
+/// (watchdog.h), and the bounds of the gap rates go by it.
+std::unique_ptr<Observer> make_energy_watch(const ObservedRun& run);
 
 }  // namespace pounding

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "driver/observed_run.h"
+#include "driver/field_plan.h"
 
 namespace pounding {
 

@@ -6,7 +6,7 @@
 
 #include "common/memory.h"
 #include "common/parallel.h"
-#include "dynamics/rest_forces.h"
+#include "dynamics/state.h"
 
 namespace pounding {
 

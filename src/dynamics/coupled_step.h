@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "dynamics/state.h"
-#include "dynamics/step_sums.h"
 #include "dynamics/update.h"
 #include "system/linear_system.h"
 

@@ -8,7 +8,7 @@
 #include <mpi.h>
 
 #include "common/saved_state.h"
-#include "dynamics/step_sums.h"
+#include "dynamics/update.h"
 #include "system/linear_system.h"
 
 namespace pounding {

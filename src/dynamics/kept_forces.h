@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "common/types.h"
-#include "dynamics/contact_correction.h"
 #include "dynamics/update.h"
 
 namespace pounding {

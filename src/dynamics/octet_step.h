@@ -7,9 +7,7 @@
 #include <vector>
 
 #include "common/octet.h"
-#include "dynamics/contact_correction.h"
 #include "dynamics/state.h"
-#include "dynamics/step_sums.h"
 #include "dynamics/update.h"
 #include "interactions/dashpot_modes.h"
 #include "interactions/interaction.h"

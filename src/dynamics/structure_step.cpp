@@ -4,9 +4,9 @@
 #include <cstddef>
 
 #include "common/wide_lanes.h"
-#include "dynamics/contact_correction.h"
-#include "dynamics/rest_forces.h"
+#include "dynamics/state.h"
 #include "dynamics/step_policies.h"
+#include "dynamics/update.h"
 #include "system/load_shapes.h"
 #include "system/support_shapes.h"
 

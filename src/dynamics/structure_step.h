@@ -8,7 +8,6 @@
 #include "dynamics/coupled_step.h"
 #include "dynamics/kept_forces.h"
 #include "dynamics/state.h"
-#include "dynamics/step_sums.h"
 #include "dynamics/update.h"
 #include "interactions/interaction.h"
 #include "system/linear_system.h"

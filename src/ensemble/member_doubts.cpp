@@ -6,11 +6,10 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
-#include "driver/rest_gaps.h"
+#include "driver/rest.h"
 #include "driver/warnings.h"
 #include "interactions/pairing/contact_checks.h"
 #include "motion/synthetic.h"
-#include "motion/synthetic_doubts.h"
 
 namespace pounding {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "driver/energy_watch.h"
 #include "driver/time_loop.h"
+#include "driver/watchdog.h"
 
 namespace pounding {
 namespace {

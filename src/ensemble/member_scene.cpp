@@ -4,14 +4,12 @@
 #include <limits>
 
 #include "common/error.h"
-#include "driver/filler_limit.h"
 #include "driver/rest.h"
-#include "driver/rest_gaps.h"
 #include "driver/time_step.h"
 #include "interactions/pairing/gap_field.h"
 #include "modal/reduced_system.h"
 #include "scene/factor_reader.h"
-#include "stability/structure_limits.h"
+#include "stability/stable_time_step.h"
 #include "system/load_shapes.h"
 
 namespace pounding {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "common/error.h"
-#include "driver/stated_peak.h"
+#include "driver/floor_spectra.h"
 #include "motion/response_spectrum.h"
 
 namespace pounding {

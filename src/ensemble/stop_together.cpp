@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "common/parallel.h"
-#include "driver/stop_signal.h"
+#include "driver/time_loop.h"
 
 namespace pounding {
 namespace {

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <sstream>
+#include <string>
+#include <utility>
 
 #include "common/error.h"
 #include "common/petsc_message.h"
 #include "mesh/distributed_box.h"
-#include "modal/factorisation.h"
+#include "system/factor_plan.h"
 
 namespace pounding {
 namespace {
@@ -22,6 +25,40 @@ std::string given_option(EPS solver) {
     if (given == PETSC_TRUE) return "-" + std::string(prefix) + (name + 1);
   }
   return "";
+}
+
+/// Diagonal of M^-1/2, 1 where the mass is coupled.
+std::vector<double> mass_scale(const LinearSystem& system) {
+  std::vector<double> scale(system.inverse_mass.size());
+  std::transform(system.inverse_mass.begin(), system.inverse_mass.end(), scale.begin(),
+                 [](double value) { return std::sqrt(value); });
+  for (std::size_t n = 0; system.coupled_mass && n < system.coupled_mass->nodes().size(); ++n) {
+    const NodeDofs& node = system.coupled_mass->nodes()[n];
+    std::fill_n(scale.begin() + node.begin, node.count, 1.0);
+  }
+  return scale;
+}
+
+/// Residual of a pair over its eigenvalue.
+constexpr double tolerance = 1e-6;
+/// Residuals below this part of the largest eigenvalue are round-off.
+constexpr double round_off = 1e-13;
+/// Part of the largest eigenvalue by which rigid motions are lifted off zero.
+constexpr double lift = 1e-10;
+/// Vectors by which the space grows at once.
+constexpr PetscInt grown_at_once = 4;
+constexpr PetscInt most_iterations = 20000;
+
+/// Memory [B] that no factor of so many dofs exceeds: a cube of bricks has the fullest one.
+double most_factor_memory(double dofs) {
+  return 250 * std::pow(dofs, 4.0 / 3);
+}
+
+/// Residual over the eigenvalue, or over `context`, where round-off is the tolerance.
+PetscErrorCode error_of(EPS, PetscScalar value, PetscScalar, PetscReal residual, PetscReal* error,
+                        void* context) {
+  *error = residual / std::max(std::abs(value), *static_cast<const double*>(context));
+  return 0;
 }
 
 }  // namespace
@@ -168,6 +205,128 @@ EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix,
   solve(solver.get());
   require_converged(solver.get(), system, mesh, count);
   return solver;
+}
+
+void factorise_with_mumps(PC factorisation) {
+  POUNDING_PETSC(PCSetType(factorisation, PCCHOLESKY));
+  POUNDING_PETSC(PCFactorSetMatSolverType(factorisation, MATSOLVERMUMPS));
+  const char* prefix = nullptr;
+  POUNDING_PETSC(PCGetOptionsPrefix(factorisation, &prefix));
+  const std::string option =
+      std::string("-") + (prefix == nullptr ? "" : prefix) + "mat_mumps_icntl_14";
+  PetscBool given = PETSC_FALSE;
+  POUNDING_PETSC(PetscOptionsHasName(nullptr, nullptr, option.c_str(), &given));
+  if (given == PETSC_FALSE) {
+    POUNDING_PETSC(
+        PetscOptionsSetValue(nullptr, option.c_str(), std::to_string(factor_workspace).c_str()));
+  }
+}
+
+ScaledOperator::ScaledOperator(const LinearSystem& system, std::vector<Term> terms, double shift)
+    : system_(system),
+      terms_(std::move(terms)),
+      shift_(shift),
+      scale_(mass_scale(system)),
+      field_(system.coupled_mass ? system.coupled_mass->field_size() : 0),
+      diagonal_(wrap_vector(system, scale_)) {
+  POUNDING_PETSC(VecDuplicate(diagonal_.get(), argument_.out()));
+  POUNDING_PETSC(VecDuplicate(diagonal_.get(), product_.out()));
+}
+
+void ScaledOperator::solve_coupled(Vec x, Half half) const {
+  if (!system_.coupled_mass) return;
+  const CoupledMass& mass = *system_.coupled_mass;
+  double* values = nullptr;
+  POUNDING_PETSC(VecGetArray(x, &values));
+  mass.take(values, field_.data());
+  if (half == Half::plain) {
+    mass.solve_half(field_.data());
+  } else {
+    mass.solve_transposed_half(field_.data());
+  }
+  mass.put(field_.data(), values);
+  POUNDING_PETSC(VecRestoreArray(x, &values));
+}
+
+void ScaledOperator::apply(Vec x, Vec y) const {
+  POUNDING_PETSC(VecPointwiseMult(argument_.get(), diagonal_.get(), x));
+  solve_coupled(argument_.get(), Half::transposed);
+  POUNDING_PETSC(VecSet(y, 0));
+  for (const auto& [factor, operand] : terms_) {
+    operand->apply(argument_.get(), product_.get());
+    POUNDING_PETSC(VecAXPY(y, factor, product_.get()));
+  }
+  POUNDING_PETSC(VecPointwiseMult(y, diagonal_.get(), y));
+  solve_coupled(y, Half::plain);
+  POUNDING_PETSC(VecAXPY(y, shift_, x));
+}
+
+void ScaledOperator::solve(std::vector<double>& x, Half half) const {
+  const VecHandle vector = wrap_vector(system_, x);
+  POUNDING_PETSC(VecPointwiseMult(vector.get(), diagonal_.get(), vector.get()));
+  solve_coupled(vector.get(), half);
+}
+
+void ScaledOperator::to_motion(std::vector<double>& y) const {
+  solve(y, Half::transposed);
+}
+
+void ScaledOperator::from_force(std::vector<double>& f) const {
+  solve(f, Half::plain);
+}
+
+bool must_iterate(const LinearSystem& system, Mat matrix, SolverChoice choice) {
+  if (choice != SolverChoice::automatic) return choice == SolverChoice::iterative;
+  double usable = memory_for_factor();
+  MPI_Allreduce(MPI_IN_PLACE, &usable, 1, MPI_DOUBLE, MPI_MIN, system.comm);
+  PetscInt dofs = 0;
+  POUNDING_PETSC(MatGetSize(matrix, &dofs, nullptr));
+  // Ordering the rows takes its time: only where the answer is in doubt.
+  return most_factor_memory(static_cast<double>(dofs)) > usable &&
+         plan_factor(matrix, factor_workspace).memory > usable;
+}
+
+LowestPairs iterate_lowest(const LowestProblem& problem, int count) {
+  const LinearSystem& system = problem.system;
+  const double largest = problem.frequency_bound * problem.frequency_bound;
+  LowestPairs result;
+  result.above = lift * largest;
+  if (problem.mass == nullptr) {
+    POUNDING_PETSC(MatShift(problem.matrix, result.above));
+  } else {
+    POUNDING_PETSC(MatAXPY(problem.matrix, result.above, problem.mass, UNKNOWN_NONZERO_PATTERN));
+  }
+  POUNDING_PETSC(MatSetOption(problem.matrix, MAT_SPD, PETSC_TRUE));
+  set_near_null_space(system, problem.mesh, problem.matrix, problem.to_coordinates);
+  result.solver =
+      create_eigen_solver(system, problem.mesh, problem.matrix, "lowest_", problem.mass);
+  EPS solver = result.solver.get();
+  POUNDING_PETSC(EPSSetType(solver, EPSGD));
+  POUNDING_PETSC(EPSGDSetBlockSize(solver, grown_at_once));
+  POUNDING_PETSC(EPSSetDimensions(solver, count, PETSC_DEFAULT, PETSC_DEFAULT));
+  POUNDING_PETSC(EPSSetWhichEigenpairs(solver, EPS_SMALLEST_REAL));
+  POUNDING_PETSC(EPSSetTolerances(solver, tolerance, most_iterations));
+  double least = round_off * largest / tolerance;
+  POUNDING_PETSC(EPSSetConvergenceTestFunction(solver, error_of, &least, nullptr));
+  ST transform = nullptr;
+  KSP approximate = nullptr;
+  PC multigrid = nullptr;
+  POUNDING_PETSC(EPSGetST(solver, &transform));
+  POUNDING_PETSC(STSetType(transform, STPRECOND));
+  POUNDING_PETSC(STGetKSP(transform, &approximate));
+  POUNDING_PETSC(KSPSetType(approximate, KSPPREONLY));
+  POUNDING_PETSC(KSPGetPC(approximate, &multigrid));
+  POUNDING_PETSC(PCSetType(multigrid, PCGAMG));
+  solve(solver);
+  require_converged(solver, system, problem.mesh, count);
+  POUNDING_PETSC(EPSSetConvergenceTest(solver, EPS_CONV_REL));
+  PetscInt iterations = 0;
+  POUNDING_PETSC(EPSGetIterationNumber(solver, &iterations));
+  char text[80];
+  std::snprintf(text, sizeof text, "generalised Davidson with multigrid, %d iterations",
+                static_cast<int>(iterations));
+  result.method = text;
+  return result;
 }
 
 }  // namespace pounding

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "common/petsc.h"
 #include "mesh/mesh.h"
+#include "scene/scene.h"
 #include "system/linear_system.h"
 
 /// Symmetric eigenvalue problems of a structure in y = M^1/2 x, by SLEPc.
@@ -47,5 +49,78 @@ inline constexpr double lowest_shift = -1;
 /// hold. `known`: eigenvectors that are left out. Throws UserError if fewer converge. Collective.
 EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix, int count,
                        Mat mass = nullptr, std::vector<VecHandle>* known = nullptr);
+
+/// Workspace of a factor beyond MUMPS's own estimate [per cent].
+inline constexpr int factor_workspace = 100;
+
+/// L D L^T by MUMPS, with twice the workspace that it expects to need: of shifted matrices cut in
+/// some ways it underestimates that and gives up. PETSc's options -<prefix>mat_mumps_icntl_14 (per
+/// cent) and the like still have the last word. To be called before options are read. Collective.
+void factorise_with_mumps(PC factorisation);
+
+/// A = G^-1 (sum of f_i B_i) G^-T + s I as an operator, from products with the B_i alone; G G^T is
+/// the mass: G = M^1/2 where it is diagonal.
+class ScaledOperator {
+ public:
+  struct Term {
+    double factor = 1;                              ///< f_i
+    const stiffness::Stiffness* operand = nullptr;  ///< B_i; must outlive the operator
+  };
+  /// Collective.
+  ScaledOperator(const LinearSystem& system, std::vector<Term> terms, double shift = 0);
+
+  /// y = A x. Collective.
+  void apply(Vec x, Vec y) const;
+  /// G^-T y of a vector over the owned dofs: the motion of y.
+  void to_motion(std::vector<double>& y) const;
+  /// G^-1 f of a force over the owned dofs.
+  void from_force(std::vector<double>& f) const;
+
+ private:
+  enum class Half { plain, transposed };
+  /// Applies G^-1 or G^-T where the mass is coupled.
+  void solve_coupled(Vec x, Half half) const;
+  /// G^-1 or G^-T times a vector over the owned dofs.
+  void solve(std::vector<double>& x, Half half) const;
+
+  const LinearSystem& system_;
+  std::vector<Term> terms_;
+  double shift_;
+  std::vector<double> scale_;          ///< of M^-1/2, per owned dof; 1 where the mass is coupled
+  mutable std::vector<double> field_;  ///< see CoupledMass
+  VecHandle diagonal_;                 ///< scale_
+  VecHandle argument_;                 ///< G^-T x
+  VecHandle product_;                  ///< of one term
+};
+
+/// Whether the lowest eigenpairs of a matrix are to be found without a factor: asked for, or
+/// because that factor, as MUMPS expects it, would take more than 0.8 of the memory that is free.
+/// Collective.
+bool must_iterate(const LinearSystem& system, Mat matrix, SolverChoice choice);
+
+/// Eigenvalue problem of a structure A x = lambda B x, whose lowest pairs an iteration seeks.
+struct LowestProblem {
+  const LinearSystem& system;
+  const Mesh& mesh;
+  Mat matrix;              ///< A, mass-scaled where there is no B; keeps the iteration's additions
+  Mat mass;                ///< B, or null
+  double frequency_bound;  ///< of any circular frequency of the structure [rad/s]
+  /// Takes a field of displacements to the coordinates of A.
+  std::function<void(std::vector<double>&)> to_coordinates;
+};
+
+/// Lowest eigenpairs as their solver holds them.
+struct LowestPairs {
+  EpsHandle solver;
+  double above = 0;    ///< excess of its eigenvalues [1/s2]
+  std::string method;  ///< how they were found, where that was without a factor
+};
+
+/// Finds at least the `count` lowest eigenpairs without a factorisation: the generalised Davidson
+/// method (Morgan 1990) in blocks, on A + s B, with algebraic multigrid (GAMG) that knows the
+/// rigid motions; s lifts these off zero. A pair counts when its residual is 1e-6 of its eigenvalue
+/// or round-off. PETSc's options with the prefix lowest_ hold. Throws UserError if fewer converge.
+/// Collective.
+LowestPairs iterate_lowest(const LowestProblem& problem, int count);
 
 }  // namespace pounding

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
-#include "modal/modal_request.h"
+#include "modal/static_loads.h"
 #include "system/linear_system.h"
 
 namespace pounding {

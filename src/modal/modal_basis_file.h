@@ -4,7 +4,9 @@
 #include <optional>
 #include <string>
 
+#include "mesh/global_mesh.h"
 #include "modal/modal_basis.h"
+#include "scene/scene.h"
 
 /// A modal basis in a sealed HDF5 file (output/file_seal.h), to be used again:
 ///
@@ -37,5 +39,11 @@ struct StoredBasis {
 /// std::runtime_error if the file is not a modal basis or damaged.
 StoredBasis read_modal_basis(const std::string& path, const BasisKey& key, std::size_t loads = 0,
                              bool start = false);
+
+/// Hashes of the sources of a modal basis, by their names: mesh, materials and sections, the
+/// formulations of the elements, every byte of dofs.csv and of the matrices where they come from
+/// files, clamps, how many vectors, and the points where the motion is asked for. Serial. Throws
+/// UserError if a file cannot be read.
+BasisKey basis_key(const Structure& structure, const GlobalMesh& mesh, const ModalRequest& request);
 
 }  // namespace pounding

@@ -4,7 +4,11 @@
 
 #include "common/dense_matrix.h"
 #include "common/petsc.h"
+#include "mesh/mesh.h"
 #include "modal/mumps_factor.h"
+#include "scene/scene.h"
+#include "system/element_forces.h"
+#include "system/linear_system.h"
 
 namespace pounding {
 
@@ -30,5 +34,19 @@ class ShiftedSolver {
   double shift_;
   MumpsFactor factor_;
 };
+
+/// Refuses matrices from files under which some motion has negative strain energy, or takes energy
+/// out of its damping: M^-1 K and M^-1 D must have no eigenvalue below -1e-11 of the largest. That
+/// is counted by a factorisation L D L^T (MUMPS) of either. Does nothing for structures of
+/// elements. Throws UserError on every rank alike. Collective.
+void require_passive_matrices(const Structure& structure, const LinearSystem& system);
+
+/// Throws UserError (one line, on every rank alike) if the stiffness of a structure whose elements
+/// have axial forces has a negative eigenvalue: it buckles. A factorisation counts those below
+/// -1e-13 of K scaled to a unit diagonal. The group is that whose axial forces do most work in the
+/// motion of the lowest one, which inverse iteration finds. Needs the matrix of the system.
+/// Collective.
+void require_no_buckling(const Structure& structure, const Mesh& mesh, const LinearSystem& system,
+                         const LargestCompression& largest);
 
 }  // namespace pounding

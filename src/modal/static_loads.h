@@ -1,14 +1,35 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "common/dense_matrix.h"
+#include "common/types.h"
 #include "mesh/mesh.h"
-#include "modal/modal_request.h"
+#include "mesh/nodal_load.h"
 #include "system/linear_system.h"
 #include "system/load_shapes.h"
 
 namespace pounding {
+
+/// Request for a basis: its content.
+struct ModalRequest {
+  int modes = 0;             ///< number of modes; 0: all below the cut-off
+  int candidates = 0;        ///< number of lowest modes to choose them from; 0: no others
+  double cutoff = 0;         ///< [Hz]
+  bool attachment = true;    ///< a vector per contact point as well
+  int patches = 0;           ///< or per patch of them, so many in all; 0: per point
+  Vector3 gravity{0, 0, 0};  ///< that the structure is to rest under [m/s2]; 0: no vector for it
+  std::vector<TracePoint> contact_points;
+  std::vector<TracePoint> yielding_points;  ///< of sections that yield, never in patches
+  std::vector<TracePoint> other_points;     ///< where the motion is wanted as well
+  std::vector<TracePoint> shown_points;     ///< and for pictures and forces, which choose no modes
+  std::vector<NodalLoad> loads;             ///< on the structure
+  std::vector<double> loads_at_rest;        ///< f of each before the run
+  NodalStart start;                         ///< of nodes that start differently
+  Vector3 start_displacement{0, 0, 0};      ///< of the others [m]
+  Vector3 start_velocity{0, 0, 0};          ///< of the others [m/s]
+};
 
 /// Owned dof of a point, -1 if it is clamped, does not exist or is another rank's. Local.
 LocalIndex owned_dof(const Mesh& mesh, const TracePoint& point);
@@ -24,5 +45,14 @@ std::vector<double> scaled_load(const LinearSystem& system, const LoadShape& sha
 /// gravity, the system's loads, unit forces at contact points or equal ones on their patches, and
 /// unit forces at sections that yield. Collective.
 DenseMatrix static_loads(const LinearSystem& system, const Mesh& mesh, const ModalRequest& request);
+
+/// Patches of contact points, as numbers of points: together `count` of them, or one more for each
+/// axis along which points move, shared out by the number of points of each axis. Their middles are
+/// points as far from each other as can be found one after the other (Gonzalez, Theor. Comput. Sci.
+/// 38 (1985) 293); a point belongs to the nearest one. `positions`: of each point [m]. Serial; the
+/// same for the same points.
+std::vector<std::vector<std::size_t>> contact_patches(std::span<const TracePoint> points,
+                                                      std::span<const Vector3> positions,
+                                                      std::size_t count);
 
 }  // namespace pounding

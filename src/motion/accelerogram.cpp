@@ -6,11 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "common/error.h"
-#include "motion/records/decimal_commas.h"
-#include "motion/records/header_numbers.h"
-#include "motion/records/record_content.h"
-#include "motion/records/record_formats.h"
+#include "motion/records/record_format.h"
+#include "motion/records/record_header.h"
 #include "motion/records/record_table.h"
+#include "motion/records/record_text.h"
 
 namespace pounding {
 

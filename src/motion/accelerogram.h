@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "motion/records/acceleration_limits.h"
+#include "motion/records/record_unit.h"
 #include "scene/scene.h"
 
 namespace pounding {

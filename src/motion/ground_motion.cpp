@@ -7,10 +7,9 @@
 #include <utility>
 
 #include "common/error.h"
+#include "motion/fourier.h"
 #include "motion/records/record_text.h"
-#include "motion/resampling.h"
 #include "motion/synthetic.h"
-#include "motion/synthetic_doubts.h"
 
 namespace pounding {
 

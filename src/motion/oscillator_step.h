@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <vector>
 
 namespace pounding {
 
@@ -19,5 +21,11 @@ struct OscillatorStep {
 /// 0 <= xi < 1. Below theta = 1 they are summed as power series of the step, because the closed
 /// form divides differences of nearly equal numbers by theta^3; above it is used.
 OscillatorStep oscillator_step(double theta, double damping_ratio);
+
+/// Absolute acceleration [m/s2] of an oscillator on a moving base at the samples of the base's
+/// acceleration [m/s2], from rest: exact for a base whose acceleration is linear between samples
+/// `time_step` [s] apart. `frequency` > 0 [Hz], `damping_ratio` in [0, 1).
+std::vector<double> oscillator_history(std::span<const double> acceleration, double time_step,
+                                       double frequency, double damping_ratio);
 
 }  // namespace pounding

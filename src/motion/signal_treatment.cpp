@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <numbers>
 
 #include "common/error.h"
 
 namespace pounding {
-
 namespace {
 
 constexpr std::array<const char*, 5> names{"complete", "all_peaks", "highest_peak", "without_peaks",
@@ -36,6 +37,39 @@ SampledSignal triangle(const SampledSignal& signal, const SignalPeak& peak, doub
   const double time = signal.first_time + middle * signal.time_step;
   return {{0, peak.impulse / step, 0}, step, time - step};
 }
+
+/// y_n = y_{n-1} + a (y_{n-1} - y_{n-2}) + b (x_n + 2 x_{n-1} + x_{n-2} - 4 y_{n-1}): in this order
+/// a constant is kept, however short the interval.
+struct TwoPoles {
+  double b = 0;
+  double a = 0;
+
+  /// Two poles of Butterworth by the bilinear transformation: half a pass of both.
+  TwoPoles(double interval, double frequency) {
+    constexpr double root = std::numbers::sqrt2;
+    const double w =
+        std::tan(std::numbers::pi * frequency * interval) / std::sqrt(std::sqrt(root - 1));
+    const double scale = 1 / (1 + root * w + w * w);
+    b = w * w * scale;
+    a = (1 - root * w + w * w) * scale;
+  }
+
+  /// Filters in place, from a signal that has long been its first value.
+  template <class Iterator>
+  void pass(Iterator begin, Iterator end) const {
+    if (begin == end) return;
+    double x1 = *begin, x2 = x1, y1 = x1, y2 = x1;
+    for (Iterator at = begin; at != end; ++at) {
+      const double x = *at;
+      const double y = y1 + (a * (y1 - y2) + b * (x + 2 * x1 + x2 - 4 * y1));
+      x2 = x1;
+      x1 = x;
+      y2 = y1;
+      y1 = y;
+      *at = y;
+    }
+  }
+};
 
 }  // namespace
 
@@ -84,6 +118,14 @@ SampledSignal treat(const SampledSignal& signal, std::span<const SignalPeak> pea
     }
   }
   return treated;
+}
+
+std::vector<double> low_pass(std::span<const double> samples, double interval, double frequency) {
+  std::vector<double> filtered(samples.begin(), samples.end());
+  const TwoPoles poles(interval, frequency);
+  poles.pass(filtered.begin(), filtered.end());
+  poles.pass(filtered.rbegin(), filtered.rend());
+  return filtered;
 }
 
 }  // namespace pounding

@@ -39,4 +39,9 @@ void check_synthetic(const TargetSpectrum& target, const SyntheticMotion& motion
 Accelerogram generate_accelerogram(const TargetSpectrum& target, const SyntheticMotion& motion,
                                    double pga);
 
+/// Doubts about a synthetic motion that are there before it is made. Throws UserError as
+/// GroundMotion does, but for a target that stays out of reach. `name` is that of messages.
+std::vector<std::string> synthetic_doubts(const std::string& name,
+                                          const MotionComponent& component);
+
 }  // namespace pounding

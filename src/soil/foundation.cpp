@@ -1,6 +1,5 @@
 #include "soil/foundation.h"
 
-#include "soil/disk.h"
 #include "soil/rectangle.h"
 
 namespace pounding {

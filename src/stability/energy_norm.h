@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "common/petsc.h"
-#include "modal/scaled_operator.h"
+#include "modal/eigen_solver.h"
 #include "system/linear_system.h"
 
 namespace pounding {

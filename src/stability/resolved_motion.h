@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 
@@ -31,5 +32,14 @@ ResolvedMotion resolved_motion(std::span<const double> frequencies, bool all, do
 
 /// The faster one of two motions.
 ResolvedMotion faster(const ResolvedMotion& a, const ResolvedMotion& b);
+
+/// Bounds of the time step of a run.
+struct StepLimits {
+  double stable = std::numeric_limits<double>::infinity();  ///< the stable step [s]
+  ResolvedMotion resolved;                                  ///< the fastest motion to be resolved
+};
+
+/// The limit that a time step in force comes from.
+enum class StepSource { given, stability, resolution, samples };
 
 }  // namespace pounding

@@ -9,7 +9,6 @@
 #include "mesh/location.h"
 #include "modal/modal_analysis.h"
 #include "stability/stable_time_step.h"
-#include "stability/structure_limits.h"
 #include "system/finite_element_system.h"
 #include "system/rotary_scaling.h"
 

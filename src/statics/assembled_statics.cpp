@@ -5,11 +5,14 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <optional>
 
+#include "common/dense_solver.h"
 #include "common/error.h"
 #include "common/parallel.h"
-#include "statics/link_terms.h"
+#include "statics/unilateral_rows.h"
 #include "system/factor_plan.h"
+#include "system/linear_system.h"
 
 namespace pounding {
 namespace {
@@ -38,6 +41,110 @@ void add_links(std::span<const LinkTerms> links, double sign, PetscInt first_dof
   }
   POUNDING_PETSC(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
   POUNDING_PETSC(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+}
+
+void multiply(const std::vector<double>& matrix, const std::vector<double>& x,
+              std::vector<double>& product) {
+  const std::size_t n = x.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    double sum = 0;
+    for (std::size_t j = 0; j < n; ++j) sum += matrix[i * n + j] * x[j];
+    product[i] = sum;
+  }
+}
+
+/// Static stiffness of a structure in generalised coordinates, all on one rank: diagonal, but for
+/// the one-way links that its K counts as acting and that are taken out here.
+class ReducedStatics final : public StaticStiffness {
+ public:
+  /// Throws UserError if the stiffness without bars is not positive with the shift.
+  ReducedStatics(const LinearSystem& system, double shift);
+  void apply(const std::vector<double>& u, std::vector<double>& q) const override;
+  void solve(std::vector<double>& x) const override;
+  std::string method() const override { return "in generalised coordinates"; }
+
+ private:
+  std::vector<double> stiffness_;  ///< shape (n, n)
+  std::vector<double> inverse_;    ///< of stiffness + shift M, shape (n, n)
+};
+
+ReducedStatics::ReducedStatics(const LinearSystem& system, double shift) {
+  const std::size_t n = system.lumped_mass.size();
+  // K is diagonal: one product gives it.
+  const std::vector<double> ones(n, 1.0);
+  std::vector<double> diagonal(n, 0.0);
+  stiffness::StoredForces store(diagonal.data());
+  system.stiffness->apply({ones.data(), ones.data(), 0}, store);
+  stiffness_.assign(n * n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) stiffness_[i * n + i] = diagonal[i];
+  for (const LinkTerms& bar : link_terms(system)) {
+    if (!bar.one_way) continue;  // K holds it, and it does not yield at rest
+    for (std::size_t a = 0; a < bar.dofs.size(); ++a) {
+      for (std::size_t b = 0; b < bar.dofs.size(); ++b) {
+        const std::size_t i = bar.dofs[a];
+        const std::size_t j = bar.dofs[b];
+        stiffness_[i * n + j] -= bar.stiffness * bar.coefficients[a] * bar.coefficients[b];
+      }
+    }
+  }
+  inverse_ = stiffness_;
+  for (std::size_t i = 0; i < n; ++i) inverse_[i * n + i] += shift * system.lumped_mass[i];
+  on_every_rank(system.comm, [&] {
+    if (n > 0 && !invert_definite(inverse_)) {
+      throw UserError("structure " + system.name +
+                      ": its reduced stiffness is not positive without its one-way links, so "
+                      "it has no static equilibrium; leave -preload out");
+    }
+  });
+}
+
+void ReducedStatics::apply(const std::vector<double>& u, std::vector<double>& q) const {
+  q.resize(u.size());
+  multiply(stiffness_, u, q);
+}
+
+void ReducedStatics::solve(std::vector<double>& x) const {
+  const std::vector<double> right = x;
+  multiply(inverse_, right, x);
+}
+
+constexpr double unit_shift = 1;  // 1/s2
+
+/// A correction this small against the solution, by mass, is round-off.
+constexpr double round_off = 1e-15;
+/// One that is no smaller than the one before is round-off as well, if it is smaller than this.
+constexpr double small = 1e-11;
+
+constexpr int most_corrections = 1000;
+
+/// u^T M u over all ranks.
+double square(const LinearSystem& system, const std::vector<double>& u) {
+  double sum = 0;
+  for (std::size_t i = 0; i < u.size(); ++i) sum += system.lumped_mass[i] * u[i] * u[i];
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, system.comm);
+  return sum;
+}
+
+/// Solves K u = -force, from a first guess on.
+std::vector<double> follow(const LinearSystem& system, const AssembledStatics& statics,
+                           const std::vector<double>& force, std::vector<double> u) {
+  std::vector<double> correction;
+  double before = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < most_corrections; ++i) {
+    statics.apply(u, correction);
+    for (std::size_t k = 0; k < u.size(); ++k) correction[k] = -(correction[k] + force[k]);
+    statics.solve(correction);
+    const double size = std::sqrt(square(system, correction));
+    for (std::size_t k = 0; k < u.size(); ++k) u[k] += correction[k];
+    const double all = std::sqrt(square(system, u));
+    if (size <= round_off * all || (size >= before && size <= small * all)) return u;
+    before = size;
+  }
+  throw UserError(
+      "structure " + system.name + ": how it follows its supports at rest is not found after " +
+      std::to_string(most_corrections) +
+      " corrections; is part of it held by almost nothing, or are mesh and materials in other "
+      "units than m, kg and Pa?");
 }
 
 }  // namespace
@@ -220,6 +327,46 @@ std::string AssembledStatics::method() const {
                   static_cast<long long>(iterations_), static_cast<long long>(solutions_));
   }
   return text;
+}
+
+std::unique_ptr<StaticStiffness> make_static_stiffness(const LinearSystem& system, const Mesh& mesh,
+                                                       double shift, SolverChoice solver) {
+  if (system.generalised) return std::make_unique<ReducedStatics>(system, shift);
+  return std::make_unique<AssembledStatics>(system, mesh, shift, solver);
+}
+
+std::shared_ptr<SupportShapes> find_support_shapes(const Structure& structure, const Mesh& mesh,
+                                                   const LinearSystem& system,
+                                                   std::span<const SupportColumn> columns,
+                                                   SolverChoice solver) {
+  auto shapes = std::make_shared<SupportShapes>();
+  shapes->columns.assign(columns.begin(), columns.end());
+  std::vector<int> stands(columns.size(), 0);
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    stands[c] = mesh.ground_support == columns[c].support ||
+                std::ranges::count(mesh.supported, columns[c].support, &SupportedNode::support) > 0;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, stands.data(), static_cast<int>(stands.size()), MPI_INT, MPI_MAX,
+                mesh.comm);
+  if (std::ranges::count(stands, 1) == 0) return nullptr;
+  std::optional<AssembledStatics> statics;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    std::vector<double>& shape = shapes->shape.emplace_back();
+    if (stands[c] == 0) continue;
+    if (mesh.ground_support >= 0) {
+      shape = rigid_motion(mesh, columns[c].component, columns[c].point);
+      if (columns[c].component < 3) continue;  // nodes and ground displaced alike: no strain
+    } else {
+      shape.assign(static_cast<std::size_t>(mesh.owned_dofs), 0.0);
+    }
+    if (!statics) {
+      statics.emplace(system, mesh, unit_shift, solver, AssembledStatics::Held::elements);
+    }
+    std::vector<double> force;
+    on_every_rank(mesh.comm, [&] { force = support_force(structure, mesh, columns[c]); });
+    shape = follow(system, *statics, force, std::move(shape));
+  }
+  return shapes;
 }
 
 }  // namespace pounding

@@ -1,11 +1,23 @@
 #include "statics/unilateral_rows.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "common/gather_rows.h"
-#include "statics/link_terms.h"
+#include "interactions/laws/law_of.h"
 
 namespace pounding {
+namespace {
+
+bool is_one_way_link(const Link& link) {
+  return !link.origin.section && link.origin.region != nullptr && is_one_way(*link.origin.region) &&
+         !link.origin.region->nonlinear.yields(static_cast<std::size_t>(link.origin.component));
+}
+
+constexpr double on_its_line = 1e-13;  ///< round-off of a force
+
+}  // namespace
 
 UnilateralRows::UnilateralRows(MPI_Comm comm, std::span<const interactions::Constraint> contacts,
                                std::span<const char> open, std::span<const LinearSystem> systems,
@@ -80,6 +92,72 @@ std::vector<double> UnilateralRows::openings(std::span<const std::vector<double>
 
 void UnilateralRows::add_force(int row, double f, std::span<std::vector<double>> forces) const {
   for (std::size_t s = 0; s < forces.size(); ++s) rows_.add_force(row, f, s, forces[s]);
+}
+
+std::unique_ptr<interactions::LinkLaw> law_at_rest(const Link& link) {
+  interactions::LinkOrigin origin = link.origin;
+  origin.in_stiffness = false;
+  constexpr double any_step = 1;  // s: nothing at rest depends on it
+  return interactions::law_of(origin, any_step);
+}
+
+bool slides(const interactions::LinkOrigin& origin) {
+  if (origin.section || origin.region == nullptr || !is_spring(origin.region->element)) {
+    return false;
+  }
+  const NonlinearSpring& law = origin.region->nonlinear;
+  return law.friction > 0 || law.is_in_circle(static_cast<std::size_t>(origin.component));
+}
+
+std::vector<LinkTerms> link_terms(const LinearSystem& system) {
+  std::vector<LinkTerms> bars;
+  if (!system.links) return bars;
+  std::vector<double> field(system.lumped_mass.size(), 0.0);
+  const Trace& trace = system.links->trace();
+  for (const Link& link : system.links->links()) {
+    const double stiffness = law_at_rest(link)->tangent();
+    if (!(stiffness > 0)) continue;
+    LinkTerms& bar = bars.emplace_back(LinkTerms{&link, stiffness, is_one_way_link(link)});
+    for (std::size_t i = 0; i < link.place.size(); ++i) {
+      if (link.place[i] >= 0) {
+        trace.add_force(static_cast<std::size_t>(link.place[i]), link.weight[i], field);
+      }
+    }
+    for (const LocalIndex dof : trace.dofs()) {
+      if (field[dof] == 0) continue;
+      bar.dofs.push_back(dof);
+      bar.coefficients.push_back(field[dof]);
+      field[dof] = 0;
+    }
+  }
+  return bars;
+}
+
+RestLinks::RestLinks(const LinearSystem& system) {
+  for (LinkTerms& link : link_terms(system)) {
+    auto law = law_at_rest(*link.link);
+    if (link.one_way || !law->loses_plastic_work() || slides(link.link->origin)) continue;
+    terms_.push_back(std::move(link));
+    laws_.push_back(std::move(law));
+  }
+}
+
+bool RestLinks::add_forces(const std::vector<double>& displacement, std::span<double> force) const {
+  bool any = false;
+  for (std::size_t b = 0; b < terms_.size(); ++b) {
+    const LinkTerms& link = terms_[b];
+    const double elongation = link.elongation(displacement);
+    std::vector<double> memory(laws_[b]->memory_size(), 0.0);
+    laws_[b]->rest(elongation, memory);
+    const double straight = link.stiffness * elongation;
+    const double more = laws_[b]->force(elongation, elongation, elongation, memory) - straight;
+    if (!(std::abs(more) > on_its_line * std::abs(straight))) continue;
+    any = true;
+    for (std::size_t k = 0; k < link.dofs.size(); ++k) {
+      force[link.dofs[k]] += more * link.coefficients[k];
+    }
+  }
+  return any;
 }
 
 }  // namespace pounding

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
 #include <mpi.h>
 
 #include "interactions/interface_rows.h"
+#include "interactions/laws/link_law.h"
 #include "system/linear_system.h"
+#include "system/links.h"
 
 namespace pounding {
 
@@ -55,6 +58,48 @@ class UnilateralRows {
   std::vector<double> compliance_;  ///< c [m/N]
   std::vector<char> open_;
   interactions::InterfaceRows rows_;
+};
+
+/// A link that holds a force at rest, over the owned dofs of its structure, or its generalised
+/// coordinates: its elongation is sum of coefficient x dof.
+struct LinkTerms {
+  const Link* link = nullptr;
+  double stiffness = 0;  ///< k, the largest tangent of its law [N/m]
+  bool one_way = false;
+  std::vector<LocalIndex> dofs{};
+  std::vector<double> coefficients{};  ///< b, not zero [-]
+
+  /// b . u of the owned dofs [m].
+  double elongation(const std::vector<double>& u) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < dofs.size(); ++k) sum += coefficients[k] * u[dofs[k]];
+    return sum;
+  }
+};
+
+/// Tension-only bars, compression-only springs and yielding elements of this rank: links that hold
+/// a force at rest, which dashpots do not. They borrow the system's links. Local.
+std::vector<LinkTerms> link_terms(const LinearSystem& system);
+
+/// Law of a link, whether or not K holds its tangent already.
+std::unique_ptr<interactions::LinkLaw> law_at_rest(const Link& link);
+
+/// Whether a link yields by friction or on a circle, with others.
+bool slides(const interactions::LinkOrigin& origin);
+
+/// Springs, bars and sections of this rank that yield by a law of their own, at rest: their history
+/// goes from nothing to the rest at once. It borrows the system's links. Local.
+class RestLinks {
+ public:
+  explicit RestLinks(const LinearSystem& system);
+
+  /// Adds their forces at displacements of the owned dofs [m, rad], less those of their first
+  /// slopes, to `force` [N, N m]; returns whether any is beyond its first corner.
+  bool add_forces(const std::vector<double>& displacement, std::span<double> force) const;
+
+ private:
+  std::vector<LinkTerms> terms_;
+  std::vector<std::unique_ptr<interactions::LinkLaw>> laws_;  ///< per term
 };
 
 }  // namespace pounding

@@ -6,7 +6,7 @@
 
 #include "common/parallel.h"
 #include "modal/modal_analysis.h"
-#include "stability/stability_limit.h"
+#include "stability/stable_time_step.h"
 #include "support/built_system.h"
 #include "support/dense_damping.h"
 #include "support/scaled_structure.h"

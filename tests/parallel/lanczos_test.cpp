@@ -6,7 +6,7 @@
 
 #include "common/dense_eigenvalues.h"
 #include "modal/modal_analysis.h"
-#include "stability/stability_limit.h"
+#include "stability/stable_time_step.h"
 #include "support/box_mesh.h"
 #include "support/built_system.h"
 #include "support/frame_mesh.h"

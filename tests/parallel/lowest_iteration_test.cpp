@@ -1,9 +1,8 @@
-#include "modal/lowest_iteration.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "modal/eigen_solver.h"
 #include "modal/modal_analysis.h"
 #include "support/box_mesh.h"
 #include "support/built_system.h"

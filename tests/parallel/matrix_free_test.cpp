@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "modal/eigen_solver.h"
 #include "modal/modal_analysis.h"
-#include "modal/scaled_operator.h"
-#include "stability/stability_limit.h"
+#include "stability/stable_time_step.h"
 #include "support/box_mesh.h"
 #include "support/built_stiffness.h"
 #include "support/dense_damping.h"

@@ -1,5 +1,3 @@
-#include "stability/stability_limit.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "mesh/element_properties.h"
-#include "stability/stability_limit.h"
+#include "stability/stable_time_step.h"
 #include "support/built_system.h"
 #include "support/dense_damping.h"
 #include "system/mass_scaling.h"

@@ -1,8 +1,8 @@
 #include <regex>
 
 #include "common/error.h"
-#include "motion/records/format_parts.h"
-#include "motion/records/record_times.h"
+#include "motion/records/record_format.h"
+#include "motion/records/record_sampling.h"
 
 /// BHRC of Iran, volume 1: components one after the other, each of lines of words, rows of whole
 /// and of real numbers about the record, and values in G/10, alone or in pairs with their times.

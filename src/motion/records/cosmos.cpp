@@ -1,14 +1,14 @@
+#include <algorithm>
 #include <cmath>
 #include <regex>
 
 #include "common/error.h"
-#include "motion/records/format_parts.h"
+#include "motion/records/record_format.h"
 #include "motion/records/record_header.h"
 
 /// COSMOS volumes 1 and 2: channels one after the other, each of lines of words, whole and real
 /// numbers about the record, comments, and a block that a line announces.
 namespace pounding {
-
 namespace {
 
 constexpr double unknown = -999;
@@ -87,6 +87,82 @@ double step_of(const std::string& file, std::span<const TextLine> lines,
   return step;
 }
 
+/// CSMIP volumes 1 and 2 (also CDMG, CESMD): channels one after the other, each of lines of words,
+/// rows of numbers about the record, and blocks that a line announces: acceleration, and of
+/// volume 2 velocity and displacement.
+
+struct CsmipChannel {
+  std::string name;
+  std::size_t begin = 0;  ///< the first line of values
+  int line = 0, peak_line = 0;
+  std::optional<double> count, step, peak;
+  std::string unit;
+};
+
+// 7500 points of accel data equally spaced at  .010 sec, in cm/sec2. (8f10.6)
+bool announces(const std::string& text, std::smatch& match) {
+  static const std::regex pattern(
+      R"(^\s*(\d+)\s+points\s+of\s+(accel|veloc|displ)\w*\s+data\s+equally\s+spaced\s+at\s*([\d.]+)\s*sec(.*))",
+      std::regex::icase);
+  return std::regex_search(text, match, pattern);
+}
+
+/// Acceleration blocks of a file, with the statements of the words above each.
+std::vector<CsmipChannel> csmip_channels(std::span<const TextLine> lines, std::size_t most) {
+  static const std::regex name(R"(\bchan(?:nel)?\s*(\d+)\s*:\s*(.*?)(?:\s{2,}|$))",
+                               std::regex::icase);
+  static const std::regex peak(R"(peak\s+acceleration\s*=\s*([-+\d.]+)\s*(\S*))",
+                               std::regex::icase);
+  std::vector<CsmipChannel> channels;
+  CsmipChannel next;
+  std::smatch match;
+  for (std::size_t i = 0; i < std::min(lines.size(), most); ++i) {
+    if (lines[i].text.find_first_of("cCpP") == std::string::npos) continue;  // rows of numbers
+    const std::string text = lines[i].text.substr(0, 200);
+    if (std::regex_search(text, match, name)) {
+      next.name = "Chan " + match[1].str() + ": " + stripped(match[2].str());
+    }
+    if (std::regex_search(text, match, peak)) {
+      next.peak = parse_number(match[1].str());
+      next.peak_line = lines[i].number;
+    }
+    if (!announces(text, match) || lower(match[2].str()) != "accel") continue;
+    next.count = parse_number(match[1].str());
+    next.step = parse_number(match[3].str());
+    const auto units = units_in(match[4].str());
+    next.unit = units.size() == 1 ? *units.begin() : "";
+    next.begin = i + 1;
+    next.line = lines[i].number;
+    channels.push_back(next);
+    next.peak.reset();
+  }
+  return channels;
+}
+
+/// SMC of the USGS: 11 lines of words, 48 whole and 50 real numbers, comments, and values in cm/s2
+/// of 8E10.4, which touch.
+
+constexpr std::size_t texts = 11, whole_lines = 6, real_lines = 10;
+constexpr double no_whole = -32768;
+constexpr double largest_real = 1e38;  // unknown values are above it
+
+bool is_smc_title(const std::string& text) {
+  static const std::regex pattern(
+      R"(^\s*[0-6] (UNKNOWN|(UN)?CORRECTED ACCELEROGRAM|VELOCITY|DISPLACEMENT|RESPONSE SPECTRA|FOURIER AMPLITUDE.*)\s*$)");
+  return std::regex_search(text.substr(0, 120), pattern);
+}
+
+std::string component_of(std::span<const TextLine> lines, const std::vector<double>& whole) {
+  static const std::regex pattern(R"(component\s*=\s*(\S+))", std::regex::icase);
+  std::smatch match;
+  for (std::size_t i = 0; i < std::min(texts, lines.size()); ++i) {
+    const std::string text = lines[i].text.substr(0, 200);
+    if (std::regex_search(text, match, pattern)) return match[1].str();
+  }
+  constexpr std::size_t azimuth = 13;
+  return whole[azimuth] == no_whole ? "" : text_of(whole[azimuth]);
+}
+
 }  // namespace
 
 bool is_cosmos(std::span<const TextLine> lines) {
@@ -115,6 +191,79 @@ FormatRecord read_cosmos(const RecordedMotion& motion, std::span<const TextLine>
   record.unit = *units.begin();
   record.component = one.name;
   record.layout = "COSMOS, block of acceleration";
+  return record;
+}
+
+bool is_csmip(std::span<const TextLine> lines) {
+  const bool titled = !lines.empty() &&
+                      lower(lines[0].text.substr(0, 60)).find("accelerogram") != std::string::npos;
+  return titled && !csmip_channels(lines, head_lines).empty();
+}
+
+FormatRecord read_csmip(const RecordedMotion& motion, std::span<const TextLine> lines) {
+  const std::vector<CsmipChannel> channels = csmip_channels(lines, lines.size());
+  std::vector<std::string> names;
+  for (const CsmipChannel& one : channels) names.push_back(one.name);
+  const CsmipChannel& one = channels[choose_component(motion, names)];
+  if (one.unit.empty()) {
+    throw UserError(at_line(motion.file, one.line) + "no unit, or several, behind the time step");
+  }
+  FormatRecord record;
+  const std::size_t count = count_of(motion.file, one.line, one.count.value_or(0));
+  record.time_step = agreed_step(motion, one.line, one.step.value_or(0));
+  NumberBlock block = read_block(motion.file, lines, one.begin, count);
+  require_end(motion.file, lines, block, one.line);
+  record.values = std::move(block.values);
+  if (one.peak && one.unit == "cm/s2") {
+    require_peak(motion.file, one.peak_line, *one.peak, record.values);
+  }
+  record.unit = one.unit;
+  record.component = one.name;
+  record.layout = "CSMIP, block of acceleration";
+  return record;
+}
+
+bool is_smc(std::span<const TextLine> lines) {
+  return lines.size() > 1 && is_smc_title(lines[0].text) && lines[1].text.starts_with("*");
+}
+
+FormatRecord read_smc(const RecordedMotion& motion, std::span<const TextLine> lines) {
+  const std::string title = stripped(lines[0].text);
+  if (title.find("ACCELEROGRAM") == std::string::npos) {
+    throw UserError(at_line(motion.file, 1) + "SMC of kind '" + title +
+                    "'; give one of acceleration (1 or 2)");
+  }
+  const std::vector<double> whole = read_block(motion.file, lines, texts, 8 * whole_lines).values;
+  const std::vector<double> real =
+      read_block(motion.file, lines, texts + whole_lines, 5 * real_lines).values;
+  constexpr std::size_t comments = 15, count_at = 16, rate = 1, largest = 29, smallest = 31;
+  const auto line_of = [&](std::size_t at) { return lines[std::min(at, lines.size() - 1)].number; };
+  if (!(real[rate] > 0 && real[rate] < largest_real)) {
+    throw UserError(at_line(motion.file, line_of(texts + whole_lines)) +
+                    "SMC without a sampling rate: pairs of time and value at no uniform step; "
+                    "resample them");
+  }
+  choose_component(motion, {component_of(lines, whole)});
+  const std::size_t count = count_of(motion.file, line_of(texts), whole[count_at]);
+  std::size_t begin = texts + whole_lines + real_lines;
+  while (begin < lines.size() && lines[begin].text.starts_with("|")) ++begin;
+  const auto told = static_cast<double>(begin - texts - whole_lines - real_lines);
+  if (whole[comments] != no_whole && whole[comments] != told) {
+    throw UserError(at_line(motion.file, line_of(begin)) + text_of(told) +
+                    " lines of comments where the header announces " + text_of(whole[comments]) +
+                    "; correct the file");
+  }
+  FormatRecord record;
+  record.time_step = agreed_step(motion, line_of(texts + whole_lines), 1 / real[rate]);
+  NumberBlock block = read_block(motion.file, lines, begin, count);
+  record.values = std::move(block.values);
+  if (std::abs(real[largest]) < largest_real && std::abs(real[smallest]) < largest_real) {
+    require_peak(motion.file, line_of(texts + whole_lines),
+                 std::max(std::abs(real[largest]), std::abs(real[smallest])), record.values);
+  }
+  record.unit = "cm/s2";
+  record.component = component_of(lines, whole);
+  record.layout = "SMC, " + lower(title.substr(2));
   return record;
 }
 

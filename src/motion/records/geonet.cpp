@@ -2,7 +2,7 @@
 #include <regex>
 
 #include "common/error.h"
-#include "motion/records/format_parts.h"
+#include "motion/records/record_format.h"
 
 /// GeoNet V1A (uncorrected) and V2A (corrected, with velocity and displacement): components one
 /// after the other, each of lines of words, rows of numbers about the record, and blocks of values.

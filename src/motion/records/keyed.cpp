@@ -1,7 +1,7 @@
 #include <map>
 
 #include "common/error.h"
-#include "motion/records/format_parts.h"
+#include "motion/records/record_format.h"
 #include "motion/records/record_header.h"
 
 /// ESM, ITACA, AFAD and the like: lines KEY: value, then one column.

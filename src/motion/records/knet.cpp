@@ -4,7 +4,7 @@
 #include <regex>
 
 #include "common/error.h"
-#include "motion/records/format_parts.h"
+#include "motion/records/record_format.h"
 
 /// K-NET and KiK-net: lines of keys down to "Memo.", then integers of a recorder with its offset.
 namespace pounding {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace pounding {
 
@@ -24,5 +25,17 @@ std::string without_rate(const std::string& text);
 
 /// The name behind which a number is missing ("NPTS= ****"), or "".
 std::string name_without_number(const std::string& text);
+
+/// A time of a record [s] and its line.
+struct TimeOfLine {
+  double time = 0;
+  int line = 0;
+};
+
+/// Time step of uniform times. Each may be off its place by a tenth of a step, and where times are
+/// written with few decimals by their rounding as well; a whole number of samples a second that
+/// explains the rounded times is the rate then. Throws UserError when times do not increase or a
+/// step is broken.
+double uniform_step(const std::string& file, const std::vector<TimeOfLine>& times);
 
 }  // namespace pounding

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "motion/records/record_content.h"
+#include "motion/records/record_header.h"
+#include "motion/records/record_text.h"
 #include "scene/scene.h"
 
 namespace pounding {
@@ -26,5 +27,15 @@ struct RecordValues {
 /// and none is asked for, when rows have different lengths, when the first ones seem to be numbers
 /// of a header, and when times are not uniform.
 RecordValues read_record_values(const RecordedMotion& motion, const RecordContent& content);
+
+/// Refuses rows of values that run on when the first ones are written otherwise than the rest:
+/// with another number of decimals, as the numbers of a header are. Zeros may be written as one
+/// likes. Throws UserError.
+void refuse_numbers_of_header(const std::string& file, const std::vector<NumberRow>& rows);
+
+/// Refuses values that only an offset explains: all of one sign, from the first to the last away
+/// from zero, further than they swing about their mean; counts of a recorder without its zero, or
+/// another column. A constant may be meant. Throws UserError.
+void refuse_offset(const std::string& file, const std::vector<double>& values);
 
 }  // namespace pounding

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "common/error.h"
-#include "motion/records/acceleration_limits.h"
 
 namespace pounding {
 

@@ -1,10 +1,8 @@
-#include "dynamics/coordinate_rates.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "dynamics/gap_watch.h"
+#include "dynamics/unilateral_contact.h"
 #include "stiffness/stiffness.h"
 
 namespace pounding {

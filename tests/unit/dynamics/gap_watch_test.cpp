@@ -1,10 +1,10 @@
-#include "dynamics/gap_watch.h"
-
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
+
+#include "dynamics/unilateral_contact.h"
 
 namespace pounding {
 namespace gap_watch_test {

@@ -1,5 +1,3 @@
-#include "modal/basis_key.h"
-
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
+#include "modal/modal_basis_file.h"
 #include "support/box_mesh.h"
 
 /// A stored basis is taken only for the structure it was made for.

@@ -1,6 +1,6 @@
-#include "modal/contact_patches.h"
-
 #include <gtest/gtest.h>
+
+#include "modal/static_loads.h"
 
 namespace pounding {
 namespace contact_patches_test {

@@ -1,9 +1,8 @@
-#include "modal/rigid_motions.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "modal/modal_analysis.h"
 #include "reduced_box.h"
 
 namespace pounding {

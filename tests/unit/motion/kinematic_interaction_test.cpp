@@ -1,10 +1,10 @@
-#include "motion/kinematic_interaction.h"
-
 #include <array>
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
+
+#include "motion/support_motion.h"
 
 namespace pounding {
 namespace kinematic_interaction_test {

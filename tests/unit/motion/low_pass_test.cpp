@@ -1,10 +1,10 @@
-#include "motion/low_pass.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
+
+#include "motion/signal_treatment.h"
 
 namespace pounding {
 namespace low_pass_test {

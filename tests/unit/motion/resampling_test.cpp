@@ -1,5 +1,3 @@
-#include "motion/resampling.h"
-
 #include <cmath>
 #include <numbers>
 #include <vector>

@@ -1,8 +1,8 @@
-#include "motion/spectral_distance.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "motion/spectrum_shape.h"
 
 namespace pounding {
 namespace spectral_distance_test {

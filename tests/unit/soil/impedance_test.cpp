@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "soil/disk.h"
 #include "soil/foundation.h"
 #include "soil/rectangle.h"
 

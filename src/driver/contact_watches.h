@@ -1,6 +1,8 @@
 #pragma once
 
-#include "driver/observed_run.h"
+#include <memory>
+
+#include "driver/field_plan.h"
 #include "output/impact_catalogue.h"
 
 namespace pounding {
@@ -30,5 +32,19 @@ class ImpactWatch final : public Observer {
   int root_;  ///< of the contacts, or rank 0 without them
   ImpactCatalogue catalogue_;
 };
+
+/// Pairs are found once, in the initial geometry. This keeps how far each node has moved along the
+/// facet that it faces, whether they touch or not, on the ranks that have displacements of the
+/// interface. It reads displacements and changes nothing; nothing allocates after construction. Of
+/// a run with contacts. Collective.
+std::unique_ptr<Observer> make_slide_watch(const ObservedRun& run);
+
+/// Contact ratio of every structure that has compression-only springs, at the lines of the energy
+/// ledger.
+std::unique_ptr<Observer> make_uplift_watch(const ObservedRun& run);
+
+/// Smallest gap at t_n and mean force over the interval of each contact, for the history; and how
+/// far the pairs have closed at the samples. On the root of the contacts.
+std::unique_ptr<Observer> make_contact_history(const ObservedRun& run);
 
 }  // namespace pounding

@@ -1,4 +1,4 @@
-#include "driver/building.h"
+#include "driver/model.h"
 
 #include "mesh/location.h"
 #include "modal/reduced_system.h"
