@@ -27,11 +27,16 @@ std::string given_option(EPS solver) {
   return "";
 }
 
+/// Diagonal of M^-1/2.
+std::vector<double> inverse_root_mass(const LinearSystem& system) {
+  std::vector<double> scale = system.inverse_mass;
+  for (double& value : scale) value = std::sqrt(value);
+  return scale;
+}
+
 /// Diagonal of M^-1/2, 1 where the mass is coupled.
 std::vector<double> mass_scale(const LinearSystem& system) {
-  std::vector<double> scale(system.inverse_mass.size());
-  std::transform(system.inverse_mass.begin(), system.inverse_mass.end(), scale.begin(),
-                 [](double value) { return std::sqrt(value); });
+  std::vector<double> scale = inverse_root_mass(system);
   for (std::size_t n = 0; system.coupled_mass && n < system.coupled_mass->nodes().size(); ++n) {
     const NodeDofs& node = system.coupled_mass->nodes()[n];
     std::fill_n(scale.begin() + node.begin, node.count, 1.0);
@@ -94,9 +99,7 @@ void require_converged(EPS solver, const LinearSystem& system, const Mesh& mesh,
 }
 
 MatHandle mass_scaled(const LinearSystem& system, Mat matrix) {
-  std::vector<double> scale(system.inverse_mass.size());
-  std::transform(system.inverse_mass.begin(), system.inverse_mass.end(), scale.begin(),
-                 [](double value) { return std::sqrt(value); });
+  std::vector<double> scale = inverse_root_mass(system);
   const VecHandle diagonal = wrap_vector(system, scale);
   MatHandle scaled;
   POUNDING_PETSC(MatDuplicate(matrix, MAT_COPY_VALUES, scaled.out()));
@@ -173,10 +176,10 @@ EpsHandle create_eigen_solver(const LinearSystem& system, const Mesh& mesh, Mat 
   return solver;
 }
 
-EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix, int count,
-                       Mat mass, std::vector<VecHandle>* known) {
-  EpsHandle solver = create_eigen_solver(system, mesh, matrix, "lowest_", mass);
-  GlobalIndex left = system.independent_dofs();
+EpsHandle solve_lowest(const LowestProblem& problem, int count, std::vector<VecHandle>* known) {
+  EpsHandle solver =
+      create_eigen_solver(problem.system, problem.mesh, problem.matrix, "lowest_", problem.mass);
+  GlobalIndex left = problem.system.independent_dofs();
   if (known != nullptr) {
     std::vector<Vec> vectors;
     for (const VecHandle& vector : *known) vectors.push_back(vector.get());
@@ -203,7 +206,7 @@ EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix,
   POUNDING_PETSC(KSPGetPC(factorised, &factorisation));
   factorise_with_mumps(factorisation);
   solve(solver.get());
-  require_converged(solver.get(), system, mesh, count);
+  require_converged(solver.get(), problem.system, problem.mesh, count);
   return solver;
 }
 

@@ -36,6 +36,17 @@ void require_converged(EPS solver, const LinearSystem& system, const Mesh& mesh,
 EpsHandle create_eigen_solver(const LinearSystem& system, const Mesh& mesh, Mat matrix,
                               const char* prefix, Mat mass = nullptr);
 
+/// Eigenvalue problem of a structure A x = lambda B x, whose lowest pairs are sought.
+struct LowestProblem {
+  const LinearSystem& system;
+  const Mesh& mesh;
+  Mat matrix;              ///< A, mass-scaled where there is no B; keeps additions of the iteration
+  Mat mass;                ///< B, or null
+  double frequency_bound;  ///< of any circular frequency of the structure [rad/s]
+  /// Takes a field of displacements to the coordinates of A.
+  std::function<void(std::vector<double>&)> to_coordinates;
+};
+
 /// Pairs that are sought beyond those wanted: a Krylov space sees the second of two equal
 /// frequencies late.
 inline constexpr int looked_past = 8;
@@ -43,12 +54,12 @@ inline constexpr int looked_past = 8;
 /// The shift of `solve_lowest` [1/s2].
 inline constexpr double lowest_shift = -1;
 
-/// Finds at least the `count` lowest eigenpairs of a mass-scaled stiffness, or of a stiffness and a
-/// mass matrix where that is not diagonal, shift-and-invert with a Cholesky factorisation (MUMPS),
-/// the shift just below zero so that free structures pass; PETSc's options with the prefix lowest_
-/// hold. `known`: eigenvectors that are left out. Throws UserError if fewer converge. Collective.
-EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix, int count,
-                       Mat mass = nullptr, std::vector<VecHandle>* known = nullptr);
+/// Finds at least the `count` lowest eigenpairs, shift-and-invert with a Cholesky factorisation
+/// (MUMPS), the shift just below zero so that free structures pass; PETSc's options with the prefix
+/// lowest_ hold. `known`: eigenvectors that are left out. Throws UserError if fewer converge.
+/// Collective.
+EpsHandle solve_lowest(const LowestProblem& problem, int count,
+                       std::vector<VecHandle>* known = nullptr);
 
 /// Workspace of a factor beyond MUMPS's own estimate [per cent].
 inline constexpr int factor_workspace = 100;
@@ -97,17 +108,6 @@ class ScaledOperator {
 /// because that factor, as MUMPS expects it, would take more than 0.8 of the memory that is free.
 /// Collective.
 bool must_iterate(const LinearSystem& system, Mat matrix, SolverChoice choice);
-
-/// Eigenvalue problem of a structure A x = lambda B x, whose lowest pairs an iteration seeks.
-struct LowestProblem {
-  const LinearSystem& system;
-  const Mesh& mesh;
-  Mat matrix;              ///< A, mass-scaled where there is no B; keeps the iteration's additions
-  Mat mass;                ///< B, or null
-  double frequency_bound;  ///< of any circular frequency of the structure [rad/s]
-  /// Takes a field of displacements to the coordinates of A.
-  std::function<void(std::vector<double>&)> to_coordinates;
-};
 
 /// Lowest eigenpairs as their solver holds them.
 struct LowestPairs {

@@ -42,14 +42,6 @@ struct FoundPair {
   std::vector<double> vector;
 };
 
-/// The problem A x = lambda B x of the lowest modes; B null: the identity.
-struct LowestProblem {
-  const LinearSystem& system;
-  const Mesh& mesh;
-  Mat matrix;
-  Mat mass;
-};
-
 /// Adds the pairs that a solver found of A + `above` B.
 void take_pairs(const LinearSystem& system, EPS solver, double above,
                 std::vector<FoundPair>& found) {
@@ -96,8 +88,7 @@ void find_missed(const LowestProblem& problem, int wanted, double zero,
     std::vector<VecHandle> vectors;
     for (FoundPair& pair : found) vectors.push_back(wrap_vector(problem.system, pair.vector));
     const std::size_t before = found.size();
-    const EpsHandle more =
-        solve_lowest(problem.system, problem.mesh, problem.matrix, missing, problem.mass, &vectors);
+    const EpsHandle more = solve_lowest(problem, missing, &vectors);
     vectors.clear();
     take_pairs(problem.system, more.get(), 0, found);
     const bool any = std::any_of(found.begin() + static_cast<std::ptrdiff_t>(before), found.end(),
@@ -185,21 +176,21 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
     mass = admissible->restrict_matrix(mass_matrix(system).get(), 1);
   }
   const int wanted = static_cast<int>(std::min<GlobalIndex>(count, system.independent_dofs()));
-  const double bound = std::pow(near_zero * frequency_bound(system), 2);
+  const double fastest = frequency_bound(system);
+  const double bound = std::pow(near_zero * fastest, 2);
   std::vector<FoundPair> found;
+  const auto to_coordinates = [&](std::vector<double>& field) {
+    if (admissible) admissible->to_coordinates(field);
+    if (diagonal_mass) weigh(system, field);
+  };
+  const LowestProblem problem{system, mesh, matrix.get(), mass.get(), fastest, to_coordinates};
   if (must_iterate(system, matrix.get(), choice)) {
-    const auto to_coordinates = [&](std::vector<double>& field) {
-      if (admissible) admissible->to_coordinates(field);
-      if (diagonal_mass) weigh(system, field);
-    };
-    const LowestPairs pairs = iterate_lowest(
-        {system, mesh, matrix.get(), mass.get(), frequency_bound(system), to_coordinates}, wanted);
+    const LowestPairs pairs = iterate_lowest(problem, wanted);
     result.method = pairs.method;
     take_pairs(system, pairs.solver.get(), pairs.above, found);
   } else {
-    take_pairs(system, solve_lowest(system, mesh, matrix.get(), wanted, mass.get()).get(), 0,
-               found);
-    find_missed({system, mesh, matrix.get(), mass.get()}, wanted, bound, found);
+    take_pairs(system, solve_lowest(problem, wanted).get(), 0, found);
+    find_missed(problem, wanted, bound, found);
   }
   for (FoundPair& pair : found) {
     std::vector<double>& field = pair.vector;
@@ -209,9 +200,7 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
     if (!diagonal_mass) {
       weigh(system, field);
     } else {
-      std::ranges::transform(
-          shape, system.lumped_mass, shape.begin(),
-          [](double y, double mass_of_dof) { return y / std::sqrt(mass_of_dof); });
+      for (std::size_t i = 0; i < shape.size(); ++i) shape[i] /= std::sqrt(system.lumped_mass[i]);
     }
     result.modes.push_back(
         describe_mode(pair.value, motions.participation(field.data()), motions.inertia()));

@@ -108,22 +108,6 @@ std::vector<double> lowest_vector(const LinearSystem& system, Mat matrix) {
 ShiftedSolver::ShiftedSolver(Mat matrix, double shift)
     : matrix_(reference_to(matrix)), shift_(shift), factor_(matrix, shift) {}
 
-void ShiftedSolver::solve(std::vector<double>& x) const {
-  factor_.solve(x.data(), 1);
-}
-
-void ShiftedSolver::solve(DenseMatrix& x) const {
-  factor_.solve(x.values.data(), x.columns);
-}
-
-int ShiftedSolver::eigenvalues_below() const {
-  return factor_.negative_pivots();
-}
-
-int ShiftedSolver::eigenvalues_below(double value) const {
-  return MumpsFactor(matrix_.get(), value).negative_pivots();
-}
-
 void require_passive_matrices(const Structure& structure, const LinearSystem& system) {
   if (structure.matrices.empty()) return;
   require_semidefinite(system, system.stiffness->matrix(),

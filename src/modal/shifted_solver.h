@@ -20,14 +20,16 @@ class ShiftedSolver {
   ShiftedSolver(Mat matrix, double shift);
 
   /// x := (A - shift I)^-1 x over the owned dofs. Collective.
-  void solve(std::vector<double>& x) const;
+  void solve(std::vector<double>& x) const { factor_.solve(x.data(), 1); }
   /// X := (A - shift I)^-1 X of columns over the owned dofs. Collective.
-  void solve(DenseMatrix& x) const;
+  void solve(DenseMatrix& x) const { factor_.solve(x.values.data(), x.columns); }
   double shift() const { return shift_; }
   /// Number of eigenvalues of A below the shift (Sylvester's law of inertia). Collective.
-  int eigenvalues_below() const;
+  int eigenvalues_below() const { return factor_.negative_pivots(); }
   /// Number of them below a value, by another factorisation. Collective.
-  int eigenvalues_below(double value) const;
+  int eigenvalues_below(double value) const {
+    return MumpsFactor(matrix_.get(), value).negative_pivots();
+  }
 
  private:
   MatHandle matrix_;
