@@ -97,14 +97,10 @@ std::string identity_of(const Ingredients& ingredients, int ranks) {
 
 template <typename Stream, typename Head>
 void pass_head(Stream& stream, Head& head) {
-  stream(head.kind);
-  stream(head.ranks);
+  pass_each(stream, head.kind, head.ranks);
   stream.list(head.opened,
               [&](auto& files) { stream.list(files, [&](auto& file) { stream(file); }); });
-  stream.list(head.ingredients, [&](auto& each) {
-    stream(each.first);
-    stream(each.second);
-  });
+  stream.list(head.ingredients, [&](auto& each) { pass_each(stream, each.first, each.second); });
 }
 
 struct Head {
@@ -117,24 +113,12 @@ struct Head {
 template <typename Stream, typename Reports>
 void pass_reports(Stream& stream, Reports& reports) {
   stream.list(reports, [&](auto& report) {
-    stream(report.contact);
-    stream(report.pairs);
-    stream(report.matched);
-    stream(report.unmatched_nodes);
-    stream(report.smallest_gap);
-    stream(report.largest_gap);
-    stream(report.geometric_gap);
-    stream(report.half_thickness);
-    stream(report.overlapping);
-    stream(report.carried);
-    stream(report.left_behind);
-    stream(report.farthest_behind);
-    stream(report.inner_facets);
-    stream(report.normal);
-    stream(report.tangent_axes);
+    pass_each(stream, report.contact, report.pairs, report.matched, report.unmatched_nodes,
+              report.smallest_gap, report.largest_gap, report.geometric_gap, report.half_thickness,
+              report.overlapping, report.carried, report.left_behind, report.farthest_behind,
+              report.inner_facets, report.normal, report.tangent_axes);
     stream.array(report.patch_pairs);
-    stream(report.filler_area);
-    stream(report.filler_thickness);
+    pass_each(stream, report.filler_area, report.filler_thickness);
   });
 }
 
@@ -143,23 +127,13 @@ void pass_findings(Stream& stream, Findings& findings) {
   auto& connectivity = findings.connectivity;
   stream.list(findings.files.opened, [&](auto& file) { stream(file); });
   stream.array(connectivity.pieces);
-  stream(connectivity.coincident_inside);
-  stream(connectivity.coincident_apart);
-  stream(connectivity.ends_inside);
-  stream(connectivity.hinges);
-  stream(connectivity.lone_hinges);
+  pass_each(stream, connectivity.coincident_inside, connectivity.coincident_apart,
+            connectivity.ends_inside, connectivity.hinges, connectivity.lone_hinges);
   stream.list(findings.unused, [&](auto& unused) {
-    stream(unused.group);
-    stream(unused.kind);
-    stream(unused.count);
-    stream(unused.left_out);
-    stream(unused.place);
+    pass_each(stream, unused.group, unused.kind, unused.count, unused.left_out, unused.place);
   });
   stream.list(findings.divided, [&](auto& divided) {
-    stream(divided.group);
-    stream(divided.lines);
-    stream(divided.beams);
-    stream(divided.whole);
+    pass_each(stream, divided.group, divided.lines, divided.beams, divided.whole);
   });
 }
 
@@ -177,8 +151,7 @@ void pass_common(Stream& stream, Whole& whole, AnyModel& model) {
   for (auto* const warnings : {&model.interface.warnings, &model.warnings}) {
     stream.list(*warnings, [&](auto& warning) { stream(warning); });
   }
-  stream(model.partition_imbalance);
-  stream(model.partition_edge_cut);
+  pass_each(stream, model.partition_imbalance, model.partition_edge_cut);
 }
 
 /// Writes a sealed file. Throws UserError.
@@ -350,8 +323,7 @@ std::vector<MeshParcel> read_mesh_piece(const Scene& scene, int rank, const std:
   read_sealed(scene, piece_path(scene, rank), [&](ByteReader& stream) {
     std::string kind;
     std::string cut;
-    stream(kind);
-    stream(cut);
+    pass_each(stream, kind, cut);
     if (kind != piece_kind || cut != identity) throw std::runtime_error("of another cut");
     for (MeshParcel& parcel : parcels) {
       parcel.for_each_array([&](auto& array) { stream.array(array); });

@@ -120,22 +120,17 @@ std::vector<InputFile> input_files(const SceneOrigin& origin, const std::string&
 std::string hash_of(const GroundMotion& motion, const SupportMotion* supports,
                     const LoadHistories* loads) {
   Hash hash;
+  const auto add = [&hash](const Accelerogram& motion_of_one) {
+    hash.add(motion_of_one.time_step);
+    hash.add(motion_of_one.start);
+    hash.add_all(motion_of_one.acceleration);
+  };
   for (int direction = 0; direction < 3; ++direction) {
-    const Accelerogram& component = motion.component(direction);
-    hash.add(component.time_step);
-    hash.add(component.start);
-    hash.add_all(component.acceleration);
-    const Accelerogram& incident = motion.incident(direction);
-    if (!incident.acceleration.empty()) {
-      hash.add(incident.time_step);
-      hash.add(incident.start);
-      hash.add_all(incident.acceleration);
-    }
+    add(motion.component(direction));
+    if (!motion.incident(direction).acceleration.empty()) add(motion.incident(direction));
   }
   for (std::size_t c = 0; supports != nullptr && c < supports->columns().size(); ++c) {
-    hash.add(supports->own(c).time_step);
-    hash.add(supports->own(c).start);
-    hash.add_all(supports->own(c).acceleration);
+    add(supports->own(c));
   }
   for (std::size_t l = 0; loads != nullptr && l < loads->size(); ++l) {
     hash.add_all(loads->function(l).times);

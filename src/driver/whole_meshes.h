@@ -21,6 +21,12 @@ struct WholeMeshes {
   std::vector<interactions::GapShare> gap_shares;  ///< of the rows of the interface
 };
 
+/// Values one after the other, to a byte stream or from it.
+template <typename Stream, typename... Values>
+void pass_each(Stream& stream, Values&... values) {
+  (stream(values), ...);
+}
+
 /// All that ranks have to know of the whole meshes beside their parts, to a byte stream or from it
 /// (common/byte_stream.h).
 template <typename Stream, typename Whole, typename AnyModel>
@@ -29,12 +35,9 @@ void pass_shared_findings(Stream& stream, Whole& whole, AnyModel& model) {
   stream.array(whole.gap_shares);
   interactions::pass_rows(stream, model.interface);
   stream.list(model.probes, [&](auto& probe) {
-    stream(probe.name);
-    stream(probe.structure);
+    pass_each(stream, probe.name, probe.structure);
     stream.array(probe.nodes);
-    stream(probe.position);
-    stream(probe.snap_distance);
-    stream(probe.element_size);
+    pass_each(stream, probe.position, probe.snap_distance, probe.element_size);
   });
   stream.list(model.forces, [&](auto& force) {
     stream(force.structure);
@@ -45,10 +48,7 @@ void pass_shared_findings(Stream& stream, Whole& whole, AnyModel& model) {
   stream.list(model.loads, [&](auto& load) {
     stream(load.structure);
     stream.array(load.forces);
-    stream(load.nodes);
-    stream(load.extent);
-    stream(load.force);
-    stream(load.moment);
+    pass_each(stream, load.nodes, load.extent, load.force, load.moment);
   });
   stream.list(model.starts, [&](auto& start) {
     stream.array(start.displacement);

@@ -58,23 +58,28 @@ void require_possible_peak(const std::string& name, const std::string& what, dou
   }
 }
 
-/// Largest displacement of a ground that starts at rest, at the samples [m].
-double largest_displacement(const Accelerogram& motion) {
+/// Motion of a ground that starts at rest: at the end, and the largest displacement at the samples.
+struct IntegratedMotion {
+  double velocity = 0, displacement = 0, largest_displacement = 0;  // m/s, m
+};
+
+/// Exact for straight lines between samples.
+IntegratedMotion integrate(const Accelerogram& motion) {
   const double h = motion.time_step;
-  double velocity = 0, displacement = 0, largest = 0;
-  for (std::size_t i = 0; i + 1 < motion.acceleration.size(); ++i) {
-    const double before = motion.acceleration[i], after = motion.acceleration[i + 1];
-    displacement += h * (velocity + h * (2 * before + after) / 6);
-    velocity += h * (before + after) / 2;
-    largest = std::max(largest, std::abs(displacement));
+  IntegratedMotion found;
+  for (std::size_t i = 1; i < motion.acceleration.size(); ++i) {
+    const double before = motion.acceleration[i - 1], after = motion.acceleration[i];
+    found.displacement += h * (found.velocity + h * (2 * before + after) / 6);
+    found.velocity += h * (before + after) / 2;
+    found.largest_displacement = std::max(found.largest_displacement, std::abs(found.displacement));
   }
-  return largest;
+  return found;
 }
 
 /// A ground that jumps by a displacement within a few samples has any acceleration.
 void require_possible_record(const std::string& name, const std::string& what, double peak,
                              const Accelerogram& motion) {
-  if (!(peak <= impossible_peak) && largest_displacement(motion) <= possible_jump) return;
+  if (!(peak <= impossible_peak) && integrate(motion).largest_displacement <= possible_jump) return;
   require_possible_peak(name, what, peak);
 }
 
@@ -97,19 +102,6 @@ MotionDescription describe_record(const std::string& file, const Accelerogram& r
   description.treatment = "baseline as recorded, no correction";
   description.file_peak = record.peak();
   return description;
-}
-
-/// Velocity and displacement at the end, exact for straight lines between samples.
-void integrate(const Accelerogram& record, MotionDescription& description) {
-  const double h = record.time_step;
-  double velocity = 0, displacement = 0;
-  for (std::size_t i = 1; i < record.acceleration.size(); ++i) {
-    const double before = record.acceleration[i - 1], after = record.acceleration[i];
-    displacement += h * (velocity + h * (2 * before + after) / 6);
-    velocity += h * (before + after) / 2;
-  }
-  description.end_velocity = velocity;
-  description.end_displacement = displacement;
 }
 
 std::string scaling_text(const MotionComponent& component) {
@@ -173,7 +165,9 @@ void GroundMotion::add(std::size_t direction, const MotionComponent& component) 
   description.duration = accelerogram.duration();
   description.scaling = scaling_text(component);
   description.pga = accelerogram.peak();
-  integrate(accelerogram, description);
+  const IntegratedMotion ground = integrate(accelerogram);
+  description.end_velocity = ground.velocity;
+  description.end_displacement = ground.displacement;
   for (const std::string& doubt : accelerogram.doubts) doubts_.push_back(name + ": " + doubt);
   for (const std::string& doubt : peak_doubts(name, component, description)) {
     doubts_.push_back(doubt);
