@@ -22,6 +22,32 @@ Facts with_stop(const Stop& stop, const interactions::InterfaceReport& report, F
   return facts;
 }
 
+Json values_of(const ImpactTotals& totals) {
+  return {{"episodes", totals.episodes},
+          {"total_impulse", totals.total_impulse},
+          {"largest_impulse", totals.largest_impulse},
+          {"peak_force", totals.peak_force},
+          {"window_force", totals.window_force},
+          {"max_penetration", totals.max_penetration},
+          {"energy_lost", totals.energy_lost},
+          {"friction_loss", totals.friction_loss}};
+}
+
+Json values_of(const SeparationSide& side) {
+  return {{"structure", side.structure},
+          {"peak_displacement", side.peak},
+          {"modes", side.modes},
+          {"frequency", side.frequency},
+          {"damping_ratio", side.ratio}};
+}
+
+std::string told_side(const Json& side) {
+  return told(
+      " {structure} {peak_displacement:.4g mm}"
+      "[ ({modes} modes, most at {frequency:.4g} Hz, {damping_ratio:.3g %})]",
+      side);
+}
+
 }  // namespace
 
 Facts contact_facts(const Scene& scene, const Model& model, std::size_t c) {
@@ -155,21 +181,6 @@ Facts joint_facts(const Scene& scene, const Model& model, const RunStatistics& r
   return facts;
 }
 
-namespace {
-
-Json values_of(const ImpactTotals& totals) {
-  return {{"episodes", totals.episodes},
-          {"total_impulse", totals.total_impulse},
-          {"largest_impulse", totals.largest_impulse},
-          {"peak_force", totals.peak_force},
-          {"window_force", totals.window_force},
-          {"max_penetration", totals.max_penetration},
-          {"energy_lost", totals.energy_lost},
-          {"friction_loss", totals.friction_loss}};
-}
-
-}  // namespace
-
 Facts impact_facts(const Scene& scene, const RunStatistics& run, const ImpactCatalogue& impacts) {
   Facts facts{values_of(run.all_impacts)};
   facts.add("force_window", scene.force_window);
@@ -198,25 +209,6 @@ Facts impact_facts(const Scene& scene, const RunStatistics& run, const ImpactCat
             {std::max(shown, impacts.impacts().size()) - shown});
   return facts;
 }
-
-namespace {
-
-Json values_of(const SeparationSide& side) {
-  return {{"structure", side.structure},
-          {"peak_displacement", side.peak},
-          {"modes", side.modes},
-          {"frequency", side.frequency},
-          {"damping_ratio", side.ratio}};
-}
-
-std::string told_side(const Json& side) {
-  return told(
-      " {structure} {peak_displacement:.4g mm}"
-      "[ ({modes} modes, most at {frequency:.4g} Hz, {damping_ratio:.3g %})]",
-      side);
-}
-
-}  // namespace
 
 Facts separation_facts(const Scene& scene, const Model& model) {
   Facts facts;

@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
-#include <sstream>
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "driver/facts.h"
 
 namespace pounding {
 namespace {
@@ -79,11 +79,10 @@ std::optional<FieldSteps> planned_fields(const Scene& scene, const Model& model)
                                 ? std::min(model.steps, parts(scene.fields_end / model.time_step))
                                 : model.steps;
   if (steps.first > last) {
-    std::ostringstream text;
-    text << "option -fields_start " << scene.fields_start << " s: "
-         << (scene.fields_end > 0 ? "-fields_end or the end of the run" : "the end of the run")
-         << " comes before the first frame";
-    throw UserError(text.str());
+    throw UserError(sentence(
+        "option -fields_start {} s: {} comes before the first frame",
+        {scene.fields_start,
+         (scene.fields_end > 0 ? "-fields_end or the end of the run" : "the end of the run")}));
   }
   steps.count = 1 + (last - steps.first) / steps.stride;
   return steps;
@@ -96,25 +95,22 @@ std::vector<std::string> check_fields(MPI_Comm comm, const Scene& scene, const M
                                          !scene.contacts.empty(), yielding_structures(scene));
   const double every = static_cast<double>(steps->stride) * model.time_step;
   std::vector<std::string> doubts;
-  std::ostringstream frames;
-  frames.precision(3);
-  frames << "option -fields_interval " << scene.fields_interval << " s: " << steps->count
-         << " frames every " << every << " s take up to " << bytes / 1e9 << " GB";
+  const std::string frames =
+      sentence("option -fields_interval {:.3g} s: {} frames every {:.3g} s take up to {:.3g} GB",
+               {scene.fields_interval, steps->count, every, bytes / 1e9});
   if (every > much_longer * scene.fields_interval) {
-    std::ostringstream text;
-    text.precision(3);
-    text << "option -fields_interval " << scene.fields_interval << " s: frames come every " << every
-         << " s, with samples of the probes at most (-output_interval, " << scene.output_interval
-         << " s)";
-    doubts.push_back(text.str());
+    doubts.push_back(
+        sentence("option -fields_interval {:.3g} s: frames come every {:.3g} s, with samples of "
+                 "the probes at most (-output_interval, {:.3g} s)",
+                 {scene.fields_interval, every, scene.output_interval}));
   }
   const double room = rank_of(comm) == 0 ? free_room(scene.output) : bytes;
   if (bytes > room) {  // the writer refuses fields that do not fit, a dry run has none
-    frames << ", and " << scene.output << " has " << room / 1e9
-           << " GB left; give a longer interval, or -fields_start and -fields_end";
-    doubts.push_back(frames.str());
+    doubts.push_back(frames + sentence(", and {} has {:.3g} GB left; give a longer interval, or "
+                                       "-fields_start and -fields_end",
+                                       {scene.output, room / 1e9}));
   } else if (bytes > large_fields) {
-    doubts.push_back(frames.str() + "; is the interval in s?");
+    doubts.push_back(frames + "; is the interval in s?");
   }
   return doubts;
 }

@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <sstream>
 
 #include "common/error.h"
 #include "common/number_rows.h"
 #include "common/parallel.h"
+#include "driver/facts.h"
 #include "driver/run_statistics.h"
 #include "elements/force_rows.h"
 #include "io/csv_file.h"
@@ -235,13 +235,11 @@ void Forces::load(const SavedState& saved) {
   saved.get("force_peaks_start", start);
   if (start[0] != peaks_start_) {
     if (time >= peaks_start_) {
-      std::ostringstream text;
-      text.precision(12);
-      text << "option -spectra_start " << peaks_start_
-           << " s: the peaks of forces were counted from " << start[0]
-           << " s on until the checkpoint at " << time << " s; give -spectra_start " << start[0]
-           << ", one after the checkpoint, or start anew";
-      throw UserError(text.str());
+      throw UserError(
+          sentence("option -spectra_start {:.12g} s: the peaks of forces were counted from {:.12g} "
+                   "s on until the checkpoint at {:.12g} s; give -spectra_start {:.12g}, one after "
+                   "the checkpoint, or start anew",
+                   {peaks_start_, start[0], time, start[0]}));
     }
     std::ranges::fill(table, 0.0);  // summed up from zero
   }

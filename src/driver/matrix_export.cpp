@@ -1,7 +1,6 @@
 #include "driver/matrix_export.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <span>
 
@@ -9,6 +8,7 @@
 #include "common/error.h"
 #include "common/matrix_rows.h"
 #include "common/parallel.h"
+#include "driver/facts.h"
 #include "io/csv_file.h"
 #include "io/matrix_market.h"
 #include "io/new_file.h"
@@ -47,12 +47,11 @@ std::vector<Value> gathered(MPI_Comm comm, std::vector<Value> mine) {
 void write_filters(const std::string& folder, const LinearSystem& system) {
   if (!system.uniform_damping) return;
   const UniformDamping& damping = *system.uniform_damping;
-  char number[40];
-  std::snprintf(number, sizeof number, "%.17g", damping.at_rest());
   CsvFile file(folder + "uniform_damping.csv");
-  file.comment(
-      std::string("in place of K: s G K, G = 1 + sum weight i omega / (rate + i omega), s = ") +
-      number + "; rate in rad/s");
+  file.comment(sentence(
+      "in place of K: s G K, G = 1 + sum weight i omega / (rate + i omega), s = {:.17g}; rate in "
+      "rad/s",
+      {damping.at_rest()}));
   file.header("weight,rate");
   for (const DampingFilter& filter : damping.filters) file.row("", {filter.weight, filter.rate});
   file.close();
@@ -137,10 +136,10 @@ class Export {
     file.header(labels_.empty() ? "x,y,z,component" : "x,y,z,component,node");
     std::vector<MatrixEntry> masses;
     for (const Dof& dof : dofs_) {
-      char place[96];
-      std::snprintf(place, sizeof place, "%.17g,%.17g,%.17g,%s", dof.position[0], dof.position[1],
-                    dof.position[2], component_names[dof.component].data());
-      file.row(labels_.empty() ? place : place + ("," + labels_[dof.label]), {});
+      const std::string place = sentence(
+          "{:.17g},{:.17g},{:.17g},{}",
+          {dof.position[0], dof.position[1], dof.position[2], component_names[dof.component]});
+      file.row(labels_.empty() ? place : place + "," + labels_[dof.label], {});
       masses.push_back({static_cast<PetscInt>(masses.size()), 0, dof.mass});
     }
     file.close();

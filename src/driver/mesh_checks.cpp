@@ -5,7 +5,6 @@
 #include <map>
 #include <numbers>
 #include <set>
-#include <sstream>
 
 #include "common/disjoint_sets.h"
 #include "common/error.h"
@@ -137,75 +136,6 @@ bool may_fly(const Scene& scene, const Structure& structure) {
                   "_allow_loose if that is meant");
 }
 
-}  // namespace
-
-void check_export(const Scene& scene, const Structure& structure, const GlobalMesh& mesh) {
-  if (!mesh.rigid.empty() && !scene.export_matrices.empty()) {
-    throw UserError("option -export_matrices " + scene.export_matrices + ": structure " +
-                    structure.name + " has " +
-                    (mesh.rigid.front().kind == RigidKind::tie ? "tie " : "rigid group ") +
-                    mesh.rigid.front().group + ", of which no matrix tells");
-  }
-}
-
-std::vector<UnusedElements> check_unused(const Scene& scene, const Structure& structure,
-                                         const GlobalMesh& mesh) {
-  for (const std::string& name : structure.ignored_groups) {
-    if (name != ungrouped && !mesh.groups.contains(name)) {
-      throw UserError("option -" + structure.name + "_ignore: group '" + name + "' is not in " +
-                      structure.mesh);
-    }
-  }
-  const std::set<std::string> named = named_groups(scene, structure);
-  std::vector<UnusedElements> places;
-  for (const UnusedElements& unused : mesh.unused) {
-    const std::string name = unused.group.empty() ? ungrouped : unused.group;
-    const bool left_out = unused.left_out > 0 && structure.matrices.empty();
-    const bool ignored =
-        std::ranges::find(structure.ignored_groups, name) != structure.ignored_groups.end();
-    if (left_out && !ignored && is_region(structure, name)) refuse_unused(structure, unused);
-    if (named.contains(name)) continue;
-    if (left_out) refuse_unused(structure, unused);
-    if (!unused.group.empty()) places.push_back(unused);
-  }
-  return places;
-}
-
-void check_connectivity(const Scene& scene, const Structure& structure,
-                        const Connectivity& connectivity) {
-  if (structure.allow_loose) return;
-  if (connectivity.coincident_apart.count > 0) {
-    refuse_loose(
-        structure,
-        found_at(connectivity.coincident_apart,
-                 " pairs of nodes of pieces that nothing joins lie on each other, the first at ") +
-            "; make them one node (Coherence in a .geo file)");
-  }
-  if (connectivity.ends_inside.count > 0) {
-    refuse_loose(structure,
-                 found_at(connectivity.ends_inside,
-                          " ends of lines lie in an element without a node of it, the first "
-                          "at ") +
-                     "; let the mesh have a node there that both share");
-  }
-  if (connectivity.nothing_held() && !may_fly(scene, structure)) {
-    refuse_loose(structure, "nothing holds it to the ground, and it is shaken or pushed; give -" +
-                                structure.name + "_clamp or grounded springs");
-  }
-  if (connectivity.loose_pieces() > 0 && !connectivity.nothing_held() &&
-      !starts_in_motion(structure)) {
-    const Piece& piece = connectivity.loose_piece();
-    refuse_loose(structure,
-                 std::to_string(connectivity.loose_pieces()) + " of its " +
-                     std::to_string(connectivity.pieces.size()) +
-                     " pieces are neither held nor joined to another, the largest with " +
-                     std::to_string(piece.nodes) + " nodes, one at " + place_text(piece.place) +
-                     "; join or clamp them");
-  }
-}
-
-namespace {
-
 /// Doubt about joins whose nodes are far apart: the nearest node may not be the one meant.
 void doubt_long_joins(const Structure& structure, const GlobalMesh& mesh,
                       std::vector<std::string>& warnings) {
@@ -224,11 +154,10 @@ void doubt_long_joins(const Structure& structure, const GlobalMesh& mesh,
     }
   }
   if (found == nullptr) return;
-  std::ostringstream text;
-  text << "structure " << structure.name << ": join " << found->group << " holds nodes " << longest
-       << " m apart together, one at " << place_text(mesh.position(found->nodes.front()))
-       << "; is the nearest node of the second group the one that is meant?";
-  warnings.push_back(text.str());
+  warnings.push_back(sentence(
+      "structure {}: join {} holds nodes {} m apart together, one at {}; is the nearest node of "
+      "the second group the one that is meant?",
+      {structure.name, found->group, longest, place_text(mesh.position(found->nodes.front()))}));
 }
 
 /// Doubt about embedded foundations of this structure alone that turn about a point outside of it.
@@ -320,6 +249,71 @@ void doubt_slenderness(const Structure& structure, const GlobalMesh& mesh,
 
 }  // namespace
 
+void check_export(const Scene& scene, const Structure& structure, const GlobalMesh& mesh) {
+  if (!mesh.rigid.empty() && !scene.export_matrices.empty()) {
+    throw UserError("option -export_matrices " + scene.export_matrices + ": structure " +
+                    structure.name + " has " +
+                    (mesh.rigid.front().kind == RigidKind::tie ? "tie " : "rigid group ") +
+                    mesh.rigid.front().group + ", of which no matrix tells");
+  }
+}
+
+std::vector<UnusedElements> check_unused(const Scene& scene, const Structure& structure,
+                                         const GlobalMesh& mesh) {
+  for (const std::string& name : structure.ignored_groups) {
+    if (name != ungrouped && !mesh.groups.contains(name)) {
+      throw UserError("option -" + structure.name + "_ignore: group '" + name + "' is not in " +
+                      structure.mesh);
+    }
+  }
+  const std::set<std::string> named = named_groups(scene, structure);
+  std::vector<UnusedElements> places;
+  for (const UnusedElements& unused : mesh.unused) {
+    const std::string name = unused.group.empty() ? ungrouped : unused.group;
+    const bool left_out = unused.left_out > 0 && structure.matrices.empty();
+    const bool ignored =
+        std::ranges::find(structure.ignored_groups, name) != structure.ignored_groups.end();
+    if (left_out && !ignored && is_region(structure, name)) refuse_unused(structure, unused);
+    if (named.contains(name)) continue;
+    if (left_out) refuse_unused(structure, unused);
+    if (!unused.group.empty()) places.push_back(unused);
+  }
+  return places;
+}
+
+void check_connectivity(const Scene& scene, const Structure& structure,
+                        const Connectivity& connectivity) {
+  if (structure.allow_loose) return;
+  if (connectivity.coincident_apart.count > 0) {
+    refuse_loose(
+        structure,
+        found_at(connectivity.coincident_apart,
+                 " pairs of nodes of pieces that nothing joins lie on each other, the first at ") +
+            "; make them one node (Coherence in a .geo file)");
+  }
+  if (connectivity.ends_inside.count > 0) {
+    refuse_loose(structure,
+                 found_at(connectivity.ends_inside,
+                          " ends of lines lie in an element without a node of it, the first "
+                          "at ") +
+                     "; let the mesh have a node there that both share");
+  }
+  if (connectivity.nothing_held() && !may_fly(scene, structure)) {
+    refuse_loose(structure, "nothing holds it to the ground, and it is shaken or pushed; give -" +
+                                structure.name + "_clamp or grounded springs");
+  }
+  if (connectivity.loose_pieces() > 0 && !connectivity.nothing_held() &&
+      !starts_in_motion(structure)) {
+    const Piece& piece = connectivity.loose_piece();
+    refuse_loose(structure,
+                 std::to_string(connectivity.loose_pieces()) + " of its " +
+                     std::to_string(connectivity.pieces.size()) +
+                     " pieces are neither held nor joined to another, the largest with " +
+                     std::to_string(piece.nodes) + " nodes, one at " + place_text(piece.place) +
+                     "; join or clamp them");
+  }
+}
+
 std::vector<std::string> mesh_warnings(const Scene& scene, const Structure& structure,
                                        const GlobalMesh& mesh, const Connectivity& connectivity) {
   std::vector<std::string> warnings;
@@ -336,10 +330,9 @@ std::vector<std::string> mesh_warnings(const Scene& scene, const Structure& stru
   warnings.insert(warnings.end(), mesh.doubts.begin(), mesh.doubts.end());
   const double longest = box.longest_side();
   if (longest > longest_structure) {
-    std::ostringstream text;
-    text << "structure " << structure.name << ": its mesh is " << longest
-         << " m long; meshes are in metres, is this one in millimetres?";
-    warnings.push_back(text.str());
+    warnings.push_back(sentence(
+        "structure {}: its mesh is {} m long; meshes are in metres, is this one in millimetres?",
+        {structure.name, longest}));
   }
   return warnings;
 }

@@ -142,39 +142,6 @@ std::string told_bound(double bound) {
   return sentence(" (bound from single elements {:.4e})", {bound});
 }
 
-}  // namespace
-
-Facts reduction_facts(const Building& building) {
-  const ModalModel& modal = *building.structure->modal;
-  const ModalBasis& basis = *building.basis;
-  const MassScaling& scaling = building.system->mass_scaling;
-  Facts facts{
-      {{"coordinates", basis.size()},
-       {"modes", basis.modes},
-       {"attachment_vectors", basis.attachment_vectors},
-       {"largest_frequency", std::sqrt(basis.squared_frequency.back()) / (2 * std::numbers::pi)}}};
-  if (!modal.damping_ratios.empty()) facts.add("damping_ratios", modal.damping_ratios);
-  facts.say(
-      "  modal reduction: {coordinates} generalised coordinates for {} dofs\n    {modes} modes",
-      {basis.full_dofs});
-  if (modal.cutoff > 0) {
-    facts.say(", those below the cut-off of {} Hz", {modal.cutoff});
-  } else if (modal.candidates > modal.modes) {
-    facts.say(", chosen among the {} lowest", {modal.candidates});
-  } else if (modal.modes > basis.modes) {
-    facts.say(" ({} asked for, the structure has no more)", {modal.modes});
-  }
-  facts.say(
-      "\n    {attachment_vectors} attachment vectors{}\n"
-      "    largest frequency {largest_frequency:.4g} Hz\n",
-      {modal.attachment ? "" : " (not asked for)"});
-  facts.say("[    mass scaled for a step of {:.4e} s: {} coordinates\n]",
-            {scaling.time_step, scaling.dofs});
-  return facts;
-}
-
-namespace {
-
 Facts mode_facts(const Mode& mode, const Building& building, int number) {
   const std::optional<UniformDamping>& uniform = building.system->uniform_damping;
   const auto& mass = mode.effective_modal_mass;
@@ -207,6 +174,35 @@ Facts mode_facts(const Mode& mode, const Building& building, int number) {
 }
 
 }  // namespace
+
+Facts reduction_facts(const Building& building) {
+  const ModalModel& modal = *building.structure->modal;
+  const ModalBasis& basis = *building.basis;
+  const MassScaling& scaling = building.system->mass_scaling;
+  Facts facts{
+      {{"coordinates", basis.size()},
+       {"modes", basis.modes},
+       {"attachment_vectors", basis.attachment_vectors},
+       {"largest_frequency", std::sqrt(basis.squared_frequency.back()) / (2 * std::numbers::pi)}}};
+  if (!modal.damping_ratios.empty()) facts.add("damping_ratios", modal.damping_ratios);
+  facts.say(
+      "  modal reduction: {coordinates} generalised coordinates for {} dofs\n    {modes} modes",
+      {basis.full_dofs});
+  if (modal.cutoff > 0) {
+    facts.say(", those below the cut-off of {} Hz", {modal.cutoff});
+  } else if (modal.candidates > modal.modes) {
+    facts.say(", chosen among the {} lowest", {modal.candidates});
+  } else if (modal.modes > basis.modes) {
+    facts.say(" ({} asked for, the structure has no more)", {modal.modes});
+  }
+  facts.say(
+      "\n    {attachment_vectors} attachment vectors{}\n"
+      "    largest frequency {largest_frequency:.4g} Hz\n",
+      {modal.attachment ? "" : " (not asked for)"});
+  facts.say("[    mass scaled for a step of {:.4e} s: {} coordinates\n]",
+            {scaling.time_step, scaling.dofs});
+  return facts;
+}
 
 Facts mode_facts(const Building& building) {
   Facts facts;

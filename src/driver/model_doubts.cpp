@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
 
 #include "common/matrix3.h"
 #include "common/place_text.h"
+#include "driver/facts.h"
 #include "mesh/distributed_box.h"
 
 namespace pounding {
@@ -32,12 +32,10 @@ void doubt_mat(const Structure& structure, const GlobalMesh& mesh,
   const double height = box.high[2] - box.low[2];
   const double side = std::max(box.high[0] - box.low[0], box.high[1] - box.low[1]);
   if (!(height > std::max(level_mat, level_part * side))) return;
-  std::ostringstream text;
-  text << "structure " << structure.name << ": the nodes of its mat on soil, group "
-       << structure.soil->mat << ", lie from z = " << box.low[2] << " to " << box.high[2]
-       << " m, and all of them move as one rigid body; -" << structure.name
-       << "_soil_mat takes the group of the mat alone";
-  doubts.push_back(text.str());
+  doubts.push_back(
+      sentence("structure {}: the nodes of its mat on soil, group {}, lie from z = {} to {} m, and "
+               "all of them move as one rigid body; -{}_soil_mat takes the group of the mat alone",
+               {structure.name, structure.soil->mat, box.low[2], box.high[2], structure.name}));
 }
 
 /// The two faces of a contact, along their normal.
@@ -54,20 +52,17 @@ class JointDoubts {
   void doubt(std::vector<std::string>& doubts) const {
     const double smallest = report_.geometric_gap[0];
     if (!(smallest > 0) || is_of_beams(contact_.secondary) || is_of_beams(contact_.primary)) return;
-    std::ostringstream text;
-    text.precision(4);
-    text << "contact " << contact_.name << ": ";
     if (const std::string between = what_lies_between(); !between.empty()) {
-      text << "between its faces, up to " << report_.geometric_gap[1] << " m apart, lies "
-           << between
-           << ": it goes through a building; name the faces that look at each other "
-              "across the joint";
-      doubts.push_back(text.str());
+      doubts.push_back(sentence(
+          "contact {}: between its faces, up to {:.4g} m apart, lies {}: it goes through a "
+          "building; name the faces that look at each other across the joint",
+          {contact_.name, report_.geometric_gap[1], between}));
     } else if (smallest > std::max(wide_gap, wide_part * model_size_) && stands_still()) {
-      text << "its faces are at least " << smallest << " m apart in the meshes"
-           << (contact_.gap.values.empty() ? ", which no building moves" : "")
-           << "; are they the ones that look at each other across the joint?";
-      doubts.push_back(text.str());
+      doubts.push_back(sentence(
+          "contact {}: its faces are at least {:.4g} m apart in the meshes{}; are they the ones "
+          "that look at each other across the joint?",
+          {contact_.name, smallest,
+           contact_.gap.values.empty() ? ", which no building moves" : ""}));
     }
   }
 
@@ -177,15 +172,12 @@ void doubt_floors(const Scene& scene, std::span<const GlobalMesh> meshes,
     }
     for (const auto& [probe, extent] : floors) {
       if (!(extent < narrow_floor * widest)) continue;
-      std::ostringstream text;
-      text.precision(4);
-      text << "probe " << probe->name << ": a floor at z = " << probe->position[2] << " m, where "
-           << scene.structures[s].name << " reaches over " << extent << " m in plan, and over "
-           << widest
-           << " m at its widest floor; drifts are between floors, not of what stands on "
-              "them: leave -"
-           << probe->name << "_floor out there";
-      doubts.push_back(text.str());
+      doubts.push_back(
+          sentence("probe {}: a floor at z = {:.4g} m, where {} reaches over {:.4g} m in "
+                   "plan, and over {:.4g} m at its widest floor; drifts are between floors, not of "
+                   "what stands on them: leave -{}_floor out there",
+                   {probe->name, probe->position[2], scene.structures[s].name, extent, widest,
+                    probe->name}));
     }
   }
 }
@@ -212,11 +204,10 @@ std::vector<std::string> mass_doubts(MPI_Comm comm, const Building& building) {
   const double total = building.system->total_mass;
   for (const Region& region : structure.regions) {
     if (!(region.mass > 0 && region.mass < std::min(small_mass, small_part * total))) continue;
-    std::ostringstream text;
-    text.precision(4);
-    text << "structure " << structure.name << ", group " << region.group << ": mass " << region.mass
-         << " kg is nothing in a structure of " << total << " kg; is it in t?";
-    doubts.push_back(text.str());
+    doubts.push_back(
+        sentence("structure {}, group {}: mass {:.4g} kg is nothing in a structure of "
+                 "{:.4g} kg; is it in t?",
+                 {structure.name, region.group, region.mass, total}));
   }
   if (structure.matrices.empty()) return doubts;
   const Vector3 sides = bounding_box(comm, *building.mesh).sides();
@@ -224,20 +215,16 @@ std::vector<std::string> mass_doubts(MPI_Comm comm, const Building& building) {
   const double volume = sides[0] * sides[1] * sides[2];
   const double frequency = building.modal.first_frequency();
   if (frequency > 0 && frequency * longest < slow) {
-    std::ostringstream text;
-    text.precision(4);
-    text << "structure " << structure.name << ": by the matrices of " << structure.matrices
-         << " its first frequency is " << frequency << " Hz, in a model of " << longest
-         << " m; is the stiffness in N/m (not N/mm), and the mass in kg?";
-    doubts.push_back(text.str());
+    doubts.push_back(
+        sentence("structure {}: by the matrices of {} its first frequency is {:.4g} Hz, in "
+                 "a model of {:.4g} m; is the stiffness in N/m (not N/mm), and the mass in kg?",
+                 {structure.name, structure.matrices, frequency, longest}));
   }
   if (std::ranges::min(sides) > 0.1 * longest && total < light * volume) {
-    std::ostringstream text;
-    text.precision(4);
-    text << "structure " << structure.name << ": by the matrices of " << structure.matrices
-         << " its mass is " << total << " kg, in a box of " << volume
-         << " m3; is it in kg (not t)?";
-    doubts.push_back(text.str());
+    doubts.push_back(
+        sentence("structure {}: by the matrices of {} its mass is {:.4g} kg, in a box of "
+                 "{:.4g} m3; is it in kg (not t)?",
+                 {structure.name, structure.matrices, total, volume}));
   }
   return doubts;
 }

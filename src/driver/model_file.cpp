@@ -9,6 +9,7 @@
 #include "common/error.h"
 #include "common/matrix3.h"
 #include "common/parallel.h"
+#include "driver/facts.h"
 #include "interactions/pairing/interface.h"
 #include "io/hdf5_file.h"
 #include "io/new_file.h"
@@ -206,9 +207,7 @@ std::vector<double> without_rotations(const std::vector<double>& table) {
 std::string frequency_note(const std::vector<double>& frequencies) {
   std::string text;
   for (const double frequency : frequencies) {
-    char value[32];
-    std::snprintf(value, sizeof value, "%s%.4g", text.empty() ? "" : " ", frequency);
-    text += value;
+    text += sentence(text.empty() ? "{:.4g}" : " {:.4g}", {frequency});
   }
   return text;
 }

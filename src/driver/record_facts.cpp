@@ -48,6 +48,20 @@ std::string told_yielding(const std::string& name, const Json& of) {
          told(" {energy_lost:12.4g}  at {place:.4g} m\n", of);
 }
 
+/// Peak of each spectrum of a probe in one direction.
+std::string told_spectra(const std::vector<ProbeSpectrum>& spectra, const std::string& probe,
+                         const std::string& direction) {
+  std::string text;
+  for (const ProbeSpectrum& spectrum : spectra) {
+    if (spectrum.probe != probe || spectrum.direction != direction) continue;
+    const auto peak =
+        std::ranges::max_element(spectrum.points, {}, &SpectrumPoint::pseudo_acceleration);
+    text += sentence(" {:14.2f} at {:.4g} ({:g %})",
+                     {peak->pseudo_acceleration, peak->frequency, spectrum.damping_ratio});
+  }
+  return text;
+}
+
 }  // namespace
 
 Facts yield_facts(const RunStatistics& run) {
@@ -144,24 +158,6 @@ Facts drift_facts(const StoreyDrifts& drifts) {
   }
   return facts;
 }
-
-namespace {
-
-/// Peak of each spectrum of a probe in one direction.
-std::string told_spectra(const std::vector<ProbeSpectrum>& spectra, const std::string& probe,
-                         const std::string& direction) {
-  std::string text;
-  for (const ProbeSpectrum& spectrum : spectra) {
-    if (spectrum.probe != probe || spectrum.direction != direction) continue;
-    const auto peak =
-        std::ranges::max_element(spectrum.points, {}, &SpectrumPoint::pseudo_acceleration);
-    text += sentence(" {:14.2f} at {:.4g} ({:g %})",
-                     {peak->pseudo_acceleration, peak->frequency, spectrum.damping_ratio});
-  }
-  return text;
-}
-
-}  // namespace
 
 Facts probe_facts(const Scene& scene, const RunStatistics& run, const Recorder& recorder,
                   const std::vector<ProbeSpectrum>& spectra) {

@@ -13,59 +13,16 @@
 
 #include "common/parent_process.h"
 #include "common/progress.h"
+#include "driver/facts.h"
 
 namespace pounding {
 namespace {
-
-template <typename... Values>
-std::string formatted(const char* format, Values... values) {
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
 
 /// Where the standard output of a process goes; "" where that is not to be seen.
 std::string standard_output(const std::string& process) {
   std::error_code failure;
   return std::filesystem::read_symlink("/proc/" + process + "/fd/1", failure);
 }
-
-}  // namespace
-
-std::string duration_text(double seconds) {
-  if (!(seconds < 1e9)) return "very long";
-  const auto whole = static_cast<long long>(std::round(std::max(seconds, 0.0)));
-  if (whole < 60) return formatted("%lld s", whole);
-  if (whole < 3600) return formatted("%lld min %02lld s", whole / 60, whole % 60);
-  return formatted("%lld h %02lld min", whole / 3600, whole % 3600 / 60);
-}
-
-std::string progress_line(const RunPosition& position) {
-  const double cost = position.elapsed / std::max(position.simulated, 1e-300);
-  std::string line =
-      formatted("  %.1f %%: t = %.4g of %.4g s, %.3g s of wall time per simulated s, ",
-                100 * position.time / position.end_time, position.time, position.end_time, cost);
-  line += duration_text(cost * (position.end_time - position.time)) + " left";
-  if (position.smallest_gap < std::numeric_limits<double>::max()) {
-    line += formatted(", smallest gap %.2f mm, %lld impacts", 1000 * position.smallest_gap,
-                      position.impacts);
-  }
-  return line + formatted(", energy residual %.1e", position.energy_residual);
-}
-
-void RunProgress::show(const RunPosition& position) {
-  if (!watched_ && position.elapsed < next_) return;
-  while (next_ <= position.elapsed) next_ += std::min(next_, std::max(interval_, longest_silence));
-  const std::string line = progress_line(position);
-  if (watched_) {
-    std::printf("\r%-*s", terminal_width() - 1, line.substr(0, terminal_width() - 1).c_str());
-  } else {
-    std::printf("%s\n", line.c_str());
-  }
-  std::fflush(stdout);
-}
-
-namespace {
 
 class ProgressWatch final : public Observer {
  public:
@@ -94,6 +51,39 @@ class ProgressWatch final : public Observer {
 };
 
 }  // namespace
+
+std::string duration_text(double seconds) {
+  if (!(seconds < 1e9)) return "very long";
+  const auto whole = static_cast<long long>(std::round(std::max(seconds, 0.0)));
+  if (whole < 60) return sentence("{} s", {whole});
+  if (whole < 3600) return sentence("{} min {:02d} s", {whole / 60, whole % 60});
+  return sentence("{} h {:02d} min", {whole / 3600, whole % 3600 / 60});
+}
+
+std::string progress_line(const RunPosition& position) {
+  const double cost = position.elapsed / std::max(position.simulated, 1e-300);
+  std::string line =
+      sentence("  {:.1f} %: t = {:.4g} of {:.4g} s, {:.3g} s of wall time per simulated s, {} left",
+               {100 * position.time / position.end_time, position.time, position.end_time, cost,
+                duration_text(cost * (position.end_time - position.time))});
+  if (position.smallest_gap < std::numeric_limits<double>::max()) {
+    line += sentence(", smallest gap {:.2f} mm, {} impacts",
+                     {1000 * position.smallest_gap, position.impacts});
+  }
+  return line + sentence(", energy residual {:.1e}", {position.energy_residual});
+}
+
+void RunProgress::show(const RunPosition& position) {
+  if (!watched_ && position.elapsed < next_) return;
+  while (next_ <= position.elapsed) next_ += std::min(next_, std::max(interval_, longest_silence));
+  const std::string line = progress_line(position);
+  if (watched_) {
+    std::printf("\r%-*s", terminal_width() - 1, line.substr(0, terminal_width() - 1).c_str());
+  } else {
+    std::printf("%s\n", line.c_str());
+  }
+  std::fflush(stdout);
+}
 
 void ProgressWatch::observe(const CdLagrange& stepper) {
   const double no_gap = std::numeric_limits<double>::max();

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <iterator>
 #include <optional>
-#include <sstream>
 
 #include "common/error.h"
 #include "common/floating_point.h"
@@ -44,11 +43,10 @@ void begin_results(const Scene& scene, const std::string& resolved, const Proven
 }
 
 [[noreturn]] void stop(const Scene& scene, const Model& model, int signal, std::int64_t step) {
-  std::ostringstream text;
-  text << "stopped by " << signal_name(signal) << " after step " << step << " of " << model.steps
-       << ", t = " << static_cast<double>(step) * model.time_step << " s; continue with -restart "
-       << scene.output << "/checkpoint.h5";
-  throw StoppedBySignal(text.str());
+  throw StoppedBySignal(sentence(
+      "stopped by {} after step {} of {}, t = {} s; continue with -restart {}/checkpoint.h5",
+      {signal_name(signal), step, model.steps, static_cast<double>(step) * model.time_step,
+       scene.output}));
 }
 
 /// The state to continue from; none for a new run. Collective.
@@ -59,10 +57,9 @@ std::optional<SavedState> read_restart(MPI_Comm comm, const Scene& scene, const 
   const std::int64_t step = saved.integer("step");
   if (step < 0) saved.refuse_values("step");
   if (step > model.steps) {
-    std::ostringstream text;
-    text << "option -end_time " << scene.end_time << " s: the checkpoint " << scene.restart
-         << " stands at " << static_cast<double>(step) * model.time_step << " s already";
-    throw UserError(text.str());
+    throw UserError(
+        sentence("option -end_time {} s: the checkpoint {} stands at {} s already",
+                 {scene.end_time, scene.restart, static_cast<double>(step) * model.time_step}));
   }
   if (rank_of(comm) == 0) print_restart(scene, model, step);
   return saved;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <sstream>
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "driver/facts.h"
 #include "output/saved_state_exchange.h"
 #include "scene/support_reader.h"
 
@@ -107,11 +107,10 @@ std::vector<Storey> find_storeys(MPI_Comm comm, const Scene& scene, const Model&
         storeys.push_back({scene.structures[s].name, name(floors[k]), name(lower), floors[k], lower,
                            lower < 0 ? moves : -1, rise});
       } else if (lower >= 0) {
-        std::ostringstream text;
-        text << "option -" << name(floors[k]) << "_floor: probe " << name(lower)
-             << " is a floor at the same height, " << height(lower)
-             << " m; mark one probe of each floor";
-        throw UserError(text.str());
+        throw UserError(
+            sentence("option -{}_floor: probe {} is a floor at the same height, {} m; mark one "
+                     "probe of each floor",
+                     {name(floors[k]), name(lower), height(lower)}));
       }
     }
   }

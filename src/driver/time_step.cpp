@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <sstream>
 #include <vector>
 
 #include "common/error.h"
+#include "driver/facts.h"
 #include "driver/model.h"
 #include "interactions/filler_rows.h"
 #include "modal/reduced_system.h"
@@ -41,16 +41,11 @@ void choose_automatically(const Scene& scene, const StepLimits& limits, Model& m
 
 /// "2 Hz, the highest mode of a up to 400 Hz".
 std::string frequency_text(const Scene& scene, const ResolvedMotion& resolved) {
-  std::ostringstream text;
-  text.precision(4);
-  const double last = scene.spectra.frequencies.back();
-  text << resolved.frequency() << " Hz, the ";
-  if (resolved.is_mode) {
-    text << "highest mode of " << resolved.structure << " up to " << last << " Hz";
-  } else {
-    text << "last of -spectra_frequencies";
-  }
-  return text.str();
+  const std::string which = resolved.is_mode
+                                ? sentence("highest mode of {} up to {:.4g} Hz",
+                                           {resolved.structure, scene.spectra.frequencies.back()})
+                                : "last of -spectra_frequencies";
+  return sentence("{:.4g} Hz, the {}", {resolved.frequency(), which});
 }
 
 constexpr int halvings = 200;
@@ -143,40 +138,33 @@ void choose_time_step(const Scene& scene, const StepLimits& limits, Model& model
         "nothing in the scene vibrates, so nothing limits the time step: give -time_step");
   }
   if (model.time_step > limits.stable && !scene.allow_unstable) {
-    std::ostringstream text;
-    text << "option -time_step " << model.time_step << " s: above the stable time step "
-         << limits.stable
-         << " s; give a smaller one (or leave it out), or -allow_unstable for a study";
-    throw UserError(text.str());
+    throw UserError(
+        sentence("option -time_step {} s: above the stable time step {} s; give a smaller one (or "
+                 "leave it out), or -allow_unstable for a study",
+                 {model.time_step, limits.stable}));
   }
   constexpr double most_steps = 1e12;
   if (scene.end_time / model.time_step > most_steps) {
-    std::ostringstream text;
-    text << "option -end_time " << scene.end_time << " s: " << scene.end_time / model.time_step
-         << " steps of " << model.time_step << " s, above " << most_steps << "; give a shorter time"
-         << (scene.time_step > 0 ? ", or a longer -time_step" : "");
-    throw UserError(text.str());
+    throw UserError(
+        sentence("option -end_time {} s: {} steps of {} s, above {}; give a shorter time{}",
+                 {scene.end_time, scene.end_time / model.time_step, model.time_step, most_steps,
+                  (scene.time_step > 0 ? ", or a longer -time_step" : "")}));
   }
   model.steps = static_cast<std::int64_t>(std::ceil(scene.end_time / model.time_step - 1e-9));
 }
 
 std::string step_source_text(const Scene& scene, const Model& model) {
-  std::ostringstream text;
   switch (model.step_source) {
-    case StepSource::given:
-      return "as -time_step gives it";
     case StepSource::stability:
-      text << "set by the stable one, -courant " << scene.courant;
-      break;
+      return sentence("set by the stable one, -courant {}", {scene.courant});
     case StepSource::resolution:
-      text << "set by the motion that it resolves within 0.3 %: "
-           << frequency_text(scene, model.step_limits.resolved);
-      break;
+      return "set by the motion that it resolves within 0.3 %: " +
+             frequency_text(scene, model.step_limits.resolved);
     case StepSource::samples:
-      text << "set by -output_interval, since a structure is reduced";
-      break;
+      return "set by -output_interval, since a structure is reduced";
+    default:
+      return "as -time_step gives it";
   }
-  return text.str();
 }
 
 double earlier_time_step(const Scene& scene, const Model& model) {
@@ -188,13 +176,11 @@ std::vector<std::string> long_step_warnings(const Scene& scene, const Model& mod
   const ResolvedMotion& resolved = model.step_limits.resolved;
   const double accurate = round_down(resolved.accurate_step());
   if (!(scene.time_step > accurate * noticeable)) return {};
-  std::ostringstream text;
-  text.precision(3);
-  text << "the time step " << scene.time_step << " s makes " << frequency_text(scene, resolved)
-       << ", " << 100 * resolved.error(scene.time_step) << " % too high, and none up to "
-       << resolved_frequency(scene.time_step) << " Hz by more than 0.3 %; give -time_step "
-       << accurate << " or less, leave it out, or end -spectra_frequencies there";
-  return {text.str()};
+  return {sentence(
+      "the time step {:.3g} s makes {}, {:.3g} % too high, and none up to {:.3g} Hz by more "
+      "than 0.3 %; give -time_step {:.3g} or less, leave it out, or end -spectra_frequencies there",
+      {scene.time_step, frequency_text(scene, resolved), 100 * resolved.error(scene.time_step),
+       resolved_frequency(scene.time_step), accurate})};
 }
 
 double filler_limit(MPI_Comm comm, const Scene& scene, const Model& model,

@@ -140,6 +140,37 @@ std::string subject(const ResolvedProbe& probe, std::size_t count) {
   return sentence("probe {}: {} of its {} nodes are", {probe.name, count, probe.nodes.size()});
 }
 
+/// Whether somebody asked for frequencies of spectra.
+bool frequencies_are_asked(const Scene& scene) {
+  const auto preset = parse_increasing(std::string(option_row("spectra_frequencies").preset.text));
+  return scene.spectra.frequencies != preset;
+}
+
+/// Spectra beyond half the sampling frequency of the probes, or, where no impacts are looked for,
+/// of the motion.
+void add_high_spectra(const Scene& scene, const Model& model, std::vector<std::string>& warnings) {
+  if (scene.probes.empty()) return;
+  const double highest = scene.spectra.frequencies.back();
+  const auto add = [&](const std::string& of, double interval, const std::string& what) {
+    if (!(highest * 2 * interval > nearly)) return;
+    warnings.push_back(sentence(
+        "spectra go to {:.4g} Hz (-spectra_frequencies), {} every {:.4g} s tell nothing above "
+        "{:.4g} Hz{}",
+        {highest, of, interval, 0.5 / interval, what}));
+  };
+  if (scene.output_interval != parse_real(option_row("output_interval").preset.text)) {
+    add("samples of the probes", scene.output_interval, "; give a shorter -output_interval");
+  }
+  if (!scene.contacts.empty() || !frequencies_are_asked(scene)) return;
+  double coarsest = 0;
+  for (int direction = 0; direction < 3; ++direction) {
+    if (samples(model, direction).acceleration.empty()) continue;
+    coarsest = std::max(coarsest, given_interval(model, direction));
+  }
+  add("samples of the motion", coarsest,
+      ": beyond, only motion between the samples shows (-resampling)");
+}
+
 }  // namespace
 
 std::vector<std::string> sliver_warnings(const LinearSystem& system) {
@@ -279,41 +310,6 @@ void add_long_step(const std::string& of, double sample, double step,
                  {step, of, sample, sample}));
   }
 }
-
-namespace {
-
-/// Whether somebody asked for frequencies of spectra.
-bool frequencies_are_asked(const Scene& scene) {
-  const auto preset = parse_increasing(std::string(option_row("spectra_frequencies").preset.text));
-  return scene.spectra.frequencies != preset;
-}
-
-/// Spectra beyond half the sampling frequency of the probes, or, where no impacts are looked for,
-/// of the motion.
-void add_high_spectra(const Scene& scene, const Model& model, std::vector<std::string>& warnings) {
-  if (scene.probes.empty()) return;
-  const double highest = scene.spectra.frequencies.back();
-  const auto add = [&](const std::string& of, double interval, const std::string& what) {
-    if (!(highest * 2 * interval > nearly)) return;
-    warnings.push_back(sentence(
-        "spectra go to {:.4g} Hz (-spectra_frequencies), {} every {:.4g} s tell nothing above "
-        "{:.4g} Hz{}",
-        {highest, of, interval, 0.5 / interval, what}));
-  };
-  if (scene.output_interval != parse_real(option_row("output_interval").preset.text)) {
-    add("samples of the probes", scene.output_interval, "; give a shorter -output_interval");
-  }
-  if (!scene.contacts.empty() || !frequencies_are_asked(scene)) return;
-  double coarsest = 0;
-  for (int direction = 0; direction < 3; ++direction) {
-    if (samples(model, direction).acceleration.empty()) continue;
-    coarsest = std::max(coarsest, given_interval(model, direction));
-  }
-  add("samples of the motion", coarsest,
-      ": beyond, only motion between the samples shows (-resampling)");
-}
-
-}  // namespace
 
 std::vector<std::string> run_warnings(const Scene& scene, const Model& model) {
   std::vector<std::string> warnings;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "common/error.h"
+#include "driver/facts.h"
 #include "driver/run_statistics.h"
 #include "mesh/location.h"
 #include "modal/reduced_system.h"
@@ -35,18 +35,17 @@ double row_frequency(const Model& model, std::size_t structure) {
 /// Complaint about the energies of a structure; empty if nothing is wrong. `omega`: see
 /// row_frequency.
 std::string complaint(const StructureEnergy& energy, double omega) {
-  std::ostringstream text;
   // K v comes from two products K u, whose round-off stays when v is next to nothing.
   const double allowed = round_off * std::abs(energy.kinetic) +
                          product_round_off * omega *
                              std::sqrt(2 * std::abs(energy.kinetic) * energy.displacement_mass);
   if (!std::isfinite(energy.energy()) || !std::isfinite(energy.positive_part)) {
-    text << "its energy is not a number";
-  } else if (energy.positive_part < -allowed) {
-    text << "v^T (M + S - dt/2 C - dt^2/4 s K) v / 2 = " << energy.positive_part
-         << " J is negative (kinetic " << energy.kinetic << " J, strain " << energy.strain << " J)";
+    return "its energy is not a number";
   }
-  return text.str();
+  if (!(energy.positive_part < -allowed)) return "";
+  return sentence(
+      "v^T (M + S - dt/2 C - dt^2/4 s K) v / 2 = {} J is negative (kinetic {} J, strain {} J)",
+      {energy.positive_part, energy.kinetic, energy.strain});
 }
 
 class EnergyWatch final : public Observer {
@@ -80,12 +79,12 @@ void watch_divergence(const Model& model, const State& state, const EnergyLine& 
     for (std::size_t i = 0; i < motion.size(); ++i) {
       motion[i] *= std::sqrt(model.systems[s].lumped_mass[i]);
     }
-    std::ostringstream text;
-    text << "the run diverged: structure " << model.systems[s].name << ": " << wrong
-         << " at t = " << line.time << " s (step " << state.step - 1 << "); it moves most at "
-         << model.buildings[s].locate_largest(motion) << "; time step " << model.time_step
-         << " s, stable " << model.buildings[s].limits.stable_time_step << " s";
-    throw DivergenceError(text.str());
+    throw DivergenceError(
+        sentence("the run diverged: structure {}: {} at t = {} s (step {}); it moves most at {}; "
+                 "time step {} s, stable {} s",
+                 {model.systems[s].name, wrong, line.time, state.step - 1,
+                  model.buildings[s].locate_largest(motion), model.time_step,
+                  model.buildings[s].limits.stable_time_step}));
   }
 }
 
@@ -96,11 +95,10 @@ double energy_round_off(const Model& model, std::size_t structure, const Structu
 
 void watch_passivity(const EnergyLine& line, double largest_term) {
   const auto refuse = [&](const char* what, double loss) {
-    std::ostringstream text;
-    text << what << " gave " << -loss << " J more than it took until t = " << line.time
-         << " s (largest term of the energies " << largest_term
-         << " J); the run is stopped, its results cannot be trusted; try a smaller time step";
-    throw DivergenceError(text.str());
+    throw DivergenceError(
+        sentence("{} gave {} J more than it took until t = {} s (largest term of the energies {} "
+                 "J); the run is stopped, its results cannot be trusted; try a smaller time step",
+                 {what, -loss, line.time, largest_term}));
   };
   const double allowed = given_energy * largest_term;
   if (line.link_loss < -allowed) refuse("links", line.link_loss);
@@ -115,11 +113,10 @@ void watch_contact(MPI_Comm comm, const interactions::ContactProblem* contact, d
   double residual = contact != nullptr ? contact->largest_residual() : 0;
   MPI_Allreduce(MPI_IN_PLACE, &residual, 1, MPI_DOUBLE, MPI_MAX, comm);
   if (!std::isfinite(residual)) {
-    std::ostringstream text;
-    text << "the run diverged: before t = " << time
-         << " s the contact problem held a number that is not finite, and its impulses were left "
-            "out; look at masses and stiffnesses beside the contacts";
-    throw DivergenceError(text.str());
+    throw DivergenceError(sentence(
+        "the run diverged: before t = {} s the contact problem held a number that is not finite, "
+        "and its impulses were left out; look at masses and stiffnesses beside the contacts",
+        {time}));
   }
 }
 
@@ -134,11 +131,10 @@ void watch_identity(const Model& model, const EnergyLine& line,
     allowed += energy_round_off(model, s, structures[s]);
   }
   if (std::abs(line.residual) > allowed) {
-    std::ostringstream text;
-    text << "the energy identity does not close at t = " << line.time << " s: residual "
-         << line.residual << " J, largest term " << largest_term << " J, round-off allows "
-         << allowed << " J; the run is stopped, its results cannot be trusted";
-    throw DivergenceError(text.str());
+    throw DivergenceError(
+        sentence("the energy identity does not close at t = {} s: residual {} J, largest term {} "
+                 "J, round-off allows {} J; the run is stopped, its results cannot be trusted",
+                 {line.time, line.residual, largest_term, allowed}));
   }
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <deque>
 #include <functional>
 #include <utility>
@@ -11,6 +10,7 @@
 
 #include "common/parallel.h"
 #include "driver/build_model.h"
+#include "driver/facts.h"
 #include "driver/field_plan.h"
 #include "driver/solver.h"
 #include "driver/time_loop.h"
@@ -82,10 +82,9 @@ std::pair<double, std::string> decisive_time(const Scene& scene, const ImpactCat
   const auto& list = impacts.impacts();
   if (!list.empty()) {
     const Impact& impact = *std::ranges::max_element(list, {}, &Impact::impulse);
-    char text[160];
-    std::snprintf(text, sizeof text, "around the largest impulse, %.4g N s of %s at %.4g s",
-                  impact.impulse, scene.contacts[impact.contact].name.c_str(), impact.start);
-    return {impact.start, text};
+    return {impact.start,
+            sentence("around the largest impulse, {:.4g} N s of {} at {:.4g} s",
+                     {impact.impulse, scene.contacts[impact.contact].name, impact.start})};
   }
   double largest = 0;
   double time = 0;
