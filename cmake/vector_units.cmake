@@ -27,9 +27,9 @@ set(POUNDING_KERNEL_FILES
   "^stiffness/(assembled_rows|beam_elements|element_sorter|element_stiffness|stiffness|strain_sorter)[.]"
   "^interactions/(solvers/|[a-z_]+[.])"
   "^common/row_products[.]"
-  "^ensemble/(member_run|octet_)"
+  "^ensemble/octet_group"
   "^motion/oscillator"
-  "^output/(recorder|probe_rows)"
+  "^output/recorder"
   "^system/(block_factorisation|coupled_mass|rigid_body|trace)")
 
 # Moves the kernels of a list of sources to another one.

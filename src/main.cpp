@@ -2,9 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "common/common_segments.h"
 #include "common/crowded_node.h"
-#include "io/hdf5_library.h"
+#include "io/hdf5_file.h"
 #include "run_job.h"
 
 int main(int count, char** words) {

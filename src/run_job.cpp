@@ -4,16 +4,15 @@
 #include <new>
 #include <optional>
 
-#include "common/dense_solver.h"
+#include "common/dense_matrix.h"
 #include "common/error.h"
 #include "common/parallel.h"
-#include "common/petsc_session.h"
+#include "common/petsc.h"
 #include "common/process_state.h"
 #include "common/vector_unit.h"
 #include "ensemble/run_ensemble.h"
 #include "scene/command_line.h"
 #include "scene/options_database.h"
-#include "scene/scene_origin.h"
 #include "scene/scene_reader.h"
 
 namespace pounding {

@@ -12,7 +12,7 @@ namespace pounding {
 /// every rank: 0, 1 after an error, 2 where a signal stopped the run; the message of an error is
 /// one line on stderr from the first rank. PETSc is started on `comm` and ended, and the process is
 /// left as it was found: handlers of signals, mode of floating-point numbers, vector unit. Needs
-/// MPI, and prepare_hdf5 (io/hdf5_library.h) before MPI was started. Lack of memory and internal
+/// MPI, and prepare_hdf5 (io/hdf5_file.h) before MPI was started. Lack of memory and internal
 /// errors end all processes of MPI, since a rank may fail alone. Collective.
 int run_job(MPI_Comm comm, std::span<const std::string> words);
 

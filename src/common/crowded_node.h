@@ -1,6 +1,8 @@
 #pragma once
 
 #include <chrono>
+#include <string>
+#include <sys/types.h>
 
 namespace pounding {
 
@@ -30,5 +32,24 @@ class NodeLoad {
   std::chrono::steady_clock::time_point next_look_{};
   bool above_ = false;
 };
+
+/// Open MPI keeps the common memory of ranks of one machine in files of /dev/shm, which stay behind
+/// when a rank is killed. While this object lives the file of this rank has no name: every rank has
+/// found the others' files before, and the memory lasts as long as a rank uses it. At the end there
+/// is an empty file of that name, for Open MPI to remove. Does nothing under another MPI. To be
+/// made by all ranks of MPI_COMM_WORLD after MPI_Init, and to end before MPI_Finalize.
+class NamelessSegments {
+ public:
+  NamelessSegments();
+  NamelessSegments(const NamelessSegments&) = delete;
+  NamelessSegments& operator=(const NamelessSegments&) = delete;
+  ~NamelessSegments();
+
+ private:
+  std::string path_;  ///< empty: there was none
+};
+
+/// The process that started another one of this machine; 0 where that is not to be seen.
+pid_t parent_of(pid_t process);
 
 }  // namespace pounding

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
+
+#include "common/types.h"
 
 namespace pounding {
 
@@ -23,5 +27,15 @@ class DivergenceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Throws UserError when a path names something that may have no end or no content, which a reader
+/// must not wait for: a folder, a device, a pipe or a socket; and when it is a file of more than
+/// `most` bytes. A path with nothing there passes: its reader knows the expected one. `place`
+/// precedes the path in the message, such as "option -ensemble ".
+void require_finite_file(const std::string& path, const std::string& place = "",
+                         std::uintmax_t most = std::numeric_limits<std::uintmax_t>::max());
+
+/// A place as messages name it: (x, y, z) with six digits [m].
+std::string place_text(const Vector3& place);
 
 }  // namespace pounding

@@ -1,19 +1,34 @@
 #include "common/memory.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <limits>
+#include <malloc.h>
 #include <string>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #ifdef __GLIBC__
-#include <malloc.h>
 #endif
 #ifdef __linux__
-#include <cstdint>
-#include <sys/mman.h>
-#include <unistd.h>
 #endif
-
 namespace pounding {
+namespace {
+
+constexpr double kibibyte = 1024;  // the kernel counts in it [bytes]
+
+/// Largest of the peaks that were begun anew [bytes].
+double largest_before = 0;
+
+double most_resident(int who) {
+  rusage usage{};
+  getrusage(who, &usage);
+  return kibibyte * static_cast<double>(usage.ru_maxrss);
+}
+
+}  // namespace
 
 #ifdef __GLIBC__
 
@@ -85,6 +100,27 @@ std::vector<double> zeros_on_large_pages(std::size_t size) {
   wish_large_pages(zeros.data(), size * sizeof(double));
   zeros.resize(size, 0.0);
   return zeros;
+}
+
+MemoryUse take_memory_use() {
+  MemoryUse use;
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    double* const value = word == "VmHWM:" ? &use.peak : word == "VmRSS:" ? &use.held : nullptr;
+    if (value != nullptr && status >> *value) *value *= kibibyte;
+  }
+  use.peak = std::max(use.peak, use.held);
+  largest_before = std::max(largest_before, use.peak);
+  std::ofstream("/proc/self/clear_refs") << 5;  // the peak begins anew
+  return use;
+}
+
+double largest_memory() {
+  return std::max(largest_before, most_resident(RUSAGE_SELF));
+}
+
+double largest_memory_of_children() {
+  return most_resident(RUSAGE_CHILDREN);
 }
 
 }  // namespace pounding

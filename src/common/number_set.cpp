@@ -1,7 +1,5 @@
 #include "common/number_set.h"
 
-#include <algorithm>
-
 namespace pounding {
 
 std::vector<std::int64_t> NumberSet::sort() {

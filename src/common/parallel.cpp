@@ -1,6 +1,5 @@
 #include "common/parallel.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <new>
@@ -8,7 +7,7 @@
 #include <thread>
 
 #include "common/error.h"
-#include "common/memory_use.h"
+#include "common/memory.h"
 
 namespace pounding {
 namespace {
@@ -57,17 +56,13 @@ int rank_of(MPI_Comm comm) {
   return rank;
 }
 
-double peak_memory() {
-  return largest_memory();
-}
-
 std::string out_of_memory(int rank) {
   char text[200];
   std::snprintf(
       text, sizeof text,
       "out of memory on rank %d, which has used %.2f GiB at most; take a smaller scene, a "
       "coarser mesh or a machine (or a limit) with more",
-      rank, peak_memory() / (1 << 30));
+      rank, largest_memory() / (1 << 30));
   return text;
 }
 
@@ -107,6 +102,19 @@ void on_every_rank(MPI_Comm comm, const std::function<void()>& work) {
   std::vector<char> bytes(message.begin(), message.end());
   broadcast_array(comm, bytes, first);
   raise(static_cast<Failure>(kind), std::string(bytes.begin(), bytes.end()));
+}
+
+std::vector<double> gather_rows(MPI_Comm comm, const std::vector<double>& rows) {
+  const auto ranks = static_cast<std::size_t>(size_of(comm));
+  const int count = static_cast<int>(rows.size());
+  std::vector<int> counts(ranks);
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+  std::vector<int> begins(ranks, 0);
+  for (std::size_t r = 1; r < ranks; ++r) begins[r] = begins[r - 1] + counts[r - 1];
+  std::vector<double> all(static_cast<std::size_t>(begins.back() + counts.back()));
+  MPI_Allgatherv(rows.data(), count, MPI_DOUBLE, all.data(), counts.data(), begins.data(),
+                 MPI_DOUBLE, comm);
+  return all;
 }
 
 }  // namespace pounding

@@ -16,9 +16,6 @@ namespace pounding {
 int rank_of(MPI_Comm comm);
 int size_of(MPI_Comm comm);
 
-/// Largest resident memory of this process so far [bytes].
-double peak_memory();
-
 /// Message about a std::bad_alloc on a rank, one line.
 std::string out_of_memory(int rank);
 
@@ -97,5 +94,8 @@ void broadcast_values(MPI_Comm comm, const Pass& pass) {
     pass(reader);
   }
 }
+
+/// Rows of all ranks, one after the other, on all of them. Collective.
+std::vector<double> gather_rows(MPI_Comm comm, const std::vector<double>& rows);
 
 }  // namespace pounding

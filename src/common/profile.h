@@ -5,7 +5,7 @@
 
 #include <mpi.h>
 
-#include "common/memory_use.h"
+#include "common/memory.h"
 
 /// Wall time and memory by phase. `step`: stiffness product and update of the state, fused.
 namespace pounding {

@@ -1,7 +1,6 @@
 #include "common/vector_unit.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

@@ -8,12 +8,11 @@
 
 #include "common/error.h"
 #include "common/matrix3.h"
-#include "common/place_text.h"
 #include "driver/facts.h"
 #include "elements/element_traits.h"
 #include "interactions/pairing/facet_backing.h"
 #include "mesh/element_properties.h"
-#include "mesh/facet_shares.h"
+#include "mesh/facet_place.h"
 
 namespace pounding {
 namespace {

@@ -20,7 +20,7 @@
 #include "driver/warnings.h"
 #include "driver/whole_meshes.h"
 #include "modal/reduced_system.h"
-#include "scene/factor_reader.h"
+#include "scene/option_reader.h"
 #include "scene/soil_reader.h"
 #include "scene/support_reader.h"
 #include "stability/stable_time_step.h"

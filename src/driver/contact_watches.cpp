@@ -3,7 +3,7 @@
 #include <cmath>
 #include <span>
 
-#include "common/number_rows.h"
+#include "common/saved_state.h"
 #include "driver/field_plan.h"
 #include "driver/run_statistics.h"
 #include "interactions/contact_operator.h"

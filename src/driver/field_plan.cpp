@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "common/error.h"
-#include "common/parallel.h"
 #include "driver/facts.h"
 
 namespace pounding {

@@ -7,7 +7,6 @@
 #include "common/parallel.h"
 #include "driver/facts.h"
 #include "io/csv_file.h"
-#include "io/spectra_table.h"
 #include "motion/accelerogram.h"
 #include "motion/oscillator_step.h"
 #include "motion/signal_treatment.h"

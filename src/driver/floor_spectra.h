@@ -36,7 +36,7 @@ std::vector<ProbeSpectrum> compute_floor_spectra(MPI_Comm comm, const Scene& sce
 /// the ground itself rests (a motion from below) and where a probe is called `ground_name`.
 std::vector<ProbeSpectrum> compute_ground_spectra(const Scene& scene, const GroundMotion& motion);
 
-/// `spectra.csv`, in the columns of `spectrum_columns` (io/spectra_table.h); `start` [s]: of what
+/// `spectra.csv`, in the columns of `spectrum_columns` (io/csv_file.h); `start` [s]: of what
 /// counts; `digits`: significant ones. Throws UserError if it cannot be written.
 void write_floor_spectra(const std::string& path, std::span<const ProbeSpectrum> spectra,
                          double start, int digits);

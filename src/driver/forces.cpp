@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "common/error.h"
-#include "common/number_rows.h"
 #include "common/parallel.h"
+#include "common/saved_state.h"
 #include "driver/facts.h"
 #include "driver/run_statistics.h"
 #include "elements/force_rows.h"

@@ -12,10 +12,10 @@
 #include <tuple>
 #include <vector>
 
-#include "common/component_names.h"
 #include "common/error.h"
 #include "common/matrix3.h"
 #include "common/parallel.h"
+#include "common/types.h"
 #include "driver/element_middle.h"
 #include "driver/run_statistics.h"
 #include "interactions/laws/hysteretic_law.h"

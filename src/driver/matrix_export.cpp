@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <span>
 
-#include "common/component_names.h"
 #include "common/error.h"
-#include "common/matrix_rows.h"
 #include "common/parallel.h"
+#include "common/petsc.h"
+#include "common/types.h"
 #include "driver/facts.h"
 #include "io/csv_file.h"
 #include "io/matrix_market.h"

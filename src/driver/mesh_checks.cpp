@@ -6,12 +6,10 @@
 #include <numbers>
 #include <set>
 
-#include "common/disjoint_sets.h"
 #include "common/error.h"
 #include "common/matrix3.h"
-#include "common/place_text.h"
+#include "common/number_set.h"
 #include "driver/facts.h"
-#include "mesh/bounding_box.h"
 
 namespace pounding {
 namespace {

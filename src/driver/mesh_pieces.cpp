@@ -17,7 +17,6 @@
 #include "driver/provenance.h"
 #include "driver/report.h"
 #include "driver/run_statistics.h"
-#include "io/file_digest.h"
 #include "io/file_seal.h"
 #include "io/new_file.h"
 

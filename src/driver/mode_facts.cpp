@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/component_names.h"
+#include "common/types.h"
 #include "driver/report.h"
 #include "stability/stable_time_step.h"
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <set>
 
+#include "common/error.h"
 #include "common/matrix3.h"
-#include "common/place_text.h"
 #include "driver/facts.h"
-#include "mesh/distributed_box.h"
+#include "mesh/mesh.h"
 
 namespace pounding {
 namespace {

@@ -18,10 +18,8 @@
 
 #include "common/error.h"
 #include "common/hash.h"
-#include "common/library_versions.h"
 #include "common/parallel.h"
 #include "common/version.h"
-#include "io/file_digest.h"
 #include "output/result_folder.h"
 #include "scene/option_table.h"
 #include "scene/option_values.h"

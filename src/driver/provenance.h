@@ -10,10 +10,10 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "driver/model.h"
-#include "io/file_digest.h"
+#include "io/file_seal.h"
 #include "output/checkpoint.h"
+#include "scene/command_line.h"
 #include "scene/scene.h"
-#include "scene/scene_origin.h"
 
 namespace pounding {
 

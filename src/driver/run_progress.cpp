@@ -11,7 +11,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "common/parent_process.h"
+#include "common/crowded_node.h"
 #include "common/progress.h"
 #include "driver/facts.h"
 

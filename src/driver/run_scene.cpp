@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "common/error.h"
-#include "common/floating_point.h"
 #include "common/memory.h"
 #include "common/parallel.h"
+#include "common/process_state.h"
 #include "driver/build_model.h"
 #include "driver/field_plan.h"
 #include "driver/floor_spectra.h"

@@ -10,7 +10,7 @@
 #include "driver/run_statistics.h"
 #include "output/impact_catalogue.h"
 #include "output/recorder.h"
-#include "scene/scene_origin.h"
+#include "scene/command_line.h"
 #include "scene/scene_reader.h"
 
 namespace pounding {

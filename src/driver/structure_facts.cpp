@@ -2,11 +2,11 @@
 #include <array>
 #include <numbers>
 
-#include "common/component_names.h"
+#include "common/types.h"
 #include "driver/report.h"
 #include "elements/element_traits.h"
 #include "scene/soil_file.h"
-#include "scene/spread_words.h"
+#include "scene/spring_reader.h"
 
 namespace pounding {
 namespace {

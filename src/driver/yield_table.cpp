@@ -8,9 +8,8 @@
 #include <tuple>
 #include <utility>
 
-#include "common/component_names.h"
-#include "common/gather_rows.h"
 #include "common/parallel.h"
+#include "common/types.h"
 #include "driver/element_middle.h"
 #include "driver/run_statistics.h"
 #include "driver/storeys.h"

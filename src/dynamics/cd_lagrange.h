@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/log_event.h"
+#include "common/petsc.h"
 #include "common/profile.h"
 #include "dynamics/energy_balance.h"
 #include "dynamics/octet_step.h"

@@ -9,7 +9,7 @@
 
 #include <mpi.h>
 
-#include "common/log_event.h"
+#include "common/petsc.h"
 #include "common/saved_state.h"
 #include "dynamics/energy_balance.h"
 #include "dynamics/state.h"

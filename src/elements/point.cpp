@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "common/rigid_motion.h"
+#include "common/matrix3.h"
 
 namespace pounding {
 

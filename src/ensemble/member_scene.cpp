@@ -8,7 +8,7 @@
 #include "driver/time_step.h"
 #include "interactions/pairing/gap_field.h"
 #include "modal/reduced_system.h"
-#include "scene/factor_reader.h"
+#include "scene/option_reader.h"
 #include "stability/stable_time_step.h"
 #include "system/load_shapes.h"
 

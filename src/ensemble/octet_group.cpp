@@ -1,16 +1,65 @@
 #include "ensemble/octet_group.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "common/error.h"
+#include "common/row_products.h"
 #include "driver/floor_spectra.h"
+#include "driver/time_loop.h"
+#include "driver/watchdog.h"
 #include "motion/response_spectrum.h"
+#include "output/recorder.h"
 
 namespace pounding {
 namespace {
 
 /// Steps between two questions whether to stop.
 constexpr std::int64_t stop_interval = 2000;
+
+std::size_t records_of(const OctetRecorder::Times& times) {
+  return static_cast<std::size_t>(times.steps / times.stride) + 1;
+}
+
+Solver::Parts parts_in_lane(const MemberScene& member, const EnsembleModel& shared,
+                            const Model& model, RunLane lane, Profile& profile) {
+  Solver::Parts parts =
+      solver_parts(MPI_COMM_SELF, member.scene, model, shared.model->meshes, profile);
+  parts.lane = lane;
+  return parts;
+}
+
+/// The smallest recorded gap of each contact [m].
+class SmallestGaps final : public Observer {
+ public:
+  SmallestGaps(const ObservedRun& run, std::vector<double>& smallest)
+      : solver_(run.solver),
+        rows_(run.model.interface.constraints),
+        record_stride_(record_stride(run.scene, run.model)),
+        gap_stride_(gap_stride(run.scene, run.model)),
+        smallest_(smallest) {}
+
+  std::int64_t next_due(std::int64_t step) const override {
+    return next_multiple(step, gap_stride_);
+  }
+  StepNeeds begin(const CdLagrange& /*stepper*/) override { return {.gaps = true}; }
+  bool follows() const override { return true; }
+  void follow(const CdLagrange& stepper) override {
+    if (!solver_.interface_known() || (stepper.state().step - 1) % record_stride_ != 0) return;
+    const std::vector<double>& gaps = solver_.contact()->gaps();
+    for (std::size_t row = 0; row < gaps.size(); ++row) {
+      double& gap = smallest_[rows_[row].contact];
+      gap = std::min(gap, gaps[row]);
+    }
+  }
+
+ private:
+  const Solver& solver_;
+  std::span<const interactions::Constraint> rows_;
+  std::int64_t record_stride_;  ///< steps between two records
+  std::int64_t gap_stride_;     ///< and between two samples of the gaps, a multiple of it
+  std::vector<double>& smallest_;
+};
 
 }  // namespace
 
@@ -79,6 +128,141 @@ MemberResult OctetGroup::result(std::size_t lane) {
         stated_peak(history, recorder_.interval(), frequency, recorder_.first()));
   }
   return result;
+}
+
+double OctetRecorder::memory(std::size_t channels, const Times& times) {
+  return static_cast<double>(channels * octet_size * records_of(times) * sizeof(double));
+}
+
+OctetRecorder::OctetRecorder(std::span<const ResolvedProbe> probes,
+                             std::span<const LinearSystem> systems, std::span<const Mesh> meshes,
+                             const Times& times)
+    : channels_(3 * probes.size()),
+      stride_(times.stride),
+      interval_(times.time_step * times.stride),
+      first_(first_record_from(times.start, times.time_step, interval_)),
+      capacity_(records_of(times)) {
+  for (std::size_t s = 0; s < systems.size(); ++s) {
+    std::vector<TracePoint> places;
+    std::vector<std::size_t> counts;
+    Rows rows{s, systems[s].lumped_mass.size(), {}, {}};
+    for (std::size_t p = 0; p < probes.size(); ++p) {
+      if (probes[p].structure != static_cast<int>(s)) continue;
+      for (const GlobalIndex node : probes[p].nodes) {
+        for (int d = 0; d < 3; ++d) places.push_back({node, d});
+      }
+      counts.push_back(probes[p].nodes.size());
+      for (std::size_t d = 0; d < 3; ++d) rows.channels.push_back(3 * p + d);
+    }
+    if (counts.empty()) continue;
+    rows.values = probe_rows(Trace(systems[s], meshes[s], places, false), counts);
+    rows_.push_back(std::move(rows));
+  }
+  values_.assign(channels_, Octet{});
+  products_.assign(channels_, Octet{});
+  block_.assign(block_records * channels_, Octet{});
+  history_.resize(channels_ * octet_size * capacity_);
+}
+
+void OctetRecorder::restart(std::span<const OctetStep> octets) {
+  multiply(octets, &OctetState::velocity);
+  last_velocity_ = values_;
+  displacement_.assign(channels_, Octet{});
+  ground_.fill(Octet{});
+  blocked_ = records_ = 0;
+}
+
+void OctetRecorder::add_step(const std::array<Octet, 3>& ground_velocity_step) {
+  for (std::size_t d = 0; d < 3; ++d) ground_[d] += ground_velocity_step[d];
+}
+
+void OctetRecorder::multiply(std::span<const OctetStep> octets,
+                             std::vector<Octet> OctetState::*quantity) {
+  for (const Rows& rows : rows_) {
+    const Octet* const x = (octets[rows.structure].state().*quantity).data();
+    multiply_rows(rows.values.data(), rows.channels.size(), rows.width, x, products_.data());
+    for (std::size_t r = 0; r < rows.channels.size(); ++r) values_[rows.channels[r]] = products_[r];
+  }
+}
+
+void OctetRecorder::take_displacements(std::span<const OctetStep> octets) {
+  if (records_ < first_) return;
+  multiply(octets, &OctetState::displacement);
+  for (std::size_t c = 0; c < channels_; ++c) {
+    displacement_[c] = larger(displacement_[c], magnitude(values_[c]));
+  }
+}
+
+void OctetRecorder::record(std::span<const OctetStep> octets) {
+  multiply(octets, &OctetState::velocity);
+  Octet* const out = &block_[blocked_ * channels_];
+  for (std::size_t c = 0; c < channels_; ++c) {
+    out[c] = (values_[c] - last_velocity_[c] + ground_[c % 3]) / interval_;
+    last_velocity_[c] = values_[c];
+  }
+  ground_.fill(Octet{});
+  ++records_;
+  if (++blocked_ == block_records) flush();
+}
+
+void OctetRecorder::flush() {
+  const std::size_t first = records_ - blocked_;
+  for (std::size_t c = 0; c < channels_; ++c) {
+    for (std::size_t lane = 0; lane < octet_size; ++lane) {
+      double* const to = &history_[(c * octet_size + lane) * capacity_ + first];
+      for (std::size_t r = 0; r < blocked_; ++r) to[r] = block_[r * channels_ + c][lane];
+    }
+  }
+  blocked_ = 0;
+}
+
+std::span<const double> OctetRecorder::acceleration(std::size_t channel, std::size_t lane) {
+  if (blocked_ > 0) flush();
+  return {&history_[(channel * octet_size + lane) * capacity_], records_};
+}
+
+MemberRun::MemberRun(const MemberScene& member, const EnsembleModel& shared, const Model& model,
+                     RunLane lane)
+    : solver_(parts_in_lane(member, shared, model, lane, profile_)),
+      run_{MPI_COMM_SELF, member.scene, model, solver_},
+      impacts_(observers_.add(std::make_unique<ImpactWatch>(run_))),
+      smallest_gaps_(member.scene.contacts.size(), std::numeric_limits<double>::infinity()) {
+  observers_.add(std::make_unique<SmallestGaps>(run_, smallest_gaps_));
+  observers_.add(make_energy_watch(run_));
+  observers_.start(solver_.stepper(), nullptr);
+}
+
+bool MemberRun::open() {
+  const StepNeeds needs = observers_.before(solver_.stepper());
+  return solver_.stepper().open(needs.gaps, needs.energies);
+}
+
+void MemberRun::close() {
+  solver_.stepper().close();
+  observers_.after(solver_.stepper());
+}
+
+void MemberRun::fill(MemberResult& result) {
+  impacts_.finish(true);
+  const ImpactCatalogue& catalogue = impacts_.catalogue();
+  const std::size_t contacts = smallest_gaps_.size();
+  result.smallest_gap = smallest_gaps_;
+  result.energy_residual = {solver_.stepper().energy().relative_residual()};
+  if (solver_.contact() != nullptr) {
+    result.contact_residual = {solver_.contact()->largest_residual()};
+  }
+  result.first_time.assign(contacts, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t c = 0; c < contacts; ++c) {
+    const ImpactTotals totals = catalogue.totals(static_cast<int>(c));
+    result.episodes.push_back(totals.episodes);
+    result.impulse_sum.push_back(totals.total_impulse);
+    result.impulse_largest.push_back(totals.largest_impulse);
+    result.force_peak.push_back(totals.peak_force);
+  }
+  for (const Impact& impact : catalogue.impacts()) {  // the earliest first
+    double& first = result.first_time[impact.contact];
+    if (!(first <= impact.start)) first = impact.start;
+  }
 }
 
 }  // namespace pounding

@@ -2,8 +2,8 @@
 
 #include <mpi.h>
 
+#include "scene/command_line.h"
 #include "scene/option_table.h"
-#include "scene/scene_origin.h"
 #include "scene/scene_reader.h"
 
 namespace pounding {

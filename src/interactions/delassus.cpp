@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/disjoint_sets.h"
+#include "common/number_set.h"
 #include "common/parallel.h"
 
 namespace pounding::interactions {

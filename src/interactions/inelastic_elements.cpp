@@ -4,9 +4,8 @@
 #include <array>
 #include <utility>
 
-#include "common/gather_rows.h"
+#include "common/parallel.h"
 #include "elements/element_traits.h"
-#include "mesh/ghost_dofs.h"
 #include "system/support_shapes.h"
 
 namespace pounding::interactions {

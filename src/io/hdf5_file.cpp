@@ -7,9 +7,7 @@
 #include <unistd.h>
 
 #include "common/error.h"
-#include "io/hdf5_library.h"
 #include "io/new_file.h"
-#include "io/padded_texts.h"
 
 namespace pounding {
 
@@ -315,6 +313,30 @@ void Hdf5File::write_attribute(const std::string& object, const std::string& nam
   H5Sclose(space);
   H5Oclose(owner);
   checked(status, "write attribute " + name);
+}
+
+PaddedTexts::PaddedTexts(const std::vector<std::string>& texts) {
+  for (const std::string& text : texts) width = std::max(width, text.size());
+  for (std::string text : texts) {
+    text.resize(width, '\0');
+    block += text;
+  }
+}
+
+hid_t PaddedTexts::type() const {
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, width);
+  H5Tset_strpad(type, H5T_STR_NULLPAD);
+  return type;
+}
+
+void prepare_hdf5() {
+  static const bool prepared = [] {
+    H5dont_atexit();
+    H5open();
+    return H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0;
+  }();
+  static_cast<void>(prepared);
 }
 
 }  // namespace pounding

@@ -108,4 +108,21 @@ class Hdf5File {
   std::vector<Dataset> datasets_;
 };
 
+/// Texts of one length as HDF5 holds them, side by side and padded with zeros to the longest, at
+/// least one character. Whoever makes `type` closes it.
+struct PaddedTexts {
+  explicit PaddedTexts(const std::vector<std::string>& texts);
+
+  hid_t type() const;
+
+  std::size_t width = 1;
+  std::string block;
+};
+
+/// Prepares HDF5 before its first use: it shall report errors by the values of its functions only,
+/// and not write to files that failed once more when the program ends. Any number of calls, the
+/// first before MPI_Init: where MPI is there when HDF5 begins, it closes its files at MPI_Finalize,
+/// and falls over those that a full disk left half closed.
+void prepare_hdf5();
+
 }  // namespace pounding

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "io/file_seal.h"
-#include "io/hdf5_library.h"
+#include "io/hdf5_file.h"
 
 namespace pounding {
 namespace {

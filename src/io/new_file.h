@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <span>
 #include <string>
@@ -37,5 +38,28 @@ class NewFile {
 /// Writes a whole file: under another name first, so that there is the old one, or none, until the
 /// new one is complete. Throws UserError (no space).
 void write_whole_file(const std::string& path, const std::string& text);
+
+/// A file that is there, read and written by places in bytes, by any number of processes at once as
+/// long as their places differ; written not through a symbolic link. Errors throw UserError naming
+/// it.
+class PlacedFile {
+ public:
+  enum class Access { read, write };
+  PlacedFile(const std::string& path, Access access);
+  PlacedFile(const PlacedFile&) = delete;
+  PlacedFile& operator=(const PlacedFile&) = delete;
+  ~PlacedFile();
+
+  void write(std::int64_t place, std::span<const double> values) const;
+  void read(std::int64_t place, std::span<double> values) const;
+  /// All that was written is on the disk, or this throws.
+  void sync() const;
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const;
+
+  std::string path_;
+  int file_ = -1;
+};
 
 }  // namespace pounding

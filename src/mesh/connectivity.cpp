@@ -1,16 +1,17 @@
 #include "mesh/connectivity.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
 #include <set>
 #include <span>
 
-#include "common/disjoint_sets.h"
+#include "common/matrix3.h"
+#include "common/number_set.h"
 #include "elements/element_traits.h"
-#include "mesh/bounding_box.h"
-#include "mesh/component_bits.h"
-#include "mesh/near_nodes.h"
-#include "mesh/point_in_element.h"
-#include "mesh/rigid_rank.h"
+#include "mesh/facet_place.h"
+#include "mesh/global_mesh.h"
 
 namespace pounding {
 namespace {
@@ -21,6 +22,40 @@ struct Meeting {
   int beams = 0;
   int shells = 0;
   int solids = 0;
+};
+
+/// Counts the independent rigid motions that some components of nodes see: how many of a piece's
+/// motions its supports prevent.
+class RigidRank {
+ public:
+  /// `origin` and `size` > 0 [m] of the piece make lengths and angles comparable.
+  RigidRank(const Vector3& origin, double size) : origin_(origin), size_(size) {}
+
+  /// Adds component 0-5 of a node (translations, rotations).
+  void add(const Vector3& node, int component) {
+    constexpr double independent = 1e-6;  // of a row of about unit length
+    if (basis_.size() == 6) return;
+    Vector3 arm = node;
+    for (std::size_t d = 0; d < 3; ++d) arm[d] = (arm[d] - origin_[d]) / size_;
+    std::array<double, 6> row = rigid_motion_row(static_cast<std::size_t>(component), arm);
+    for (int turn = 0; turn < 2; ++turn) {
+      for (const std::array<double, 6>& known : basis_) {
+        const double share = std::inner_product(row.begin(), row.end(), known.begin(), 0.0);
+        for (std::size_t i = 0; i < 6; ++i) row[i] -= share * known[i];
+      }
+    }
+    const double length = std::sqrt(std::inner_product(row.begin(), row.end(), row.begin(), 0.0));
+    if (length > independent) {
+      for (double& value : row) value /= length;
+      basis_.push_back(row);
+    }
+  }
+  int rank() const { return static_cast<int>(basis_.size()); }
+
+ private:
+  Vector3 origin_;
+  double size_;
+  std::vector<std::array<double, 6>> basis_;  ///< orthonormal
 };
 
 class Examination {
@@ -236,7 +271,7 @@ class Examination {
   void find_hinges() {
     for (GlobalIndex node = 0; node < mesh_.node_count(); ++node) {
       const Meeting& meeting = meeting_[node];
-      const bool turns = (mesh_.free_components[node] & rotations) == rotations;
+      const bool turns = (mesh_.free_components[node] & rotation_bits) == rotation_bits;
       if (meeting.solids > 0 && meeting.beams + meeting.shells > 0 && turns) {
         found_.hinges.add(mesh_.position(node));
         if (meeting.beams == 1 && meeting.shells == 0) found_.lone_hinges.add(mesh_.position(node));
@@ -251,6 +286,32 @@ class Examination {
   std::vector<int> rigid_of_;  ///< per node its rigid body, -1: none; empty without any
   Connectivity found_;
 };
+
+using GridCell = std::array<std::int64_t, 3>;
+
+struct NodeInCell {
+  GridCell cell;
+  GlobalIndex node;
+  auto operator<=>(const NodeInCell&) const = default;
+};
+
+/// The cells that a node's surroundings reach into: mostly one.
+void add_cells(const Vector3& x, double side, double distance, GlobalIndex node,
+               std::vector<NodeInCell>& entries) {
+  // Meshes like round numbers: their planes are kept off the borders of cells.
+  constexpr double offset = 0.3819660112501051;
+  GridCell low{};
+  GridCell high{};
+  for (std::size_t d = 0; d < 3; ++d) {
+    low[d] = static_cast<std::int64_t>(std::floor((x[d] - distance) / side + offset));
+    high[d] = static_cast<std::int64_t>(std::floor((x[d] + distance) / side + offset));
+  }
+  for (std::int64_t i = low[0]; i <= high[0]; ++i) {
+    for (std::int64_t j = low[1]; j <= high[1]; ++j) {
+      for (std::int64_t k = low[2]; k <= high[2]; ++k) entries.push_back({{i, j, k}, node});
+    }
+  }
+}
 
 }  // namespace
 
@@ -273,6 +334,27 @@ const Piece& Connectivity::loose_piece() const {
 
 Connectivity examine_connectivity(const Structure& structure, const GlobalMesh& mesh) {
   return Examination(structure, mesh).run();
+}
+
+std::vector<std::pair<GlobalIndex, GlobalIndex>> near_nodes(const GlobalMesh& mesh, double near) {
+  constexpr double cell_side = 16;  // in distances
+  std::vector<NodeInCell> entries;
+  entries.reserve(static_cast<std::size_t>(mesh.node_count()) * 3 / 2);
+  for (GlobalIndex node = 0; node < mesh.node_count(); ++node) {
+    add_cells(mesh.position(node), cell_side * near, near, node, entries);
+  }
+  std::ranges::sort(entries);
+  std::vector<std::pair<GlobalIndex, GlobalIndex>> pairs;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    for (std::size_t j = i + 1; j < entries.size() && entries[j].cell == entries[i].cell; ++j) {
+      if (distance(mesh.position(entries[i].node), mesh.position(entries[j].node)) <= near) {
+        pairs.emplace_back(entries[i].node, entries[j].node);
+      }
+    }
+  }
+  std::ranges::sort(pairs);
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
 }
 
 }  // namespace pounding

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
+#include "common/types.h"
 #include "mesh/global_mesh.h"
 #include "scene/scene.h"
 
@@ -53,5 +55,9 @@ inline constexpr double coincidence = 1e-6;  ///< of the diagonal of a structure
 
 /// Examines a whole mesh. Serial; in time proportional to its size.
 Connectivity examine_connectivity(const Structure& structure, const GlobalMesh& mesh);
+
+/// Pairs of nodes (the lower number first, in increasing order) at most `near` > 0 [m] apart,
+/// found in cells of a grid. Serial.
+std::vector<std::pair<GlobalIndex, GlobalIndex>> near_nodes(const GlobalMesh& mesh, double near);
 
 }  // namespace pounding

@@ -6,7 +6,6 @@
 #include <metis.h>
 
 #include "mesh/global_mesh.h"
-#include "mesh/node_links.h"
 
 /// The elements of a scene as a graph for METIS. Serial.
 namespace pounding {
@@ -53,5 +52,12 @@ Graph dual_graph(const ElementList& list, const NodeElements& at, std::span<cons
 
 /// Part that gets all of a structure; -1: it is cut.
 int whole_part(std::span<const int> whole, std::size_t structure);
+
+/// Owner of every node of all structures: the part of most of its elements. Where two parts have as
+/// many of them, as along a straight cut, all such nodes of the two go to one part, which then
+/// holds the elements on both sides of the cut: the longest cuts first, each to the part that holds
+/// less by then. `owner`, `cost`: of the elements. Serial.
+std::vector<int> node_owners(const NodeElements& at, std::span<const idx_t> owner,
+                             std::span<const idx_t> cost, int parts);
 
 }  // namespace pounding

@@ -1,12 +1,11 @@
 #include "mesh/element_groups.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
+#include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "elements/measured_costs.h"
-#include "mesh/node_planes.h"
 
 namespace pounding {
 namespace {
@@ -83,6 +82,9 @@ int cluster_of_element(std::span<const GlobalIndex> nodes, const std::vector<int
   const bool inside = nodes.size() <= 2 && of(nodes.front()) == of(nodes.back());
   return inside ? of(nodes.front()) : -1;
 }
+
+/// Coordinates closer than this part of the longest extent lie in one plane.
+constexpr double same_plane = 1e-7;
 
 }  // namespace
 
@@ -163,6 +165,24 @@ ElementList merge_groups(const ElementList& all, const ElementGroups& groups) {
     add(nodes, cost + solution, all.structure[first], is_cluster ? 1 : all.needed[first]);
   }
   return list;
+}
+
+NodePlanes::NodePlanes(const GlobalMesh& mesh) {
+  const BoundingBox box = bounding_box({&mesh, 1});
+  const auto extent = [&](std::size_t d) { return box.high[d] - box.low[d]; };
+  std::stable_sort(axes_.begin(), axes_.end(),
+                   [&](std::size_t a, std::size_t b) { return extent(a) > extent(b); });
+  std::swap(axes_[1], axes_[2]);
+  low_ = box.low;
+  spacing_ = same_plane * extent(axes_[0]);
+}
+
+std::array<std::int64_t, 3> NodePlanes::place(const Vector3& x) const {
+  std::array<std::int64_t, 3> place{};
+  for (std::size_t d = 0; d < 3 && spacing_ > 0; ++d) {
+    place[d] = std::llround((x[axes_[d]] - low_[axes_[d]]) / spacing_);
+  }
+  return place;
 }
 
 }  // namespace pounding

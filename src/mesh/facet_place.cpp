@@ -178,6 +178,83 @@ FacetPlace describe(std::span<const Vector3> corners, const Vector3& x, const Lo
   return result;
 }
 
+/// Calls `add` with the shape functions and the area along the normal of every point at which a
+/// facet of 3 or 4 corners is integrated.
+template <typename Function>
+void integrate(const GlobalMesh& mesh, const Facet& facet, Function&& add) {
+  const auto at = [&](std::size_t i) { return mesh.position(facet.nodes[i]); };
+  if (facet.count == 3) {
+    const Vector3 twice = cross(minus(at(1), at(0)), minus(at(2), at(0)));
+    constexpr double third = 1.0 / 3;
+    add(std::array<double, 4>{third, third, third, 0},
+        Vector3{twice[0] / 2, twice[1] / 2, twice[2] / 2});
+    return;
+  }
+  constexpr std::array<std::array<double, 2>, 4> corner{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  const double gauss = 1 / std::sqrt(3.0);
+  for (const auto& point : corner) {
+    Vector3 along[2]{};
+    std::array<double, 4> shape{};
+    for (std::size_t a = 0; a < 4; ++a) {
+      const Vector3 x = minus(at(a), at(0));
+      const double s = 1 + gauss * point[0] * corner[a][0];
+      const double t = 1 + gauss * point[1] * corner[a][1];
+      shape[a] = s * t / 4;
+      for (std::size_t d = 0; d < 3; ++d) {
+        along[0][d] += corner[a][0] * t / 4 * x[d];
+        along[1][d] += corner[a][1] * s / 4 * x[d];
+      }
+    }
+    add(shape, cross(along[0], along[1]));
+  }
+}
+
+Vector3 centre(std::span<const Vector3> corners) {
+  Vector3 sum{0, 0, 0};
+  for (const Vector3& corner : corners) {
+    for (std::size_t d = 0; d < 3; ++d) sum[d] += corner[d] / static_cast<double>(corners.size());
+  }
+  return sum;
+}
+
+bool is_on_line(const Vector3& point, const Vector3& a, const Vector3& b, double reach) {
+  const Vector3 along = minus(b, a);
+  const double share = std::clamp(dot(minus(point, a), along) / dot(along, along), 0.0, 1.0);
+  const Vector3 foot{a[0] + share * along[0], a[1] + share * along[1], a[2] + share * along[2]};
+  const Vector3 away = minus(point, foot);
+  return dot(away, away) <= reach * reach;
+}
+
+bool is_on_shell(const Vector3& point, std::span<const Vector3> corners, double reach) {
+  const Vector3 normal = normalised(
+      cross(minus(corners[2], corners[0]), minus(corners[corners.size() - 1], corners[1])));
+  const Vector3 middle = centre(corners);
+  if (std::abs(dot(minus(point, middle), normal)) > reach) return false;
+  for (std::size_t a = 0; a < corners.size(); ++a) {
+    const Vector3& next = corners[(a + 1) % corners.size()];
+    Vector3 outward = normalised(cross(minus(next, corners[a]), normal));
+    const double side = dot(minus(middle, corners[a]), outward) > 0 ? -1 : 1;
+    if (side * dot(minus(point, corners[a]), outward) > reach) return false;
+  }
+  return true;
+}
+
+bool is_in_solid(const Vector3& point, std::span<const Vector3> corners,
+                 std::span<const ElementFace> faces, double reach) {
+  const Vector3 middle = centre(corners);
+  for (const ElementFace& face : faces) {
+    std::array<Vector3, 4> nodes;
+    std::ranges::transform(face.corners(), nodes.begin(),
+                           [&](std::size_t a) { return corners[a]; });
+    const std::span<const Vector3> at(nodes.data(), face.corners().size());
+    const Vector3 normal = normalised(cross(minus(at[2], at[0]), minus(at[at.size() - 1], at[1])));
+    const Vector3 face_middle = centre(at);
+    const double side = dot(minus(middle, face_middle), normal) > 0 ? -1 : 1;
+    if (side * dot(minus(point, face_middle), normal) > reach) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 FacetPlace nearest_place(std::span<const Vector3> corners, const Vector3& x) {
@@ -187,6 +264,35 @@ FacetPlace nearest_place(std::span<const Vector3> corners, const Vector3& x) {
   if (!find_foot(corners, x, foot)) return border;
   const FacetPlace inside = describe(corners, x, foot);
   return inside.distance <= border.distance ? inside : border;
+}
+
+std::array<double, 4> facet_shares(const GlobalMesh& mesh, const Facet& facet) {
+  if (facet.count == 2) {
+    const double length = norm(minus(mesh.position(facet.nodes[1]), mesh.position(facet.nodes[0])));
+    return {length / 2, length / 2, 0, 0};
+  }
+  std::array<double, 4> shares{};
+  integrate(mesh, facet, [&](const std::array<double, 4>& shape, const Vector3& area) {
+    for (std::size_t a = 0; a < 4; ++a) shares[a] += shape[a] * norm(area);
+  });
+  return shares;
+}
+
+std::array<Vector3, 4> facet_normal_shares(const GlobalMesh& mesh, const Facet& facet) {
+  std::array<Vector3, 4> shares{};
+  integrate(mesh, facet, [&](const std::array<double, 4>& shape, const Vector3& area) {
+    for (std::size_t a = 0; a < 4; ++a) {
+      for (std::size_t d = 0; d < 3; ++d) shares[a][d] += shape[a] * area[d];
+    }
+  });
+  return shares;
+}
+
+bool is_in_element(ElementType type, std::span<const Vector3> corners, const Vector3& point,
+                   double reach) {
+  if (is_solid(type)) return is_in_solid(point, corners, traits_of(type).faces, reach);
+  if (is_shell(type)) return is_on_shell(point, corners, reach);
+  return joins_two_nodes(type) && is_on_line(point, corners[0], corners[1], reach);
 }
 
 }  // namespace pounding

@@ -5,8 +5,6 @@
 #include <sstream>
 
 #include "common/error.h"
-#include "common/place_text.h"
-#include "mesh/group_names.h"
 #include "scene/support_reader.h"
 
 namespace pounding {

@@ -6,7 +6,6 @@
 
 #include "common/matrix3.h"
 #include "elements/element_traits.h"
-#include "mesh/component_bits.h"
 
 namespace pounding {
 namespace {
@@ -83,7 +82,7 @@ double FollowedFacets::longest_edge(const Facet& facet) const {
 
 bool FollowedFacets::turns(const Facet& facet) const {
   return std::ranges::all_of(facet.corners(), [this](GlobalIndex node) {
-    return (mesh_.components[node] & rotations) == rotations;
+    return (mesh_.components[node] & rotation_bits) == rotation_bits;
   });
 }
 

@@ -3,10 +3,8 @@
 #include <map>
 #include <vector>
 
-#include "mesh/bounding_box.h"
 #include "mesh/facet_place.h"
 #include "mesh/global_mesh.h"
-#include "mesh/tied_node.h"
 
 namespace pounding {
 

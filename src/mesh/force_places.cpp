@@ -7,7 +7,6 @@
 
 #include "common/error.h"
 #include "common/matrix3.h"
-#include "mesh/bounding_box.h"
 
 namespace pounding {
 namespace {

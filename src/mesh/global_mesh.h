@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <map>
 #include <span>
 #include <string>
@@ -8,14 +10,51 @@
 #include "common/types.h"
 #include "elements/element_traits.h"
 #include "elements/measured_costs.h"
-#include "mesh/absorbing_node.h"
-#include "mesh/supported_node.h"
-#include "mesh/tied_node.h"
 #include "scene/scene.h"
+
+namespace pounding {
+
+/// A node that a tied one follows, and how: entry 6 i + j is the part of component i of the tied
+/// node (displacements, then rotations) by component j of the carrier [-, m, 1/m].
+struct Carrier {
+  GlobalIndex node = 0;  ///< file order
+  std::array<double, 36> block{};
+};
+
+/// A node that follows a facet: u = sum of B_i u_i over its carriers, for its displacements and its
+/// rotations. Rigid motions of the carriers are the same of the node.
+struct TiedNode {
+  GlobalIndex node = 0;  ///< file order
+  int group = 0;         ///< index into the structure's rigid groups
+  std::vector<Carrier> carriers;
+};
+
+/// A clamped node on a support that moves on its own.
+struct SupportedNode {
+  GlobalIndex node = 0;  ///< file order
+  int support = 0;       ///< into the scene's supports
+  int components = 0;    ///< that are clamped, one bit each: 0-2 translations, 3-5 rotations
+
+  bool holds(int component) const { return (components >> component & 1) != 0; }
+};
+
+/// Node of absorbing faces: the endless continuation of the solids behind them resists its velocity
+/// by C = sum over faces of A_i rho (V_p n n^T + V_s (I - n n^T)), with A_i the node's share of a
+/// face's area, n its unit normal, rho, V_p, V_s of the element behind it (Lysmer and Kuhlemeyer,
+/// J. Eng. Mech. Div. 95 (1969)). As dashpots, each along one axis,
+///
+///     C = sum_k c_k a_k a_k^T,      force of a wave from below = sum_k a_k (w_k . v_in)
+///
+/// with |a_k| = 1, the scaled columns of the Cholesky factor of C.
+struct AbsorbingNode {
+  GlobalIndex node = 0;               ///< file order
+  std::array<Vector3, 3> axis{};      ///< a_k
+  Vector3 dashpot{};                  ///< c_k [N s/m]
+  std::array<Vector3, 3> incident{};  ///< w_k [N s/m]; zero away from the base
+};
 
 /// A whole mesh as rank 0 holds it between reading and distribution. Nodes are numbered from 0 in
 /// the order of their tags ("file order"); only nodes that an element of the scene uses exist.
-namespace pounding {
 
 /// A facet of a physical group: 3 or 4 nodes of a surface, 2 of an edge.
 struct Facet {
@@ -123,5 +162,56 @@ Vector3 centroid(const GlobalMesh& mesh, std::span<const GlobalIndex> nodes);
 constexpr int component_count(std::uint8_t mask) {
   return __builtin_popcount(mask);
 }
+
+/// Rotations about x, y, z in the bits of a node's components.
+inline constexpr std::uint8_t rotation_bits = 0x38;
+
+/// Names of a mesh's groups, for a message: "base, face1, slab".
+inline std::string group_names(const GlobalMesh& mesh) {
+  std::string names;
+  for (const auto& [name, group] : mesh.groups) names += (names.empty() ? "" : ", ") + name;
+  return names;
+}
+
+/// Two nodes, of any two structures, that should live on one rank: facing nodes of a contact.
+struct NodeLink {
+  int structure_a = 0;
+  GlobalIndex node_a = 0;
+  int structure_b = 0;
+  GlobalIndex node_b = 0;
+};
+
+/// Nodes of one structure that one rank must own.
+struct NodeCluster {
+  int structure = 0;
+  std::vector<GlobalIndex> nodes;
+};
+
+/// Between two points [m].
+double distance(const Vector3& x, const Vector3& y);
+
+/// Bounding box of a set of nodes, its sides along the axes.
+struct BoundingBox {
+  Vector3 low{1e300, 1e300, 1e300};      ///< [m]
+  Vector3 high{-1e300, -1e300, -1e300};  ///< [m]
+
+  void include(const Vector3& x);
+  double diagonal() const { return distance(low, high); }
+  Vector3 sides() const;  ///< [m]
+  double longest_side() const;
+};
+
+/// Bounding box of every node of some meshes, which have at least one. Serial.
+BoundingBox bounding_box(std::span<const GlobalMesh> meshes);
+
+/// A group of springs that are spread over an area or along lines.
+struct SpreadReport {
+  std::int32_t region = 0;  ///< index into those of the structure
+  std::int64_t nodes = 0;
+  double extent = 0;  ///< [m2] or [m]
+};
+
+/// The groups of a structure whose springs are spread, in the order of its regions.
+std::vector<SpreadReport> find_spread_springs(const GlobalMesh& mesh);
 
 }  // namespace pounding

@@ -13,17 +13,15 @@
 #include "common/error.h"
 #include "common/number_set.h"
 #include "elements/element_traits.h"
-#include "mesh/element_sizes.h"
-#include "mesh/facet_shares.h"
+#include "mesh/element_checks.h"
+#include "mesh/facet_place.h"
 #include "mesh/geometry_file.h"
 #include "mesh/gmsh_process.h"
-#include "mesh/repeated_elements.h"
 #include "mesh/rigid_nodes.h"
-#include "mesh/shared_elements.h"
 #include "mesh/soil_node.h"
 #include "mesh/tied_nodes.h"
 #include "mesh/unused_elements.h"
-#include "scene/spread_words.h"
+#include "scene/spring_reader.h"
 
 namespace pounding {
 namespace {

@@ -2,14 +2,22 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "mesh/divide_beams.h"
 #include "mesh/global_mesh.h"
-#include "mesh/mesh_files.h"
 #include "scene/scene.h"
 
 namespace pounding {
+
+/// Files of which a mesh was made.
+struct MeshFiles {
+  /// Opened by Gmsh beside the one that the option names, each once, in that order; paths from the
+  /// working folder where they lie in it, else absolute ones.
+  std::vector<std::string> opened;
+  bool landlock = true;  ///< Landlock guarded Gmsh as well as seccomp
+};
 
 /// Mesh that was read, and its files.
 struct MeshRead {

@@ -1,6 +1,5 @@
 #include "mesh/mesh.h"
 
-#include <algorithm>
 #include <numeric>
 #include <stdexcept>
 #include <unordered_map>
@@ -153,6 +152,14 @@ Mesh distribute_mesh(MPI_Comm comm, const std::string& name, const GlobalMesh& g
     mine.for_each_array([&](auto& array) { receive_array(comm, 0, array); });
   }
   return join_parcel(comm, name, std::move(mine), global);
+}
+
+BoundingBox bounding_box(MPI_Comm comm, const Mesh& mesh) {
+  BoundingBox box;
+  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) box.include(mesh.position(node));
+  MPI_Allreduce(MPI_IN_PLACE, box.low.data(), 3, MPI_DOUBLE, MPI_MIN, comm);
+  MPI_Allreduce(MPI_IN_PLACE, box.high.data(), 3, MPI_DOUBLE, MPI_MAX, comm);
+  return box;
 }
 
 }  // namespace pounding

@@ -121,4 +121,20 @@ Mesh join_parcel(MPI_Comm comm, const std::string& name, MeshParcel&& parcel,
 Mesh distribute_mesh(MPI_Comm comm, const std::string& name, const GlobalMesh& global,
                      const Partition& partition, int structure);
 
+/// Bounding box of every node of a distributed mesh, which has at least one. Collective.
+BoundingBox bounding_box(MPI_Comm comm, const Mesh& mesh);
+
+/// Global numbers of the ghost dofs of a rank, in the order of their local numbers, as a Halo asks
+/// for them.
+inline std::vector<GlobalIndex> ghost_dofs(const Mesh& mesh) {
+  std::vector<GlobalIndex> ghosts(mesh.dof_count - mesh.owned_dofs);
+  for (LocalIndex node = mesh.owned_nodes; node < mesh.node_count(); ++node) {
+    for (int c = 0; c < 6; ++c) {
+      const LocalIndex dof = mesh.dof(node, c);
+      if (dof >= 0) ghosts[dof - mesh.owned_dofs] = mesh.dof_global(node, c);
+    }
+  }
+  return ghosts;
+}
+
 }  // namespace pounding

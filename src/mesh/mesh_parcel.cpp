@@ -1,13 +1,12 @@
 #include "mesh/mesh_parcel.h"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <stdexcept>
 #include <tuple>
 
 #include "elements/element_traits.h"
-#include "mesh/node_planes.h"
+#include "mesh/element_groups.h"
 
 namespace pounding {
 namespace {

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
-#include "common/dense_solver.h"
+#include "common/dense_matrix.h"
 #include "common/matrix3.h"
-#include "mesh/component_bits.h"
 #include "mesh/facet_overlap.h"
+#include "mesh/global_mesh.h"
 
 namespace pounding {
 namespace {
@@ -102,7 +102,7 @@ class Mortar {
       for (Carrier& carrier : tied.carriers) {
         for (double& value : carrier.block) value /= row.covered;
       }
-      const bool turns = (mesh_.components[node] & rotations) != 0;
+      const bool turns = (mesh_.components[node] & rotation_bits) != 0;
       settle(places_.at(node), turns ? 36 : 18, tied);
       rows[node] = std::move(tied);
     }

@@ -1,6 +1,10 @@
 #include "mesh/node_table.h"
 
 #include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <tuple>
 
 #include "common/parallel.h"
 
@@ -24,6 +28,39 @@ void for_each_owned_dof(const Mesh& mesh, std::size_t columns, Function&& functi
     }
   }
 }
+
+/// Cells of some ranks, one after the other: set, number and number of nodes of each, and its
+/// nodes.
+struct CellList {
+  std::vector<std::int64_t> heads;  ///< shape (cells, 3)
+  std::vector<GlobalIndex> nodes;
+};
+
+CellList own_cells(const Mesh& mesh) {
+  CellList list;
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const ElementBlock& block = mesh.blocks[b];
+    const int width = traits_of(block.type).layout.nodes;
+    for (std::size_t e = 0; e < block.count(); ++e) {
+      if (block.counted[e] == 0) continue;
+      list.heads.insert(list.heads.end(), {static_cast<std::int64_t>(b), block.tags[e], width});
+      for (int a = 0; a < width; ++a) {
+        const std::size_t place = e * static_cast<std::size_t>(width) + static_cast<std::size_t>(a);
+        list.nodes.push_back(mesh.file_node[block.connectivity[place]]);
+      }
+    }
+  }
+  return list;
+}
+
+/// A cell on rank 0 while all are sorted.
+struct TaggedCell {
+  std::int64_t set;
+  std::int64_t tag;
+  std::size_t first;  ///< node
+  std::size_t width;
+  int rank;
+};
 
 }  // namespace
 
@@ -81,6 +118,66 @@ std::vector<double> gather_coordinates(const Mesh& mesh) {
   std::vector<double> rows(mesh.coordinates.begin(),
                            mesh.coordinates.begin() + 3 * mesh.owned_nodes);
   return gather_node_rows(mesh, std::move(rows), 3);
+}
+
+void add_cell(std::span<const GlobalIndex> nodes, bool solid, std::vector<std::int32_t>& topology) {
+  const auto count = static_cast<std::int32_t>(nodes.size());
+  switch (count) {
+    case 1:  // polyvertex and polyline say how many nodes they have
+    case 2:
+      topology.insert(topology.end(), {count, count});
+      break;
+    case 3:
+      topology.push_back(4);
+      break;
+    case 4:
+      topology.push_back(solid ? 6 : 5);
+      break;
+    case 6:
+      topology.push_back(8);
+      break;
+    case 8:
+      topology.push_back(9);
+      break;
+    default:
+      throw std::logic_error("no cell has " + std::to_string(count) + " nodes");
+  }
+  for (const GlobalIndex node : nodes) topology.push_back(static_cast<std::int32_t>(node));
+}
+
+CellTable gather_cells(const Mesh& mesh) {
+  CellList list = own_cells(mesh);
+  if (rank_of(mesh.comm) != 0) {
+    send_array(mesh.comm, 0, list.heads);
+    send_array(mesh.comm, 0, list.nodes);
+    return {};
+  }
+  std::vector<GlobalIndex> nodes;
+  std::vector<TaggedCell> places;
+  for (int rank = 0; rank < size_of(mesh.comm); ++rank) {
+    if (rank > 0) {
+      receive_array(mesh.comm, rank, list.heads);
+      receive_array(mesh.comm, rank, list.nodes);
+    }
+    std::size_t first = nodes.size();
+    for (std::size_t i = 0; i < list.heads.size(); i += 3) {
+      const auto width = static_cast<std::size_t>(list.heads[i + 2]);
+      places.push_back({list.heads[i], list.heads[i + 1], first, width, rank});
+      first += width;
+    }
+    nodes.insert(nodes.end(), list.nodes.begin(), list.nodes.end());
+  }
+  std::ranges::stable_sort(
+      places, {}, [](const TaggedCell& place) { return std::tuple(place.set, place.tag); });
+  CellTable table;
+  for (const TaggedCell& place : places) {
+    const ElementBlock& block = mesh.blocks[static_cast<std::size_t>(place.set)];
+    add_cell({&nodes[place.first], place.width}, is_solid(block.type), table.topology);
+    table.region.push_back(block.region);
+    table.element.push_back(static_cast<std::int32_t>(place.tag));
+    table.rank.push_back(place.rank);
+  }
+  return table;
 }
 
 }  // namespace pounding

@@ -12,7 +12,6 @@
 #include "elements/measured_costs.h"
 #include "mesh/element_graph.h"
 #include "mesh/element_groups.h"
-#include "mesh/node_owners.h"
 
 namespace pounding {
 namespace {

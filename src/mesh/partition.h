@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "mesh/global_mesh.h"
-#include "mesh/node_links.h"
 #include "scene/scene.h"
 
 namespace pounding {
@@ -22,7 +21,7 @@ struct Partition {
 /// beyond a corner; vertex weight: cost of the element; heavy edges for linked nodes)
 /// with a fixed seed; or gives every structure to one part, where that is asked for or, with
 /// `automatic`, costs a step less than the waiting of ranks that share a structure. A node belongs
-/// to the part of most of its elements (node_owners.h); the nodes of a cluster, which shares
+/// to the part of most of its elements (element_graph.h); the nodes of a cluster, which shares
 /// no node with another, to the part of most of them. `whole`: per structure the part that gets all
 /// of it, -1 where it is to be cut; empty if all are. Serial.
 Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const NodeLink> links,

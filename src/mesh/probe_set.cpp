@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <span>
 #include <sstream>
 
 #include "common/error.h"
-#include "mesh/bounding_box.h"
-#include "mesh/element_sizes.h"
-#include "mesh/group_names.h"
+#include "mesh/element_checks.h"
 
 namespace pounding {
 namespace {

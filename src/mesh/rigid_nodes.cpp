@@ -6,11 +6,9 @@
 #include <map>
 #include <sstream>
 
-#include "common/disjoint_sets.h"
 #include "common/error.h"
-#include "mesh/bounding_box.h"
+#include "common/number_set.h"
 #include "mesh/connectivity.h"
-#include "mesh/near_nodes.h"
 
 namespace pounding {
 namespace {

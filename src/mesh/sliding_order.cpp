@@ -7,10 +7,8 @@
 #include <set>
 #include <sstream>
 
-#include "common/disjoint_sets.h"
 #include "common/error.h"
-#include "common/place_text.h"
-#include "mesh/bounding_box.h"
+#include "common/number_set.h"
 #include "mesh/connectivity.h"
 
 namespace pounding {

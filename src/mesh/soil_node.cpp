@@ -5,8 +5,6 @@
 #include <limits>
 
 #include "common/error.h"
-#include "mesh/bounding_box.h"
-#include "mesh/component_bits.h"
 
 namespace pounding {
 namespace {
@@ -45,7 +43,7 @@ GlobalIndex carrying_node(const Structure& structure, const GlobalMesh& mesh,
       refuse_mat(structure,
                  "the group has clamped nodes; soil holds a mat that nothing else holds");
     }
-    if ((mesh.components[n] & rotations) != rotations) continue;
+    if ((mesh.components[n] & rotation_bits) != rotation_bits) continue;
     const Vector3 x = mesh.position(node);
     const double here =
         std::hypot(x[0] - (box.low[0] + box.high[0]) / 2, x[1] - (box.low[1] + box.high[1]) / 2);

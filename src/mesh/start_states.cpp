@@ -9,11 +9,9 @@
 #include <utility>
 
 #include "common/error.h"
-#include "common/finite_file.h"
 #include "common/matrix3.h"
-#include "common/place_text.h"
 #include "elements/element_traits.h"
-#include "mesh/bounding_box.h"
+#include "mesh/global_mesh.h"
 #include "scene/option_values.h"
 
 namespace pounding {

@@ -5,11 +5,9 @@
 #include <map>
 #include <sstream>
 
-#include "common/disjoint_sets.h"
 #include "common/error.h"
 #include "common/matrix3.h"
-#include "common/place_text.h"
-#include "mesh/component_bits.h"
+#include "common/number_set.h"
 #include "mesh/followed_facets.h"
 #include "mesh/mortar.h"
 
@@ -109,7 +107,7 @@ class Tie {
       }
       return;
     }
-    const bool node_turns = (mesh_.components[node] & rotations) != 0;
+    const bool node_turns = (mesh_.components[node] & rotation_bits) != 0;
     if (!facets_.turns(*facet.facet) && (node_turns || facet.at.distance > at_line * edge)) {
       refuse(node, std::string(node_turns ? "turns" : "lies beside its line") +
                        ", but the line of '" + rigid_.other +
@@ -119,7 +117,7 @@ class Tie {
 
   /// Whether nothing of a carrier reaches a node.
   bool is_idle(const Carrier& carrier, GlobalIndex node) const {
-    const std::size_t rows = (mesh_.components[node] & rotations) != 0 ? 6 : 3;
+    const std::size_t rows = (mesh_.components[node] & rotation_bits) != 0 ? 6 : 3;
     return std::all_of(carrier.block.begin(), carrier.block.begin() + 6 * rows,
                        [](double value) { return value == 0; });
   }

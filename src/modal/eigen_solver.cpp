@@ -8,8 +8,6 @@
 #include <utility>
 
 #include "common/error.h"
-#include "common/petsc_message.h"
-#include "mesh/distributed_box.h"
 #include "system/factor_plan.h"
 
 namespace pounding {

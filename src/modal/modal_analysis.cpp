@@ -6,9 +6,9 @@
 #include <numbers>
 #include <optional>
 
-#include "common/component_names.h"
 #include "common/error.h"
-#include "common/rigid_motion.h"
+#include "common/matrix3.h"
+#include "common/types.h"
 #include "mesh/location.h"
 #include "modal/eigen_solver.h"
 #include "modal/shifted_solver.h"

@@ -6,10 +6,9 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "common/component_names.h"
 #include "common/error.h"
-#include "common/finite_file.h"
 #include "common/hash.h"
+#include "common/types.h"
 #include "elements/element_traits.h"
 #include "io/hdf5_file.h"
 #include "io/hdf5_reader.h"

@@ -11,7 +11,6 @@
 
 #include <dmumps_c.h>
 
-#include "common/matrix_rows.h"
 #include "common/memory.h"
 
 namespace pounding {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "common/component_names.h"
 #include "common/error.h"
+#include "common/types.h"
 #include "motion/fourier.h"
 #include "motion/records/record_text.h"
 #include "scene/support_reader.h"

@@ -6,7 +6,7 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "io/hdf5_file.h"
-#include "io/placed_file.h"
+#include "io/new_file.h"
 #include "io/schema.h"
 #include "mesh/node_table.h"
 #include "output/checkpoint_format.h"

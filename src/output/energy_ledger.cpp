@@ -2,7 +2,6 @@
 
 #include <array>
 
-#include "common/number_rows.h"
 #include "io/csv_file.h"
 
 namespace pounding {

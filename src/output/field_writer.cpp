@@ -4,12 +4,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <sstream>
-#include <utility>
 
 #include "common/error.h"
-#include "common/gather_rows.h"
 #include "common/parallel.h"
-#include "io/new_file.h"
 #include "io/schema.h"
 #include "mesh/node_table.h"
 #include "output/vtkhdf.h"

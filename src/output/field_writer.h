@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/placed_file.h"
+#include "io/new_file.h"
 #include "mesh/mesh.h"
 #include "output/file_blocks.h"
 #include "output/mesh_grid.h"

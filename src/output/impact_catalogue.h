@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,9 +10,45 @@
 
 #include "common/saved_state.h"
 #include "common/types.h"
-#include "output/force_window.h"
 
 namespace pounding {
+
+/// Largest force of a contact over a stated time: the largest impulse within any time of that
+/// length over the length, the impulse of a step being spread evenly over it. Unlike the largest
+/// impulse of one step over the step it has a limit as the step goes to zero.
+class ForceWindow {
+ public:
+  /// `length` of the time [s]; steps last `time_step` at most but for round-off, which bounds the
+  /// memory taken here.
+  ForceWindow(double length, double time_step);
+
+  /// A step from `start` to `end` [s] with `impulse` > 0 [N s]; steps in order, those without
+  /// impulse left out.
+  void add(double start, double end, double impulse);
+  /// Over all times since `reset` [N].
+  double largest() const { return largest_; }
+  void reset();
+
+  static constexpr std::size_t columns = 4;
+  /// Rows of `columns` numbers: the largest force, then the steps that still count.
+  std::vector<double> table() const;
+  void restore(const double* table, std::size_t rows);
+
+ private:
+  /// A step with an impulse; the impulse of all since `reset` at its two ends [N s].
+  struct Step {
+    double start = 0;
+    double end = 0;
+    double before = 0;
+    double after = 0;
+  };
+  static double at(const Step& step, double time);
+
+  double length_;
+  std::vector<Step> steps_;  ///< those from first_ on end within the length before the last end
+  std::size_t first_ = 0;
+  double largest_ = 0;
+};
 
 /// One contact episode: from its first to its last impulse, pauses shorter than the merge time
 /// included.

@@ -1,7 +1,6 @@
 #include "output/mesh_grid.h"
 
 #include "common/parallel.h"
-#include "mesh/node_table.h"
 
 namespace pounding {
 namespace {

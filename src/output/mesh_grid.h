@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "io/hdf5_file.h"
-#include "mesh/cell_table.h"
 #include "mesh/mesh.h"
+#include "mesh/node_table.h"
 #include "output/xdmf.h"
 
 namespace pounding {

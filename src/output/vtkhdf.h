@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/hdf5_file.h"
-#include "mesh/cell_table.h"
+#include "mesh/node_table.h"
 #include "output/xdmf.h"
 
 /// VTKHDF files of version 2.0, an unstructured grid over time: VTK's own HDF5 format, which

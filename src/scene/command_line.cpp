@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "common/error.h"
-#include "common/library_versions.h"
 #include "common/version.h"
 #include "scene/option_values.h"
 
@@ -45,6 +44,10 @@ void refuse_joined(const std::string& word) {
                     shown_value(word.substr(0, equals)) + " " +
                     shown_value(word.substr(equals + 1)) + ", with a blank");
   }
+}
+
+bool is_silent(const std::string& name) {
+  return may_differ(name, Comparison::scene) || name.ends_with("_modal_basis");
 }
 
 }  // namespace
@@ -90,6 +93,26 @@ std::vector<std::string> ignored_variables() {
     }
   }
   return lines;
+}
+
+SceneOrigin origin_of(const CommandLine& line, const std::vector<std::string>& files) {
+  SceneOrigin origin{files, {}};
+  for (const auto& [name, value] : line.options) {
+    if (!files.empty() && name != "include" && !is_silent(name)) {
+      origin.overrides.emplace_back(name, trimmed(value));
+    }
+  }
+  return origin;
+}
+
+std::string overrides_text(const SceneOrigin& origin) {
+  std::string text;
+  for (const auto& [name, value] : origin.overrides) {
+    if (name == "title") continue;
+    text += (text.empty() ? "with " : ", ") + name;
+    if (!value.empty()) text += " " + value;
+  }
+  return text;
 }
 
 }  // namespace pounding

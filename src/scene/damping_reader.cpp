@@ -3,8 +3,6 @@
 #include <numbers>
 #include <string_view>
 
-#include "scene/factor_reader.h"
-
 namespace pounding {
 namespace {
 

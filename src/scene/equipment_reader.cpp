@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/types.h"
-#include "scene/nearest_name.h"
+#include "scene/option_values.h"
 
 namespace pounding {
 namespace {

@@ -12,4 +12,7 @@ namespace pounding {
 /// none, options of another load that is worked out no further.
 Load read_load(OptionReader& options, const Scene& scene, const std::string& name);
 
+/// An item of `forces`. Throws UserError.
+ForceItem read_force(OptionReader& options, const Scene& scene, const std::string& name);
+
 }  // namespace pounding

@@ -7,9 +7,7 @@
 #include <sstream>
 
 #include "common/error.h"
-#include "common/finite_file.h"
 #include "common/parallel.h"
-#include "scene/nearest_name.h"
 #include "scene/option_values.h"
 #include "scene/options_database.h"
 

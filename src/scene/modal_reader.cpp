@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "common/error.h"
-#include "scene/factor_reader.h"
 
 namespace pounding {
 namespace {

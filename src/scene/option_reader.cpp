@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "common/error.h"
-#include "scene/nearest_name.h"
 #include "scene/option_values.h"
 
 namespace pounding {
@@ -18,6 +17,26 @@ const char* fault_of(double number, const Range& range) {
   const double size = std::abs(number);
   const bool holdable = size == 0 || (size >= 1 / largest && size <= largest);
   return holdable ? nullptr : "neither 0 nor between 1e-30 and 1e30 in size";
+}
+
+constexpr std::string_view damping_factor = "<structure>_damping_factor";
+constexpr std::string_view stiffness_factor = "<structure>_stiffness_factor";
+
+/// Part of the stiffness that a factor on K would leave out; empty if there is none.
+std::string left_out(const Structure& structure) {
+  if (structure.soil) return "its soil has a stiffness of its own";
+  if (structure.p_delta) return "not with -" + structure.name + "_p_delta";
+  if (!structure.matrices.empty() && !structure.modal) {
+    return "not with -" + structure.name + "_matrices at full order; scale stiffness.mtx";
+  }
+  const auto series = std::ranges::find_if(
+      structure.regions, [](const Region& region) { return region.nonlinear.has_series(); });
+  if (series != structure.regions.end()) {
+    return "the springs in series with dashpots of " + series->group + " are none of K";
+  }
+  const auto law = std::ranges::find_if(structure.regions, is_nonlinear);
+  if (law == structure.regions.end()) return "";
+  return "not with -" + option_name(law_option(*law), {structure.name, law->group});
 }
 
 }  // namespace
@@ -157,6 +176,27 @@ std::vector<double> OptionReader::reals(std::string_view pattern, const Names& n
   }
   keep(pattern, names);
   return *numbers;
+}
+
+double read_damping_factor(OptionReader& options, const std::string& structure) {
+  return options.real(damping_factor, {structure});
+}
+
+double read_stiffness_factor(OptionReader& options, Structure& structure) {
+  const double factor = options.real(stiffness_factor, {structure.name});
+  if (factor == 1) return factor;
+  if (const std::string why = left_out(structure); !why.empty()) {
+    options.refuse(stiffness_factor, {structure.name}, why);
+  }
+  if (!structure.modal) scale_stiffness(factor, structure);
+  return factor;
+}
+
+void scale_stiffness(double factor, Structure& structure) {
+  for (Region& region : structure.regions) {
+    region.material.young *= factor;
+    for (double& stiffness : region.stiffness) stiffness *= factor;
+  }
 }
 
 }  // namespace pounding

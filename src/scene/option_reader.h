@@ -7,6 +7,7 @@
 
 #include "common/types.h"
 #include "scene/option_table.h"
+#include "scene/scene.h"
 
 namespace pounding {
 
@@ -62,5 +63,18 @@ class OptionReader {
   const OptionsDatabase& database_;
   std::vector<std::pair<std::string, std::string>> in_force_;
 };
+
+/// Factor by which a study varies the damping of a structure that is otherwise the same: its
+/// readers multiply their values by it.
+double read_damping_factor(OptionReader& options, const std::string& structure);
+
+/// The factor on the stiffness of a structure whose other options are read. Its regions get it at
+/// full order; frequencies and regions of a reduction get it once the basis is known. Throws
+/// UserError where part of the stiffness would not follow: links, soil, files of matrices, P-Delta,
+/// absorbing faces of a reduction.
+double read_stiffness_factor(OptionReader& options, Structure& structure);
+
+/// Multiplies Young's moduli and springs of a structure's regions.
+void scale_stiffness(double factor, Structure& structure);
 
 }  // namespace pounding

@@ -4,7 +4,6 @@
 #include <array>
 #include <stdexcept>
 
-#include "elements/element_traits.h"
 #include "scene/hysteresis.h"
 
 namespace pounding {

@@ -36,4 +36,16 @@ std::string upper_case(std::string_view text);
 /// A value fit for a message: one line, not too long, "(no value)" when empty.
 std::string shown_value(std::string_view text);
 
+/// Insertions, deletions, replacements and swaps of neighbours that turn one word into the other
+/// (optimal string alignment; upper and lower case differ).
+int edit_distance(std::string_view a, std::string_view b);
+
+/// The candidate nearest to `name` if it is near enough to be a slip of the pen (about one letter
+/// in five, at least one); the first of equals.
+std::optional<std::string> nearest_name(std::string_view name,
+                                        const std::vector<std::string>& candidates);
+
+/// "; did you mean concrete?", or "" when nothing is near.
+std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
+
 }  // namespace pounding

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene/option_reader.h"
+#include "scene/scene.h"
 
 namespace pounding {
 
@@ -14,5 +15,12 @@ std::string resolved_yaml(const OptionReader& options);
 
 /// Name and value of each line of such a text.
 std::vector<std::pair<std::string, std::string>> resolved_values(const std::string& yaml);
+
+/// Options in force, with their values, that the cut meshes of a scene may depend on: all but those
+/// that surely leave them as they are, and in place of those of the motion the directions in which
+/// the scene is shaken. The files of the meshes count by their content, not by their names, and are
+/// left out.
+std::vector<std::pair<std::string, std::string>> mesh_options(
+    const std::vector<std::pair<std::string, std::string>>& in_force, const Scene& scene);
 
 }  // namespace pounding

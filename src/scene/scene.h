@@ -13,12 +13,10 @@
 #include "elements/element_traits.h"
 #include "scene/equipment.h"
 #include "scene/filler.h"
-#include "scene/force_item.h"
+#include "scene/hysteresis.h"
 #include "scene/load.h"
-#include "scene/nonlinear_spring.h"
 #include "scene/soil.h"
 #include "scene/uniform_damping.h"
-#include "scene/yielding_shell.h"
 
 /// Plain structs of the user's scene, in SI units, validated; made by scene/scene_reader and
 /// constant afterwards. Identical on every rank.
@@ -186,7 +184,7 @@ inline const char* rigid_option(RigidKind kind) {
   return options[static_cast<int>(kind)];
 }
 
-/// Faces of solids through which waves leave a structure, see mesh/absorbing_node.h.
+/// Faces of solids through which waves leave a structure, see mesh/global_mesh.h.
 struct AbsorbingFace {
   std::string group;
   bool is_base = false;  ///< the motion from below enters through it
@@ -427,7 +425,7 @@ struct Scene {
   std::string title;
   double fidelity_window = 0;  ///< at full order, by which errors are estimated [s]; 0: none
   FidelityClimb fidelity;
-  /// Options that cut meshes depend on, see scene/mesh_options.h.
+  /// Options that cut meshes depend on, see scene/resolved_options.h.
   std::vector<std::pair<std::string, std::string>> mesh_options;
   std::vector<std::string> warnings;  ///< one line each: options that may not be meant
   std::vector<Structure> structures;

@@ -5,10 +5,9 @@
 #include <cstdio>
 #include <fstream>
 
-#include "common/component_names.h"
 #include "common/dense_matrix.h"
 #include "common/error.h"
-#include "common/finite_file.h"
+#include "common/types.h"
 #include "scene/option_values.h"
 
 namespace pounding {

@@ -5,7 +5,6 @@
 
 #include "scene/hysteresis_reader.h"
 #include "scene/option_table.h"
-#include "scene/spread_words.h"
 
 namespace pounding {
 namespace {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "scene/option_reader.h"
 #include "scene/scene.h"
 
@@ -12,5 +14,12 @@ void read_spring(OptionReader& options, const OptionReader::Names& names, Region
 /// Where a bar yields, and the slack of one that resists stretching only; makes it a yielding_bar.
 /// Throws UserError.
 void read_nonlinear_bar(OptionReader& options, const OptionReader::Names& names, Region& region);
+
+/// End of the names of options and results that are per length or area: "_per_area"; nothing where
+/// a region is not spread.
+inline std::string per_extent(Spread spread) {
+  if (spread == Spread::none) return "";
+  return spread == Spread::area ? "_per_area" : "_per_length";
+}
 
 }  // namespace pounding

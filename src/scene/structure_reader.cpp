@@ -10,15 +10,12 @@
 #include <set>
 
 #include "common/error.h"
-#include "scene/absorbing_reader.h"
-#include "scene/clamp_reader.h"
 #include "scene/damping_reader.h"
+#include "scene/held_nodes_reader.h"
 #include "scene/hysteresis_reader.h"
 #include "scene/modal_reader.h"
-#include "scene/nearest_name.h"
 #include "scene/option_blocks.h"
 #include "scene/option_values.h"
-#include "scene/rigid_reader.h"
 #include "scene/soil_reader.h"
 #include "scene/spring_reader.h"
 #include "scene/standard_parts.h"

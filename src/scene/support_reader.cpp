@@ -5,7 +5,6 @@
 #include <set>
 
 #include "scene/motion_reader.h"
-#include "scene/nearest_name.h"
 #include "scene/option_values.h"
 
 namespace pounding {

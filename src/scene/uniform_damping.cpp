@@ -5,7 +5,7 @@
 #include <complex>
 #include <numbers>
 
-#include "common/dense_solver.h"
+#include "common/dense_matrix.h"
 
 namespace pounding {
 namespace {

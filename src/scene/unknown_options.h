@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,5 +25,9 @@ struct ListedNames {
 /// or item of equipment that is wholly defined but not used is allowed: it may belong to a library,
 /// or be switched off by `-contacts none`. Throws UserError.
 void refuse_unknown_options(const OptionsDatabase& database, const ListedNames& in_use);
+
+/// Complaint about the value of an option of PETSc or SLEPc, if it is wrong: "expected ...".
+/// Those that print take no file: they could write anywhere.
+std::optional<std::string> petsc_value_fault(const std::string& name, const std::string& value);
 
 }  // namespace pounding

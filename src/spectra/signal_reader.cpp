@@ -8,7 +8,7 @@
 #include "io/hdf5_reader.h"
 #include "io/schema.h"
 #include "motion/accelerogram.h"
-#include "scene/nearest_name.h"
+#include "scene/option_values.h"
 
 namespace pounding {
 

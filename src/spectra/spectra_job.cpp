@@ -11,7 +11,6 @@
 
 #include "common/error.h"
 #include "io/csv_file.h"
-#include "io/spectra_table.h"
 #include "motion/response_spectrum.h"
 #include "motion/spectrum_shape.h"
 #include "output/impact_catalogue.h"

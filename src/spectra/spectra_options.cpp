@@ -5,7 +5,6 @@
 
 #include "common/error.h"
 #include "motion/spectrum_shape.h"
-#include "scene/nearest_name.h"
 #include "scene/option_reader.h"
 #include "scene/option_values.h"
 

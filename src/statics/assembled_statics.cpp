@@ -7,7 +7,7 @@
 #include <iterator>
 #include <optional>
 
-#include "common/dense_solver.h"
+#include "common/dense_matrix.h"
 #include "common/error.h"
 #include "common/parallel.h"
 #include "statics/unilateral_rows.h"

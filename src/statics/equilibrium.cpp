@@ -8,7 +8,7 @@
 #include <optional>
 #include <sstream>
 
-#include "common/dense_solver.h"
+#include "common/dense_matrix.h"
 #include "common/error.h"
 #include "common/parallel.h"
 #include "interactions/solvers/lcp.h"

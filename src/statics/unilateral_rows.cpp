@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "common/gather_rows.h"
+#include "common/parallel.h"
 #include "interactions/laws/law_of.h"
 
 namespace pounding {

@@ -6,7 +6,6 @@
 #include <mpi.h>
 
 #include "common/parallel.h"
-#include "mesh/ghost_dofs.h"
 #include "stiffness/element_sorter.h"
 #include "stiffness/strain_sorter.h"
 

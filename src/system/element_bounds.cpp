@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/dense_eigenvalues.h"
+#include "common/dense_matrix.h"
 #include "common/parallel.h"
 #include "elements/measured_costs.h"
 #include "mesh/location.h"

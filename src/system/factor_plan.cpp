@@ -2,8 +2,8 @@
 
 #include <array>
 
+#include "common/matrix3.h"
 #include "common/memory.h"
-#include "common/rigid_motion.h"
 
 namespace pounding {
 

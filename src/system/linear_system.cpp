@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-#include "common/matrix_rows.h"
+#include "common/petsc.h"
 
 namespace pounding {
 

@@ -10,9 +10,9 @@
 #include <sstream>
 #include <utility>
 
-#include "common/dense_eigenvalues.h"
-#include "common/disjoint_sets.h"
+#include "common/dense_matrix.h"
 #include "common/error.h"
+#include "common/number_set.h"
 #include "elements/element_traits.h"
 #include "interactions/laws/law_of.h"
 #include "mesh/element_properties.h"

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "mesh/global_mesh.h"
-#include "mesh/node_links.h"
 #include "scene/scene.h"
 
 namespace pounding {

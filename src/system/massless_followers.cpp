@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "common/dense_solver.h"
-#include "common/rigid_motion.h"
+#include "common/dense_matrix.h"
+#include "common/matrix3.h"
 
 namespace pounding {
 namespace {

@@ -9,11 +9,9 @@
 #include <optional>
 #include <sstream>
 
-#include "common/component_names.h"
 #include "common/error.h"
-#include "common/finite_file.h"
 #include "common/parallel.h"
-#include "common/place_text.h"
+#include "common/types.h"
 #include "io/matrix_market.h"
 #include "system/mass_scaling.h"
 #include "system/square_matrix.h"

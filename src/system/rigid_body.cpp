@@ -5,7 +5,7 @@
 #include <numeric>
 #include <set>
 
-#include "common/rigid_motion.h"
+#include "common/matrix3.h"
 #include "system/six_lanes.h"
 
 namespace pounding {

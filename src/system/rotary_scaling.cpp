@@ -5,8 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "common/dense_eigenvalues.h"
-#include "common/dense_solver.h"
+#include "common/dense_matrix.h"
 #include "common/matrix3.h"
 #include "mesh/element_properties.h"
 #include "system/mass_scaling.h"

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/matrix_entry.h"
+#include "io/matrix_market.h"
 
 namespace pounding {
 

@@ -31,9 +31,9 @@
 
 #include "benchmark/command_loop.h"
 #include "benchmark/timed_step.h"
-#include "common/floating_point.h"
 #include "common/memory.h"
 #include "common/parallel.h"
+#include "common/process_state.h"
 #include "common/vector_unit.h"
 
 namespace pounding::measuring {

@@ -95,7 +95,7 @@ class OptionsDocumented(unittest.TestCase):
     def setUpClass(cls):
         cls.source = source("option_table.cpp")
         cls.rows = option_rows(cls.source)
-        cls.petsc_source = source("petsc_options.cpp")
+        cls.petsc_source = source("unknown_options.cpp")
         cls.petsc_rows = PETSC_ROW.findall(cls.petsc_source)
         with open(PAGE) as file:
             cls.page = file.read()

@@ -54,7 +54,7 @@ class Petsc(unittest.TestCase):
         """What it configures compiles against theirs, and links them."""
         build, done = self.configure(**variables)
         self.assertEqual(done.returncode, 0, done.stderr)
-        source = "CMakeFiles/pounding_core.dir/src/common/library_versions.cpp.o"
+        source = "CMakeFiles/pounding_core.dir/src/common/version.cpp.o"
         subprocess.run(["ninja", "-C", build, source], check=True, capture_output=True, timeout=300)
         ninja = (build / "build.ninja").read_text()
         link = re.search(r"^build pounding: .*\n(?:  .*\n)*", ninja, re.MULTILINE).group()

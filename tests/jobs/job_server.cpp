@@ -16,9 +16,8 @@
 #include <mpi.h>
 #include <nlohmann/json.hpp>
 
-#include "common/common_segments.h"
 #include "common/crowded_node.h"
-#include "io/hdf5_library.h"
+#include "io/hdf5_file.h"
 #include "run_job.h"
 
 /// Ranks that run one job of the program after the other, so that tests start MPI once:

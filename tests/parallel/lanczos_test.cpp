@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/dense_eigenvalues.h"
+#include "common/dense_matrix.h"
 #include "modal/modal_analysis.h"
 #include "stability/stable_time_step.h"
 #include "support/box_mesh.h"

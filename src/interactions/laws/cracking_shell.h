@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "scene/yielding_shell.h"
+#include "scene/hysteresis.h"
 
 namespace pounding::interactions {
 

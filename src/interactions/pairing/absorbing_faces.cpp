@@ -9,9 +9,8 @@
 #include "common/error.h"
 #include "common/matrix3.h"
 #include "interactions/pairing/facet_backing.h"
-#include "mesh/bounding_box.h"
 #include "mesh/connectivity.h"
-#include "mesh/facet_shares.h"
+#include "mesh/facet_place.h"
 
 namespace pounding::interactions {
 namespace {

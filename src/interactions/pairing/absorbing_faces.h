@@ -1,6 +1,5 @@
 #pragma once
 
-#include "mesh/absorbing_node.h"
 #include "mesh/global_mesh.h"
 #include "scene/scene.h"
 

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "common/error.h"
-#include "mesh/group_names.h"
+#include "mesh/global_mesh.h"
 
 namespace pounding::interactions {
 namespace {

@@ -16,7 +16,6 @@
 #include "interactions/pairing/gap_field.h"
 #include "interactions/pairing/interface.h"
 #include "interactions/pairing/stop_rows.h"
-#include "mesh/bounding_box.h"
 
 namespace pounding::interactions {
 namespace {

@@ -16,7 +16,6 @@
 
 #include "common/matrix3.h"
 #include "mesh/global_mesh.h"
-#include "mesh/node_links.h"
 
 namespace pounding::interactions {
 

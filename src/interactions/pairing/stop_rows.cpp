@@ -10,8 +10,8 @@
 #include "interactions/pairing/contact_sides.h"
 #include "interactions/pairing/gap_field.h"
 #include "interactions/pairing/interface.h"
-#include "mesh/group_names.h"
-#include "scene/stop_reader.h"
+#include "mesh/global_mesh.h"
+#include "scene/contact_reader.h"
 
 namespace pounding::interactions {
 namespace {

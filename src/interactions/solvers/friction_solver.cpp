@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "common/dense_solver.h"
+#include "common/dense_matrix.h"
 #include "common/magnitude.h"
 #include "interactions/solvers/sparse_rows.h"
 

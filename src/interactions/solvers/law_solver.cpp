@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/dense_solver.h"
-#include "common/disjoint_sets.h"
+#include "common/dense_matrix.h"
 #include "common/magnitude.h"
+#include "common/number_set.h"
 #include "common/row_products.h"
 
 namespace pounding::interactions {

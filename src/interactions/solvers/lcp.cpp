@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/dot_product.h"
 #include "common/magnitude.h"
 #include "interactions/solvers/sparse_rows.h"
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/dot_product.h"
 #include "common/magnitude.h"
 #include "interactions/solvers/sparse_rows.h"
 

@@ -11,7 +11,6 @@
 #include <string_view>
 
 #include "common/error.h"
-#include "common/finite_file.h"
 
 namespace pounding {
 namespace {

@@ -1,8 +1,8 @@
-#include "common/dense_solver.h"
-
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "common/dense_matrix.h"
 
 namespace pounding {
 namespace dense_solver_test {

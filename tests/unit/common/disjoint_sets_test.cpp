@@ -1,8 +1,8 @@
-#include "common/disjoint_sets.h"
-
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "common/number_set.h"
 
 namespace pounding {
 namespace disjoint_sets_test {

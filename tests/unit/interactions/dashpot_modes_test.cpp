@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/dense_solver.h"
+#include "common/dense_matrix.h"
 #include "common/octet.h"
 
 namespace pounding::interactions {

@@ -1,5 +1,3 @@
-#include "io/file_digest.h"
-
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
+#include "io/file_seal.h"
 
 namespace pounding {
 namespace file_digest_test {

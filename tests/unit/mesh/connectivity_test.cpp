@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mesh/near_nodes.h"
-#include "mesh/point_in_element.h"
+#include "mesh/facet_place.h"
 #include "support/box_mesh.h"
 
 namespace pounding {

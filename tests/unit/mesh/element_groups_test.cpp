@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "mesh/node_planes.h"
 #include "mesh/partition.h"
 #include "support/box_mesh.h"
 

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "common/matrix3.h"
-#include "common/rigid_motion.h"
 #include "mesh/tied_nodes.h"
 
 namespace pounding {

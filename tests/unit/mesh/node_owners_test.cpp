@@ -1,8 +1,8 @@
-#include "mesh/node_owners.h"
-
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "mesh/element_graph.h"
 
 namespace pounding {
 namespace node_owners_test {

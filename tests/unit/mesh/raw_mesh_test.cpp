@@ -3,8 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
-#include "mesh/repeated_elements.h"
-#include "mesh/shared_elements.h"
+#include "mesh/element_checks.h"
 #include "mesh/unused_elements.h"
 #include "support/box_mesh.h"
 

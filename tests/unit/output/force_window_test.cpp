@@ -1,10 +1,10 @@
-#include "output/force_window.h"
-
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "output/impact_catalogue.h"
 
 namespace pounding {
 namespace force_window_test {

@@ -1,6 +1,6 @@
-#include "scene/nearest_name.h"
-
 #include <gtest/gtest.h>
+
+#include "scene/option_values.h"
 
 namespace pounding {
 namespace nearest_name_test {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/option_values.h"
-#include "scene/petsc_options.h"
+#include "scene/unknown_options.h"
 
 namespace pounding {
 namespace option_table_test {

@@ -1,8 +1,7 @@
-#include "scene/options_file.h"
-
 #include <gmock/gmock.h>
 
 #include "common/error.h"
+#include "scene/options_database.h"
 #include "support/refusal.h"
 
 namespace pounding {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/option_values.h"
-#include "scene/standard_materials.h"
+#include "scene/standard_parts.h"
 
 namespace pounding {
 namespace standard_sections_test {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/dense_eigenvalues.h"
+#include "common/dense_matrix.h"
 #include "common/error.h"
 #include "elements/element_traits.h"
 #include "support/refusal.h"

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "common/matrix3.h"
-#include "common/rigid_motion.h"
 #include "mesh/tied_nodes.h"
 #include "system/coupled_mass.h"
 #include "system/rigid_body.h"

@@ -1,8 +1,7 @@
-#include "common/finite_file.h"
+#include "common/error.h"
 
 #include <filesystem>
-
-#include "common/error.h"
+#include <sstream>
 
 namespace pounding {
 
@@ -23,6 +22,12 @@ void require_finite_file(const std::string& path, const std::string& place, std:
                     " MB, which is no such file; at most " + std::to_string(most / 1000000) +
                     " MB are read");
   }
+}
+
+std::string place_text(const Vector3& place) {
+  std::ostringstream text;
+  text << "(" << place[0] << ", " << place[1] << ", " << place[2] << ")";
+  return text.str();
 }
 
 }  // namespace pounding

@@ -1,8 +1,10 @@
-#include "scene/absorbing_reader.h"
+#include "scene/held_nodes_reader.h"
 
 #include <algorithm>
 
+#include "common/types.h"
 #include "scene/doubts.h"
+#include "scene/option_values.h"
 
 namespace pounding {
 namespace {
@@ -51,6 +53,67 @@ void check_weight(const OptionReader& options, const Structure& structure) {
 }
 
 }  // namespace
+
+std::vector<Clamp> read_clamps(OptionReader& options, const std::string& structure) {
+  constexpr std::string_view pattern = "<structure>_clamp";
+  std::vector<Clamp> clamps;
+  for (const std::string& item : options.list(pattern, {structure})) {
+    const std::vector<std::string> sides = split(item, ':');
+    if (sides.size() > 2 || sides[0].empty()) {
+      options.refuse(pattern, {structure}, "'" + item + "' is not group or group:components");
+    }
+    Clamp clamp{sides[0]};
+    if (std::ranges::count(clamps, clamp.group, &Clamp::group) > 0) {
+      options.refuse(pattern, {structure}, "group '" + clamp.group + "' is listed twice");
+    }
+    if (sides.size() == 2) {
+      clamp.components = 0;
+      for (const std::string& name : split(sides[1], '+')) {
+        const auto found = std::ranges::find(motion_names, name);
+        if (found == motion_names.end()) {
+          options.refuse(pattern, {structure},
+                         "'" + item + "': '" + name + "' is no component of x, y, z, rx, ry, rz");
+        }
+        clamp.components |= static_cast<std::uint8_t>(1u << (found - motion_names.begin()));
+      }
+    }
+    clamps.push_back(clamp);
+  }
+  return clamps;
+}
+
+std::vector<RigidGroup> read_rigid_groups(OptionReader& options, const std::string& structure) {
+  std::vector<RigidGroup> groups;
+  for (const RigidKind kind : {RigidKind::body, RigidKind::diaphragm, RigidKind::join,
+                               RigidKind::pin, RigidKind::level, RigidKind::tie}) {
+    const char* const pattern = rigid_option(kind);
+    for (const std::string& item : options.list(pattern, {structure})) {
+      RigidGroup rigid{kind, item, ""};
+      if (kind == RigidKind::join || kind == RigidKind::tie) {
+        const std::vector<std::string> sides = split(item, ':');
+        if (sides.size() != 2 || sides[0].empty() || sides[1].empty() || sides[0] == sides[1]) {
+          options.refuse(pattern, {structure}, "'" + item + "' does not name two groups");
+        }
+        rigid = {kind, sides[0], sides[1]};
+      }
+      if (std::ranges::count(groups, rigid.name(), &RigidGroup::name) > 0) {
+        options.refuse(pattern, {structure},
+                       "'" + item + "' is given here, or in another such option, already");
+      }
+      groups.push_back(rigid);
+    }
+  }
+  return groups;
+}
+
+void make_mat_rigid(Structure& structure) {
+  if (!structure.soil) return;
+  const std::string& mat = structure.soil->mat;
+  const bool is_rigid = std::ranges::any_of(structure.rigid_groups, [&](const RigidGroup& rigid) {
+    return rigid.kind == RigidKind::body && rigid.group == mat;
+  });
+  if (!is_rigid) structure.rigid_groups.push_back({RigidKind::body, mat, "", true});
+}
 
 std::vector<AbsorbingFace> read_absorbing(OptionReader& options, const Structure& structure) {
   std::vector<AbsorbingFace> faces;

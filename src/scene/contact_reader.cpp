@@ -1,0 +1,257 @@
+#include "scene/contact_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string_view>
+
+#include "scene/option_values.h"
+
+namespace pounding {
+namespace {
+
+constexpr const char* patches_option = "<contact>_gap_patches";
+
+/// "place,place,radius,gap; place,place,place,place,gap": a disc or a rectangle each.
+std::vector<GapPatch> read_patches(OptionReader& options, const OptionReader::Names& names) {
+  std::vector<GapPatch> patches;
+  const std::string text = options.path(patches_option, names);
+  if (text.empty()) return patches;
+  for (const std::string& piece : split(text, ';')) {
+    const auto refuse = [&](const std::string& why) {
+      options.refuse(patches_option, names, "'" + shown_value(piece) + "' " + why);
+    };
+    const std::optional<std::vector<double>> found = parse_reals(piece);
+    if (!found || (found->size() != 4 && found->size() != 5)) {
+      refuse("is neither four numbers nor five");
+    }
+    const std::vector<double>& number = *found;
+    GapPatch patch;
+    patch.gap = number.back();
+    if (patch.gap < 0) refuse("has a gap below 0; 0 is a joint that is filled there");
+    if (number.size() == 4) {
+      patch.radius = number[2];
+      if (!(patch.radius > 0)) refuse("has no radius above 0");
+      patch.low = patch.high = {number[0], number[1]};
+    } else {
+      patch.low = {number[0], number[1]};
+      patch.high = {number[2], number[3]};
+      if (!(patch.low[0] < patch.high[0] && patch.low[1] < patch.high[1])) {
+        refuse("has its corners not in the order of the places");
+      }
+    }
+    patches.push_back(patch);
+  }
+  return patches;
+}
+
+constexpr std::string_view filler_option = "<contact>_filler";
+constexpr std::string_view unloading = "<contact>_filler_unloading";
+constexpr std::string_view crushing_option = "<contact>_crushing";
+constexpr std::string_view crushing_stiffness = "<contact>_crushing_stiffness";
+constexpr std::string_view crushing_depth = "<contact>_crushing_depth";
+constexpr std::string_view crushing_area = "<contact>_crushing_area";
+
+std::vector<Filler::Point> read_filler_table(OptionReader& options,
+                                             const OptionReader::Names& names) {
+  std::vector<Filler::Point> points;
+  Filler::Point before;
+  for (const std::string& item : split(options.text(filler_option, names), ',')) {
+    const std::vector<std::string> words = split(item, ':');
+    const auto strain = words.size() == 2 ? parse_real(words[0]) : std::nullopt;
+    const auto pressure = words.size() == 2 ? parse_real(words[1]) : std::nullopt;
+    if (!strain || !pressure) {
+      options.refuse(filler_option, names, "'" + item + "' is not strain:pressure");
+    }
+    if (!(*strain > before.strain && *strain <= 1)) {
+      options.refuse(filler_option, names, "strains must rise from 0, to 1 at most");
+    }
+    if (!(*pressure >= before.pressure)) {
+      options.refuse(filler_option, names, "pressures must not fall");
+    }
+    before = {*strain, *pressure};
+    points.push_back(before);
+  }
+  if (!(before.pressure > 0)) options.refuse(filler_option, names, "it never presses");
+  return points;
+}
+
+/// Refuses options that go with one that is not given.
+void forbid_parts(const OptionReader& options, std::string_view option,
+                  const OptionReader::Names& names) {
+  for (const OptionRow& row : option_table()) {
+    if (row.pattern.starts_with(std::string(option) + "_")) {
+      options.forbid(row.pattern, names,
+                     "goes with -" + option_name(option, names) + ", which is not given");
+    }
+  }
+}
+
+/// A strip of the faces: elastic up to its strength, which it keeps to its end.
+std::optional<Filler> read_crushing(OptionReader& options, const OptionReader::Names& names) {
+  if (!options.given(crushing_option, names)) {
+    forbid_parts(options, crushing_option, names);
+    return std::nullopt;
+  }
+  const double strength = options.real(crushing_option, names);
+  const double stiffness = options.real(crushing_stiffness, names);
+  Filler strip;
+  strip.in_faces = true;
+  strip.thickness = options.real(crushing_depth, names);
+  if (!(strength / stiffness < strip.thickness)) {
+    std::ostringstream text;
+    text << "the strip is elastic for " << strength / stiffness
+         << " m, its strength over its stiffness; give more";
+    options.refuse(crushing_depth, names, text.str());
+  }
+  strip.table = {{strength / (stiffness * strip.thickness), strength}, {1, strength}};
+  strip.unloading = stiffness * strip.thickness;
+  if (options.given(crushing_area, names)) strip.area = options.real(crushing_area, names);
+  return strip;
+}
+
+constexpr std::string_view stop_along = "<contact>_along";
+constexpr std::string_view stop_stiffness = "<contact>_stiffness";
+constexpr std::string_view stop_dashpot = "<contact>_dashpot";
+
+}  // namespace
+
+InitialGap read_gap(OptionReader& options, const std::string& contact, bool is_wall) {
+  const OptionReader::Names names{contact};
+  InitialGap gap;
+  if (options.text("<contact>_gap", names) != "geometry") {
+    gap.values = options.reals("<contact>_gap", names);
+    const std::size_t count = gap.values.size();
+    if (count != 1 && count != 2 && count != 4) {
+      options.refuse("<contact>_gap", names, "wrong count of numbers");
+    }
+  } else if (is_wall) {
+    options.refuse("<contact>_gap", names, "a wall has no geometry, give its distance");
+  }
+  gap.deviation = options.real("<contact>_gap_deviation", names);
+  if (gap.deviation > 0) {
+    gap.length = options.real("<contact>_gap_length", names);
+    gap.seed = options.integer("<contact>_gap_seed", names);
+  }
+  gap.patches = read_patches(options, names);
+  return gap;
+}
+
+std::optional<Filler> read_filler(OptionReader& options, const std::string& contact) {
+  const OptionReader::Names names{contact};
+  if (!options.given(filler_option, names) || options.text(filler_option, names) == "none") {
+    forbid_parts(options, filler_option, names);
+    return read_crushing(options, names);
+  }
+  options.forbid(crushing_option, names,
+                 "not beside -" + option_name(filler_option, names) +
+                     ": a joint has a filler, or faces that are crushed");
+  forbid_parts(options, crushing_option, names);
+  Filler filler;
+  filler.table = read_filler_table(options, names);
+  filler.unloading = options.real(unloading, names);
+  if (filler.unloading < filler.steepest() * (1 - 1e-12)) {
+    std::ostringstream text;
+    text << "the table is steeper, " << filler.steepest() << " Pa somewhere";
+    options.refuse(unloading, names, text.str());
+  }
+  if (options.given("<contact>_filler_thickness", names)) {
+    filler.thickness = options.real("<contact>_filler_thickness", names);
+  }
+  if (options.given("<contact>_filler_area", names)) {
+    filler.area = options.real("<contact>_filler_area", names);
+  }
+  return filler;
+}
+
+void check_filler(const OptionReader& options, const Contact& contact, bool exports) {
+  const OptionReader::Names names{contact.name};
+  const bool crushes = contact.crushes();
+  const std::string owner = "contact " + contact.name + " has a ";
+  if (contact.sliding > 0) {
+    options.refuse(
+        "<contact>_sliding", names,
+        owner + (crushes ? "strip that is crushed" : "filler") + ", which stays where it is");
+  }
+  if (exports) {
+    options.refuse("export_matrices", {},
+                   owner + (crushes ? "strip" : "filler") + ", which is no matrix; not with -" +
+                       option_name(crushes ? crushing_option : filler_option, names));
+  }
+  if (crushes && contact.friction > 0) {
+    options.refuse("<contact>_friction", names,
+                   "not beside -" + option_name(crushing_option, names) +
+                       ": friction acts in hard contact only, which begins where the strip is "
+                       "crushed to the last");
+  }
+}
+
+std::optional<Vector3> point_of_side(const std::string& side) {
+  const auto numbers = parse_reals(side);
+  if (!numbers || numbers->size() != 3) return std::nullopt;
+  return Vector3{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+}
+
+std::optional<Stop> read_stop(OptionReader& options, const std::string& contact) {
+  const OptionReader::Names names{contact};
+  if (!options.given(stop_along, names)) {
+    for (const std::string_view option : {stop_stiffness, stop_dashpot}) {
+      options.forbid(option, names,
+                     "it makes a stop of a contact that has a direction; give -" +
+                         option_name(stop_along, names));
+    }
+    return std::nullopt;
+  }
+  Stop stop;
+  const std::string word = options.text(stop_along, names);
+  if (word != "line") {
+    const auto along = point_of_side(word);
+    const double length = along ? std::hypot((*along)[0], (*along)[1], (*along)[2]) : 0;
+    if (!(length > 0) || !std::isfinite(length)) options.refuse(stop_along, names);
+    stop.along = Vector3{(*along)[0] / length, (*along)[1] / length, (*along)[2] / length};
+  }
+  if (options.given(stop_stiffness, names)) stop.stiffness = options.real(stop_stiffness, names);
+  stop.dashpot = options.real(stop_dashpot, names);
+  if (stop.dashpot > 0 && !(stop.stiffness > 0)) {
+    options.refuse(stop_dashpot, names,
+                   "it goes with -" + option_name(stop_stiffness, names) + ", which is not given");
+  }
+  return stop;
+}
+
+void check_stop(const OptionReader& options, const Contact& contact, bool exports) {
+  const OptionReader::Names names{contact.name};
+  for (const char* option :
+       {"<contact>_passes", "<contact>_gap_deviation", "<contact>_gap_patches", "<contact>_sliding",
+        "<contact>_filler", "<contact>_filler_unloading", "<contact>_filler_thickness",
+        "<contact>_filler_area", "<contact>_crushing", "<contact>_crushing_stiffness",
+        "<contact>_crushing_depth", "<contact>_crushing_area"}) {
+    options.forbid(option, names,
+                   "-" + option_name(stop_along, names) +
+                       " makes it a stop between nodes, which have no faces");
+  }
+  const std::vector<double>& gaps = contact.gap.values;
+  if (gaps.empty() || gaps.size() > 2) {
+    options.refuse("<contact>_gap", names,
+                   "a stop takes one number, or two if it stops both ways; give the way until it "
+                   "closes");
+  }
+  if (std::ranges::any_of(gaps, [](double gap) { return gap < 0; })) {
+    options.refuse("<contact>_gap", names, "a stop is open or just closed; give 0 or more");
+  }
+  if (!contact.stop->along && contact.primary.is_wall()) {
+    options.refuse(stop_along, names, "there is no line to a wall; give a direction x,y,z");
+  }
+  if (contact.friction > 0 && contact.is_elastic()) {
+    options.refuse(
+        "<contact>_friction", names,
+        "not beside -" + option_name(stop_stiffness, names) + ": only a hard stop has friction");
+  }
+  if (contact.is_elastic() && exports) {
+    options.refuse("export_matrices", {},
+                   "stop " + contact.name + " gives way, which is no matrix; not with -" +
+                       option_name(stop_stiffness, names));
+  }
+}
+
+}  // namespace pounding
