@@ -99,6 +99,11 @@ ModalRequest modal_request(MPI_Comm comm, const Scene& scene, std::size_t s, con
   request.candidates = structure.modal->candidates;
   request.cutoff = structure.modal->cutoff;
   request.attachment = structure.modal->attachment;
+  request.residual =
+      structure.modal->residual &&
+      (!scene.supports.empty() || std::ranges::any_of(scene.motion, [](const auto& component) {
+        return component.has_value();
+      }));
   request.patches = structure.modal->patches;
   if (scene.preload) request.gravity = structure.gravity;
   PointList list(number);

@@ -173,17 +173,58 @@ Facts mode_facts(const Mode& mode, const Building& building, int number) {
   return facts;
 }
 
+double hertz(double squared_frequency) {
+  return std::sqrt(std::max(squared_frequency, 0.0)) / (2 * std::numbers::pi);
+}
+
+/// Shares of the free mass along x, y, z that move in the modes of a basis.
+std::array<double, 3> mass_in_modes(const ModalBasis& basis) {
+  std::array<double, 3> share{};
+  for (std::size_t d = 0; d < 3; ++d) {
+    for (std::size_t i = 0; i < basis.size(); ++i) {
+      const double part = basis.participation[d * basis.size() + i];
+      if (basis.mode_numbers[i] > 0) share[d] += part * part / basis.inertia[d];
+    }
+  }
+  return share;
+}
+
+/// The frequencies of residual vectors, and their price: the largest frequency that they raise.
+void add_residual_facts(const ModalModel& modal, const ModalBasis& basis, Facts& facts) {
+  std::vector<double> frequencies;
+  for (const double square : basis.residual_squared_frequency) frequencies.push_back(hertz(square));
+  const double without = hertz(basis.largest_without_residual);
+  facts.add("residual_vectors", frequencies);
+  if (frequencies.empty()) {
+    facts.say(modal.residual ? "" : "    residual vectors not asked for\n");
+    return;
+  }
+  std::ranges::sort(frequencies);
+  facts.say("    {} residual vectors of the ground's motion, {:.4g} to {:.4g} Hz",
+            {frequencies.size(), frequencies.front(), frequencies.back()});
+  facts.say("; without them the largest frequency is {:.4g} Hz\n", {without});
+}
+
 }  // namespace
+
+double highest_mode(const ModalBasis& basis) {
+  double square = 0;
+  for (std::size_t i = 0; i < basis.size(); ++i) {
+    if (basis.mode_numbers[i] > 0) square = std::max(square, basis.squared_frequency[i]);
+  }
+  return hertz(square);
+}
 
 Facts reduction_facts(const Building& building) {
   const ModalModel& modal = *building.structure->modal;
   const ModalBasis& basis = *building.basis;
   const MassScaling& scaling = building.system->mass_scaling;
-  Facts facts{
-      {{"coordinates", basis.size()},
-       {"modes", basis.modes},
-       {"attachment_vectors", basis.attachment_vectors},
-       {"largest_frequency", std::sqrt(basis.squared_frequency.back()) / (2 * std::numbers::pi)}}};
+  Facts facts{{{"coordinates", basis.size()},
+               {"modes", basis.modes},
+               {"attachment_vectors", basis.attachment_vectors},
+               {"highest_mode", highest_mode(basis)},
+               {"mass_in_modes", mass_in_modes(basis)},
+               {"largest_frequency", hertz(basis.squared_frequency.back())}}};
   if (!modal.damping_ratios.empty()) facts.add("damping_ratios", modal.damping_ratios);
   facts.say(
       "  modal reduction: {coordinates} generalised coordinates for {} dofs\n    {modes} modes",
@@ -196,9 +237,13 @@ Facts reduction_facts(const Building& building) {
     facts.say(" ({} asked for, the structure has no more)", {modal.modes});
   }
   facts.say(
-      "\n    {attachment_vectors} attachment vectors{}\n"
-      "    largest frequency {largest_frequency:.4g} Hz\n",
+      "\n    highest mode {highest_mode:.4g} Hz; the modes have {mass_in_modes/0:.1f %} of the "
+      "mass "
+      "along x, {mass_in_modes/1:.1f %} along y, {mass_in_modes/2:.1f %} along z\n"
+      "    {attachment_vectors} attachment vectors{}\n",
       {modal.attachment ? "" : " (not asked for)"});
+  add_residual_facts(modal, basis, facts);
+  facts.say("    largest frequency {largest_frequency:.4g} Hz\n");
   facts.say("[    mass scaled for a step of {:.4e} s: {} coordinates\n]",
             {scaling.time_step, scaling.dofs});
   return facts;

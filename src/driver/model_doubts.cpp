@@ -7,6 +7,7 @@
 #include "common/error.h"
 #include "common/matrix3.h"
 #include "driver/facts.h"
+#include "driver/report.h"
 #include "mesh/mesh.h"
 
 namespace pounding {
@@ -196,6 +197,31 @@ std::vector<std::string> place_doubts(const Scene& scene, std::span<const Global
   }
   doubt_floors(scene, meshes, probes, doubts);
   return doubts;
+}
+
+std::vector<std::string> reduction_doubts(const Scene& scene, std::span<const ResolvedProbe> probes,
+                                          const Building& building) {
+  if (!building.basis || scene.fidelity_window > 0) return {};
+  if (building.basis->modes >= building.basis->independent_dofs) return {};
+  const std::string& structure = building.structure->name;
+  const double asked = scene.spectra.frequencies.back();
+  const double end = highest_mode(*building.basis);
+  std::string of;
+  for (const ResolvedProbe& probe : probes) {
+    if (scene.structures[static_cast<std::size_t>(probe.structure)].name != structure) continue;
+    if (of.empty() && end < asked) of = "the spectra of its probes go";
+    for (const Equipment& item : scene.equipment) {
+      if (item.probe == probe.name && end < std::min(item.band[1], asked)) {
+        of = "the spectra of its probes and the band of " + item.name + " go";
+      }
+    }
+  }
+  if (of.empty()) return {};
+  return {sentence(
+      "structure {}: its modes end at {:.4g} Hz, {} to {:.4g} Hz: above its modes it follows "
+      "statically, and floor spectra there are no results; give more -{}_modal_vectors, or "
+      "measure the error with -fidelity_window",
+      {structure, end, of, asked, structure})};
 }
 
 std::vector<std::string> mass_doubts(MPI_Comm comm, const Building& building) {

@@ -17,6 +17,11 @@ std::vector<std::string> place_doubts(const Scene& scene, std::span<const Global
                                       const interactions::Interface& interface,
                                       std::span<const ResolvedProbe> probes);
 
+/// The doubt about a reduced structure whose modes end below the spectra of its probes, unless their
+/// error is estimated. Local.
+std::vector<std::string> reduction_doubts(const Scene& scene, std::span<const ResolvedProbe> probes,
+                                          const Building& building);
+
 /// Doubts about masses and frequencies of a structure that is built: point masses that are nothing
 /// beside the rest, matrices in other units. Collective.
 std::vector<std::string> mass_doubts(MPI_Comm comm, const Building& building);

@@ -56,11 +56,22 @@ class BasisMaker {
         std::max(wanted, std::min(static_cast<std::size_t>(request_.candidates), independent_)));
     if (request_.candidates > request_.modes) choose_modes(wanted);
     basis.modes = static_cast<int>(space_.size());
-    DenseMatrix responses =
-        space_.size() < independent_ ? static_responses() : DenseMatrix(dofs_, 0);
+    basis.independent_dofs = static_cast<GlobalIndex>(independent_);
+    DenseMatrix responses(dofs_, 0);
+    DenseMatrix to_ground(dofs_, 0);
+    if (space_.size() < independent_) {
+      responses = static_responses(static_loads(system_, mesh_, request_));
+      if (request_.residual) to_ground = static_responses(ground_loads(system_));
+    }
     solver_.reset();  // before the space grows: no other array is as large as the factor
-    add_attachment_vectors(responses);
+    add_vectors(responses);
     basis.attachment_vectors = static_cast<int>(space_.size()) - basis.modes;
+    space_.normalise(to_ground);
+    space_.project(to_ground);
+    drop_the_short(to_ground);  // responses that attachment vectors have already
+    add_vectors(to_ground);
+    basis.residual_vectors =
+        static_cast<int>(space_.size()) - basis.modes - basis.attachment_vectors;
     basis.full_dofs = system_.global_dofs;
     basis.total_mass = system_.total_mass;
     rotate(basis);
@@ -228,9 +239,8 @@ class BasisMaker {
     }
   }
 
-  /// Static responses to the forces of `static_loads`, without their part in the modes.
-  DenseMatrix static_responses() {
-    DenseMatrix z = static_loads(system_, mesh_, request_);
+  /// Static responses to forces M^1/2 f, without their part in the modes.
+  DenseMatrix static_responses(DenseMatrix z) {
     space_.normalise(z);
     if (z.columns == 0) return z;
     change_columns(z, [this](auto& y) { admit(y); });
@@ -244,7 +254,7 @@ class BasisMaker {
   }
 
   /// Uses the responses up.
-  void add_attachment_vectors(DenseMatrix& responses) {
+  void add_vectors(DenseMatrix& responses) {
     space_.project(responses);
     space_.normalise(responses);
     space_.project(responses);
@@ -255,6 +265,7 @@ class BasisMaker {
   /// Rayleigh-Ritz: the basis is W S with W the space and S^T (W^T A W) S diagonal.
   void rotate(ModalBasis& basis) const {
     DenseMatrix rotation = projected_matrix();
+    describe_residual_vectors(rotation, basis);
     basis.squared_frequency = symmetric_eigenvalues(rotation);
     for (double& value : basis.squared_frequency) value = std::max(value, 0.0);
     find_modes_in(rotation, basis);
@@ -263,6 +274,19 @@ class BasisMaker {
     if (system_.supports) add_supports(rotation, basis);
     if (system_.loads) add_loads(rotation, basis);
     if (system_.start) add_start(rotation, basis);
+  }
+
+  /// Their Rayleigh quotients, and the largest eigenvalue of the space without them. They are the
+  /// last of the space.
+  void describe_residual_vectors(const DenseMatrix& projected, ModalBasis& basis) const {
+    const std::size_t others = space_.size() - static_cast<std::size_t>(basis.residual_vectors);
+    for (std::size_t j = others; j < space_.size(); ++j) {
+      basis.residual_squared_frequency.push_back(projected.column(j)[j]);
+    }
+    if (others == space_.size()) return;
+    DenseMatrix part(others, 0);
+    for (std::size_t j = 0; j < others; ++j) part.append({projected.column(j), others});
+    basis.largest_without_residual = symmetric_eigenvalues(part).back();
   }
 
   /// W^T A W.
@@ -390,20 +414,24 @@ ModalBasis compute_modal_basis(const LinearSystem& system, const Mesh& mesh,
 }
 
 void broadcast_basis(MPI_Comm comm, int root, ModalBasis& basis) {
-  std::array<std::int64_t, 3> counts{basis.modes, basis.attachment_vectors, basis.full_dofs};
-  MPI_Bcast(counts.data(), 3, MPI_INT64_T, root, comm);
+  std::array<std::int64_t, 5> counts{basis.modes, basis.attachment_vectors, basis.residual_vectors,
+                                     basis.full_dofs, basis.independent_dofs};
+  MPI_Bcast(counts.data(), 5, MPI_INT64_T, root, comm);
   basis.modes = static_cast<int>(counts[0]);
   basis.attachment_vectors = static_cast<int>(counts[1]);
-  basis.full_dofs = counts[2];
+  basis.residual_vectors = static_cast<int>(counts[2]);
+  basis.full_dofs = counts[3];
+  basis.independent_dofs = counts[4];
+  MPI_Bcast(&basis.largest_without_residual, 1, MPI_DOUBLE, root, comm);
   MPI_Bcast(&basis.total_mass, 1, MPI_DOUBLE, root, comm);
   MPI_Bcast(&basis.mass, 1, MPI_DOUBLE, root, comm);
   MPI_Bcast(basis.centre_of_mass.data(), 3, MPI_DOUBLE, root, comm);
   MPI_Bcast(basis.inertia.data(), 6, MPI_DOUBLE, root, comm);
   broadcast_array(comm, basis.mode_numbers, root);
   broadcast_array(comm, basis.points, root);
-  for (auto* const values :
-       {&basis.squared_frequency, &basis.participation, &basis.rows, &basis.support_participation,
-        &basis.support_rows, &basis.load_parts, &basis.start_parts}) {
+  for (auto* const values : {&basis.squared_frequency, &basis.residual_squared_frequency,
+                             &basis.participation, &basis.rows, &basis.support_participation,
+                             &basis.support_rows, &basis.load_parts, &basis.start_parts}) {
     broadcast_array(comm, *values, root);
   }
 }

@@ -13,15 +13,20 @@ namespace pounding {
 /// A basis Phi of motions of a structure, u = Phi q, with Phi^T M Phi = I and Phi^T K Phi =
 /// diag(omega^2), as far as a run needs it: k vectors, known at the places that are asked for.
 struct ModalBasis {
-  int modes = 0;                  ///< modes in it
-  int attachment_vectors = 0;     ///< vectors beside them
-  std::vector<int> mode_numbers;  ///< which mode, from 1, each vector is; 0: none; shape (k)
-  GlobalIndex full_dofs = 0;      ///< of the model that was reduced
-  double total_mass = 0;          ///< clamped nodes included [kg]
-  double mass = 0;                ///< of the free dofs [kg]
+  int modes = 0;                     ///< modes in it
+  int attachment_vectors = 0;        ///< vectors beside them
+  int residual_vectors = 0;          ///< and static responses to the motion of the ground
+  std::vector<int> mode_numbers;     ///< which mode, from 1, each vector is; 0: none; shape (k)
+  GlobalIndex full_dofs = 0;         ///< of the model that was reduced
+  GlobalIndex independent_dofs = 0;  ///< of it, which rigid bodies and ties have fewer of
+  double total_mass = 0;             ///< clamped nodes included [kg]
+  double mass = 0;                   ///< of the free dofs [kg]
   Vector3 centre_of_mass{0, 0, 0};
   std::array<double, 6> inertia{};        ///< along and about x, y, z [kg, kg m2]
   std::vector<double> squared_frequency;  ///< omega^2, increasing, shape (k) [1/s2]
+  std::vector<double>
+      residual_squared_frequency;       ///< Rayleigh quotients of residual vectors [1/s2]
+  double largest_without_residual = 0;  ///< omega^2 of the basis without them [1/s2]; 0: has none
   /// Gamma = Phi^T M R of the motions R along and about x, y, z, shape (6, k).
   std::vector<double> participation;
   std::vector<TracePoint> points;  ///< free components of nodes
@@ -47,7 +52,10 @@ struct ModalBasis {
 ///
 ///     z_j = P (A - shift)^-1 P M^-1/2 e_j,      P = I - Y Y^T
 ///
-/// with the shift just below zero, so that free structures pass; or, where faces have too many
+/// with the shift just below zero, so that free structures pass; then, where they are asked for, the
+/// residual vectors, static responses to M iota of the motions of the ground, so that the mass that
+/// the modes leave out is carried as a rigid one (missing mass, U.S. NRC Regulatory Guide 1.92). Or,
+/// where faces have too many
 /// points, to equal forces on the points of a patch (see `contact_patches`). They are made
 /// orthonormal, the largest remainder first; a vector in the span to 1e-8 is dropped. Rayleigh-Ritz
 /// on the whole space makes K diagonal.

@@ -49,10 +49,18 @@ ModalBasis read_arrays(const Hdf5Reader& file, std::size_t loads, bool start) {
   basis.modes = static_cast<int>(whole(file.number("/", "modes"), most_coordinates));
   basis.attachment_vectors =
       static_cast<int>(whole(file.number("/", "attachment_vectors"), most_coordinates));
+  basis.residual_vectors =
+      static_cast<int>(whole(file.number("/", "residual_vectors"), most_coordinates));
   basis.full_dofs = static_cast<GlobalIndex>(whole(file.number("/", "full_dofs"), largest_number));
+  basis.independent_dofs =
+      static_cast<GlobalIndex>(whole(file.number("/", "independent_dofs"), largest_number));
+  basis.largest_without_residual = file.number("/", "largest_without_residual");
   basis.total_mass = file.number("/", "total_mass");
   basis.mass = file.number("/", "mass");
   basis.squared_frequency = file.array("squared_frequency");
+  if (basis.residual_vectors > 0) {
+    basis.residual_squared_frequency = file.array("residual_squared_frequency");
+  }
   for (const double number : file.array("mode_numbers")) {
     basis.mode_numbers.push_back(static_cast<int>(whole(number, most_coordinates)));
   }
@@ -70,12 +78,13 @@ ModalBasis read_arrays(const Hdf5Reader& file, std::size_t loads, bool start) {
       points.size() % 2 != 0 || basis.rows.size() != points.size() / 2 * size ||
       basis.load_parts.size() != loads * size ||
       basis.start_parts.size() != (start ? 2 * size : 0) ||
-      basis.modes + basis.attachment_vectors != static_cast<int>(size)) {
+      basis.residual_squared_frequency.size() != static_cast<std::size_t>(basis.residual_vectors) ||
+      basis.modes + basis.attachment_vectors + basis.residual_vectors != static_cast<int>(size)) {
     throw std::runtime_error("sizes that do not belong together");
   }
   for (const auto* values : std::initializer_list<const std::vector<double>*>{
-           &basis.squared_frequency, &basis.participation, &centre, &inertia, &points, &basis.rows,
-           &basis.load_parts, &basis.start_parts}) {
+           &basis.squared_frequency, &basis.residual_squared_frequency, &basis.participation,
+           &centre, &inertia, &points, &basis.rows, &basis.load_parts, &basis.start_parts}) {
     if (!std::ranges::all_of(*values, [](double value) { return std::isfinite(value); })) {
       throw std::runtime_error("a value is not finite");
     }
@@ -206,10 +215,16 @@ void write_modal_basis(const std::string& path, const BasisKey& key, const Modal
   schema::write(file, schema::basis);
   file.write_attribute("/", "modes", basis.modes);
   file.write_attribute("/", "attachment_vectors", basis.attachment_vectors);
+  file.write_attribute("/", "residual_vectors", basis.residual_vectors);
   file.write_attribute("/", "full_dofs", static_cast<double>(basis.full_dofs));
+  file.write_attribute("/", "independent_dofs", static_cast<double>(basis.independent_dofs));
+  file.write_attribute("/", "largest_without_residual", basis.largest_without_residual);
   file.write_attribute("/", "total_mass", basis.total_mass);
   file.write_attribute("/", "mass", basis.mass);
   file.write_array("squared_frequency", 0, basis.squared_frequency);
+  if (basis.residual_vectors > 0) {
+    file.write_array("residual_squared_frequency", 0, basis.residual_squared_frequency);
+  }
   for (const auto& [name, hash] : key) file.write_attribute(key_holder, name, hash);
   file.write_array("mode_numbers", 0,
                    std::vector<double>(basis.mode_numbers.begin(), basis.mode_numbers.end()));
@@ -253,6 +268,7 @@ BasisKey basis_key(const Structure& structure, const GlobalMesh& mesh,
   Hash vectors;
   vectors.add_all(
       std::array{static_cast<double>(request.modes), request.cutoff, request.attachment ? 1. : 0.});
+  if (request.residual) vectors.add("residual");
   if (request.candidates > request.modes) vectors.add(static_cast<double>(request.candidates));
   if (request.gravity != Vector3{0, 0, 0}) vectors.add_all(request.gravity);
   if (structure.p_delta) vectors.add("p_delta");

@@ -11,7 +11,9 @@
 /// A modal basis in a sealed HDF5 file (output/file_seal.h), to be used again:
 ///
 ///     /                    attributes: format "pounding modal basis", version 2, program, modes,
-///                          attachment_vectors, full_dofs, total_mass [kg], mass [kg]
+///                          attachment_vectors, residual_vectors, full_dofs, independent_dofs,
+///                          largest_without_residual [1/s2], total_mass [kg], mass [kg]
+///     /residual_squared_frequency  (residual vectors) [1/s2]; left out without any
 ///     /squared_frequency   (k) omega^2 [1/s2]; attributes: hashes of the basis's sources
 ///     /mode_numbers        (k) which mode, from 1, each vector is; 0: none
 ///     /participation       (6, k) along and about x, y, z

@@ -18,6 +18,7 @@ struct ModalRequest {
   int candidates = 0;        ///< number of lowest modes to choose them from; 0: no others
   double cutoff = 0;         ///< [Hz]
   bool attachment = true;    ///< a vector per contact point as well
+  bool residual = false;     ///< and one per motion of the ground
   int patches = 0;           ///< or per patch of them, so many in all; 0: per point
   Vector3 gravity{0, 0, 0};  ///< that the structure is to rest under [m/s2]; 0: no vector for it
   std::vector<TracePoint> contact_points;
@@ -54,5 +55,9 @@ DenseMatrix static_loads(const LinearSystem& system, const Mesh& mesh, const Mod
 std::vector<std::vector<std::size_t>> contact_patches(std::span<const TracePoint> points,
                                                       std::span<const Vector3> positions,
                                                       std::size_t count);
+
+/// M^1/2 iota of the motions of the ground, shape (owned dofs, motions): the columns of its supports,
+/// or x, y, z where it moves as one. Local.
+DenseMatrix ground_loads(const LinearSystem& system);
 
 }  // namespace pounding

@@ -14,6 +14,7 @@ constexpr std::string_view vectors = "<structure>_modal_vectors";
 constexpr std::string_view candidates = "<structure>_modal_candidates";
 constexpr std::string_view cutoff = "<structure>_modal_cutoff";
 constexpr std::string_view attachment = "<structure>_modal_attachment";
+constexpr std::string_view residual = "<structure>_modal_residual";
 constexpr std::string_view patches = "<structure>_modal_patches";
 constexpr std::string_view damping = "<structure>_modal_damping";
 constexpr std::string_view basis = "<structure>_modal_basis";
@@ -79,6 +80,7 @@ std::optional<ModalModel> read_modal_model(OptionReader& options, const Structur
                     option_name(vectors, names) + " (number of lowest modes) or -" +
                     option_name(cutoff, names) + " (every mode below it, in Hz)");
   }
+  modal.residual = options.boolean(residual, names);
   modal.attachment = options.boolean(attachment, names);
   if (!modal.attachment) {
     options.forbid(patches, names, "not with -" + option_name(attachment, names) + " false");

@@ -124,6 +124,7 @@ constexpr std::array option_rows{
     OptionRow{Block::structure, "<structure>_modal_candidates", Kind::integer, "-", absent("as many as modes"), at_least_1, "", "modal: number of lowest modes computed, of which as many as wanted are kept: the lowest, and those that move the contact points most"},
     OptionRow{Block::structure, "<structure>_modal_cutoff", Kind::real, "Hz", absent("this or the number"), positive, "", "modal: every mode below this frequency"},
     OptionRow{Block::structure, "<structure>_modal_attachment", Kind::boolean, "flag", value("true"), any, "", "modal: static responses to unit forces at the contact dofs beside the modes"},
+    OptionRow{Block::structure, "<structure>_modal_residual", Kind::boolean, "flag", value("true"), any, "", "modal: static responses to the motion of the ground beside the modes (residual vectors, missing mass)"},
     OptionRow{Block::structure, "<structure>_modal_ranks", Kind::integer, "-", value("1"), at_least_1, "", "modal: ranks that compute its basis together; more than one need a file for it"},
     OptionRow{Block::structure, "<structure>_modal_patches", Kind::integer, "-", value("0"), not_negative, "", "modal: attachment vectors of so many patches of contact points in place of one each; 0: one each"},
     OptionRow{Block::structure, "<structure>_modal_damping", Kind::reals, "-", absent("left out: that of the structure"), damping_ratio, "a comma-separated list of numbers", "modal: damping ratio of mode 1, 2, ..., the last one for all that follow and for vectors that are no mode"},

@@ -130,6 +130,7 @@ struct ModalModel {
   int candidates = 0;      ///< number of lowest modes to choose them from; 0: no others
   double cutoff = 0;       ///< [Hz]
   bool attachment = true;  ///< static responses to unit forces at the contact dofs as well
+  bool residual = true;    ///< and to the motion of the ground
   int patches = 0;         ///< or to forces on so many patches of them; 0: on every one
   std::vector<double> damping_ratios;  ///< of mode 1, 2, ..., the last one of all that follow;
                                        ///< empty: the structure's Rayleigh damping

@@ -16,7 +16,7 @@ import numpy
 
 import program
 from decks import box_of, contacts, in_modes, material, probes
-from recorded import IDENTITY, Recorded
+from recorded import IDENTITY, Recorded, write_samples
 
 CHEAP = ["-modes", 6, "-spectra_frequencies", "1:400:60log"]
 SMALL = "cells_x=3,cells_y=3,column_elements=1"
@@ -235,6 +235,45 @@ class Damping(unittest.TestCase):
             full = file["displacement"][()]
         with h5py.File(os.path.join(modal, "history.h5")) as file:
             self.assertLessEqual(abs(file["displacement"][()] - full).max(), 1e-8 * abs(full).max())
+
+
+class Slow(unittest.TestCase):
+    """A tower shaken so slowly that it moves as a rigid body: its base carries its mass times the ground's acceleration."""
+    ACCELERATION = 2.0
+    MASS = 2500 * 6 * (1 - 1 / 8)  # without the nodes that are held: half of the lowest of four layers
+
+    def words(self, *more):
+        sine = write_samples([self.ACCELERATION * math.sin(math.pi * i / 1000)**2 for i in range(1001)], 1e-3)
+        return ["-structures", "tower", *box_of("tower", "lx=1,ly=1,lz=6,nx=1,ny=1,nz=4", "concrete"), "-tower_clamp", "z_min",
+                *material("concrete", 3e10, 0.2, 2500), "-motion_x_record", sine, "-motion_z_record", sine, "-modes", 1,
+                "-motion_x_unit", "m/s2", "-motion_z_unit", "m/s2", *probes(top="tower:z_max"), "-end_time", 1,
+                "-forces", "base", "-base_structure", "tower", "-base_kind", "reactions", *reduced("tower", 2), *more]
+
+    def test_mass_that_the_modes_leave_out_is_carried(self):
+        """Regulatory Guide 1.92; the modes alone have two thirds of the mass along x and nothing along z."""
+        supported = ["-supports", "s", "-s_groups", "tower:z_min"]
+        for more in ([], supported):
+            run = Recorded(self, self.words(*more))
+            for way in "xz":
+                self.assertAlmostEqual(abs(run.summary["forces"]["base"][f"F{way}"]["peak"]) / (self.MASS * self.ACCELERATION), 1,
+                                       delta=0.02, msg=way)
+            modal = run.summary["structures"]["tower"]["modal"]
+            self.assertEqual(len(modal["residual_vectors"]), 3)
+            self.assertLess(modal["residual_vectors"][-1], modal["largest_frequency"] * (1 + 1e-12))
+            without = Recorded(self, self.words(*more, "-tower_modal_residual", "false")).summary
+            shares = without["structures"]["tower"]["modal"]["mass_in_modes"]
+            self.assertEqual(without["structures"]["tower"]["modal"]["residual_vectors"], [])
+            self.assertLess(shares[2], 1e-9)
+            for way, share in zip("xz", shares[::2]):
+                self.assertAlmostEqual(abs(without["forces"]["base"][f"F{way}"]["peak"]) / (self.MASS * self.ACCELERATION), share,
+                                       delta=0.02, msg=way)
+
+    def test_spectra_beyond_the_modes_are_doubted(self):
+        wide = ["-spectra_frequencies", "1:400:20log"]
+        doubted = lambda *more: [line for line in Recorded(self, self.words(*wide, *more)).summary["warnings"] if "modes end" in line]
+        self.assertEqual(len(doubted()), 1)
+        self.assertEqual(doubted("-spectra_frequencies", "0.1:1:10log"), [])
+        self.assertEqual(doubted("-tower_modal_vectors", 300), [])  # all of them
 
 
 # Coordinates that one rank computes have the same bits on any number of them.

@@ -47,10 +47,13 @@ class ModalBasisFile : public testing::Test {
     const std::string path = folder_ / "basis.h5";
     Hdf5File file(path, Hdf5File::Kind::sealed);
     file.write_attribute("/", "format", "pounding modal basis");
-    file.write_attribute("/", "schema", 3);
+    file.write_attribute("/", "schema", 4);
     file.write_attribute("/", "modes", content.modes);
     file.write_attribute("/", "attachment_vectors", content.attachment_vectors);
+    file.write_attribute("/", "residual_vectors", 0);
     file.write_attribute("/", "full_dofs", content.full_dofs);
+    file.write_attribute("/", "independent_dofs", content.full_dofs);
+    file.write_attribute("/", "largest_without_residual", 0);
     file.write_attribute("/", "total_mass", 10);
     file.write_attribute("/", "mass", 8);
     file.write_array("squared_frequency", 0, std::vector<double>{1, 4, 9});
