@@ -10,6 +10,7 @@
 int main(int count, char** words) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a log grows line by line
   pounding::yield_while_waiting();
+  pounding::listen_nowhere();
   pounding::prepare_hdf5();  // before MPI: else HDF5 closes its files once more at the end of it
   MPI_Init(&count, &words);
   int status = 1;
