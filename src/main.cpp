@@ -4,10 +4,12 @@
 
 #include "common/common_segments.h"
 #include "common/crowded_node.h"
+#include "common/standard_streams.h"
 #include "io/hdf5_library.h"
 #include "run_job.h"
 
 int main(int count, char** words) {
+  pounding::guard_standard_streams();
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a log grows line by line
   pounding::yield_while_waiting();
   pounding::listen_nowhere();

@@ -4,11 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "common/standard_streams.h"
 #include "spectra/spectra_job.h"
 #include "spectra/spectra_options.h"
 
 /// Exit status: 0, or 1 after an error, which is one line.
 int main(int count, char** arguments) {
+  pounding::guard_standard_streams();
   const std::vector<std::string> words(arguments + 1, arguments + count);
   if (std::ranges::any_of(words, [](const std::string& word) {
         return word == "--help" || word == "-help" || word == "-h";
