@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/byte_texts.h"
 #include "common/standard_streams.h"
 #include "spectra/spectra_job.h"
 #include "spectra/spectra_options.h"
@@ -22,7 +23,7 @@ int main(int count, char** arguments) {
     pounding::run_spectra(pounding::read_spectra_options(words));
     return 0;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "pounding-spectra: %s\n", error.what());
+    std::fprintf(stderr, "pounding-spectra: %s\n", pounding::one_line(error.what()).c_str());
   }
   return 1;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "common/byte_texts.h"
 #include "common/version.h"
 #include "driver/subject_facts.h"
 #include "io/new_file.h"
@@ -14,6 +15,21 @@ namespace {
 
 double microseconds_per_step(const RunStatistics& run) {
   return 1e6 * run.step_time / static_cast<double>(std::max<std::int64_t>(1, run.steps));
+}
+
+/// A value whose texts and keys JSON can have.
+Json with_readable_texts(const Json& value) {
+  if (value.is_string()) return readable(value.get_ref<const std::string&>());
+  if (!value.is_structured()) return value;
+  Json made = value.is_array() ? Json::array() : Json::object();
+  for (const auto& [key, part] : value.items()) {
+    if (value.is_array()) {
+      made.push_back(with_readable_texts(part));
+    } else {
+      made[readable(key)] = with_readable_texts(part);
+    }
+  }
+  return made;
 }
 
 std::string probe_places(const Scene& scene, const std::vector<ResolvedProbe>& probes) {
@@ -38,8 +54,8 @@ void print_title(const Scene& scene, const std::string& overrides, int ranks) {
   print(sentence(
       "pounding {} ({}), PETSc {}.{}.{}, {} rank{}\n",
       {program_version(), program_commit(), major, minor, subminor, ranks, ranks == 1 ? "" : "s"}));
-  if (!scene.title.empty()) print(scene.title + "\n");
-  if (!overrides.empty()) print("  " + overrides + "\n");
+  if (!scene.title.empty()) print(one_line(scene.title) + "\n");
+  if (!overrides.empty()) print("  " + one_line(overrides) + "\n");
   print(climb_facts(scene));
   print(warning_facts(scene.warnings));
 }
@@ -153,7 +169,7 @@ void write_summary(const std::string& path, const FinishedRun& run) {
   for (const auto& [name, value] : resolved_values(run.resolved)) {
     facts.values["options"][name] = value;
   }
-  write_whole_file(path, facts.values.dump(1) + '\n');
+  write_whole_file(path, with_readable_texts(facts.values).dump(1) + '\n');
 }
 
 }  // namespace pounding

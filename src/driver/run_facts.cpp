@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/byte_texts.h"
 #include "common/vector_unit.h"
 #include "driver/subject_facts.h"
 #include "driver/time_step.h"
@@ -10,7 +11,7 @@ Facts warning_facts(std::span<const std::string> lines) {
   Facts facts{Json::array()};
   for (const std::string& line : lines) {
     facts.values.push_back(line);
-    facts.say("warning: {}\n", {line});
+    facts.say("warning: {}\n", {one_line(line)});
   }
   return facts;
 }

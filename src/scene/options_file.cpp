@@ -4,6 +4,7 @@
 #include <map>
 #include <yaml.h>
 
+#include "common/byte_texts.h"
 #include "common/error.h"
 #include "scene/option_values.h"
 
@@ -97,8 +98,10 @@ class Yaml {
   bool loaded_ = false;
 };
 
+/// Bytes of a scalar; YAML has letters alone.
 std::string text_of(const yaml_node_t& scalar) {
-  return {reinterpret_cast<const char*>(scalar.data.scalar.value), scalar.data.scalar.length};
+  return with_plain_bytes(
+      {reinterpret_cast<const char*>(scalar.data.scalar.value), scalar.data.scalar.length});
 }
 
 /// Flattens the mappings of a document.
@@ -197,7 +200,9 @@ class OptionsReader {
 
 }  // namespace
 
-OptionsDatabase parse_options_file(const std::string& text, const std::string& file) {
+OptionsDatabase parse_options_file(const std::string& bytes, const std::string& file) {
+  const bool is_utf16 = bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff");
+  const std::string text = is_utf16 ? bytes : with_marked_bytes(bytes);
   Yaml yaml(text, file);
   const yaml_node_t* root = yaml.next();
   if (root == nullptr || (root->type == YAML_SCALAR_NODE && text_of(*root).empty())) {
