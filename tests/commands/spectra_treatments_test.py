@@ -219,6 +219,14 @@ class Refusals(unittest.TestCase):
         self.refuse([os.path.join(self.folder, "summary.json")], "summary.json")
         self.refuse([self.history, "--output", "/nowhere/table.csv"], "/nowhere/table.csv")
 
+    def test_rows_that_may_be_columns_are_doubted(self):
+        record = os.path.join(self.folder, "three.txt")
+        with open(record, "w") as file:
+            file.write("dt = 0.02 s, units: cm/s2\n" + "".join(f"{i % 7}.5 {i % 5}.5 -{i % 3}.5\n" for i in range(40)))
+        result = spectra(record, "--frequencies", "2,10", "--treatment", "complete")
+        self.assertEqual(result.returncode, 0)
+        self.assertRegex(result.stderr, "^pounding-spectra: warning: .*rows of 3 values that follow one another, or columns")
+
     def test_channels(self):
         self.refuse([self.history, "--channels", "roof.z"], "roof.z", "did you mean")
         self.refuse([os.path.join(self.folder, "impacts.csv"), "--channels", "roof"], "record")
