@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "common/error.h"
+#include "common/finite_file.h"
 #include "output/result_folder.h"
 #include "scene/option_values.h"
 #include "scene/resolved_options.h"
@@ -74,6 +75,7 @@ void try_folder(const std::string& option, const std::string& folder) {
 }
 
 std::vector<std::string> replaced_results(const Scene& scene, const std::string& resolved) {
+  require_finite_file(scene.output + "/resolved.yaml");
   std::ifstream file(scene.output + "/resolved.yaml");
   if (!file || !scene.restart.empty()) return {};
   std::ostringstream text;

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/error.h"
+#include "common/finite_file.h"
 #include "common/library_versions.h"
 #include "common/parallel.h"
 #include "common/version.h"
@@ -75,6 +76,9 @@ class Inputs {
     std::error_code failure;
     if (!std::filesystem::is_regular_file(path, failure)) return;
     if (!std::ifstream(path)) return;  // its reader says so
+    for (const char* of : {"_record", "_target", "_table", "_capacity"}) {
+      if (option.ends_with(of)) require_finite_file(path, "option -" + option + " ", largest_text);
+    }
     const auto read = std::ranges::find(files, path, &InputFile::path);
     const bool named = std::ranges::any_of(
         files, [&](const InputFile& file) { return file.path == path && file.option == option; });

@@ -117,6 +117,10 @@ std::optional<std::vector<double>> parse_increasing(std::string_view text) {
   return values;
 }
 
+bool are_of_oscillators(const std::vector<double>& frequencies) {
+  return frequencies.front() >= 1e-6 && frequencies.back() <= 1e6;
+}
+
 std::string upper_case(std::string_view text) {
   std::string upper(text);
   for (char& letter : upper) {

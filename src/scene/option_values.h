@@ -36,6 +36,9 @@ std::optional<std::vector<double>> parse_reals(std::string_view text);
 /// increasing finite numbers; a logarithmic range needs start > 0.
 std::optional<std::vector<double>> parse_increasing(std::string_view text);
 
+/// Whether increasing frequencies [Hz] are such that powers of them are numbers: 1e-6 to 1e6.
+bool are_of_oscillators(const std::vector<double>& frequencies);
+
 /// Small letters of the alphabet made capital.
 std::string upper_case(std::string_view text);
 

@@ -205,7 +205,7 @@ class Refusals(unittest.TestCase):
         self.refuse(["--dampin", 0.05, self.history], "--dampin", "did you mean damping")
         self.refuse([self.history, "--damping"], "--damping", "needs a value")
         for option, value in (("--damping", "1"), ("--damping", "five"), ("--frequencies", "0,1"),
-                              ("--frequencies", "5,3"), ("--frequencies", "1:9:800"), ("--broaden", "100"),
+                              ("--frequencies", "5,3"), ("--frequencies", "1:9:800"), ("--frequencies", "1e160"), ("--frequencies", "1e-160,1"), ("--broaden", "100"),
                               ("--treatment", "peaks"), ("--columns", "0"), ("--unit", "mm"),
                               ("--frame", "floor"), ("--after", "rest"), ("--margin", "-1"),
                               ("--time-step", "0"), ("--dirac-step", "nan")):
