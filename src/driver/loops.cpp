@@ -12,6 +12,7 @@
 #include "common/matrix3.h"
 #include "common/parallel.h"
 #include "driver/element_middle.h"
+#include "driver/facts.h"
 #include "driver/run_statistics.h"
 #include "system/links.h"
 
@@ -22,6 +23,8 @@ constexpr int of_section = -2;
 constexpr int of_section_link = -3;
 
 /// A link that an item of the option may mean, as it travels between ranks.
+constexpr double far_point = 10;  ///< of an element from the place that loops_at names [m]
+
 struct Candidate {
   int item = 0;
   int component = 0;
@@ -118,6 +121,11 @@ void keep_nearest(const Loop& loop, int item, std::vector<Candidate>& all) {
       if (link.item != item || !(away < least * (1 - 1e-9))) continue;
       least = away;
       nearest = link.number;
+    }
+    if (least > far_point) {
+      throw UserError(sentence(
+          "option -loops_at: the nearest element of {} is {:.4g} m from ({:.6g}, {:.6g}, {:.6g})",
+          {loop.name, least, point[0], point[1], point[2]}));
     }
     kept.insert(nearest);
   }

@@ -126,7 +126,7 @@ constexpr std::array option_rows{
     OptionRow{Block::structure, "<structure>_modal_cutoff", Kind::real, "Hz", absent("this or the number"), positive, "", "modal: every mode below this frequency"},
     OptionRow{Block::structure, "<structure>_modal_attachment", Kind::boolean, "flag", value("true"), any, "", "modal: static responses to unit forces at the contact dofs beside the modes"},
     OptionRow{Block::structure, "<structure>_modal_ranks", Kind::integer, "-", value("1"), at_least_1, "", "modal: ranks that compute its basis together; more than one need a file for it"},
-    OptionRow{Block::structure, "<structure>_modal_patches", Kind::integer, "-", value("0"), not_negative, "", "modal: attachment vectors of so many patches of contact points in place of one each; 0: one each"},
+    OptionRow{Block::structure, "<structure>_modal_patches", Kind::integer, "-", value("0"), patch_count, "", "modal: attachment vectors of so many patches of contact points in place of one each; 0: one each"},
     OptionRow{Block::structure, "<structure>_modal_damping", Kind::reals, "-", absent("left out: that of the structure"), damping_ratio, "a comma-separated list of numbers", "modal: damping ratio of mode 1, 2, ..., the last one for all that follow and for vectors that are no mode"},
     OptionRow{Block::structure, "<structure>_modal_basis", Kind::text, "file", value("none"), any, "a file or none", "modal: where the basis is kept, to be used again while the structure stays the same"},
     OptionRow{Block::structure, "<structure>_mass_scaling", Kind::real, "s", value("0"), not_negative, "", "stable time step for which elements that allow less (not tension-only bars), or fast generalised coordinates, get mass in proportion to their stiffness; 0: none"},
