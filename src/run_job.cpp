@@ -4,6 +4,7 @@
 #include <new>
 #include <optional>
 
+#include "common/byte_texts.h"
 #include "common/dense_matrix.h"
 #include "common/error.h"
 #include "common/parallel.h"
@@ -47,17 +48,18 @@ int run_job(MPI_Comm comm, std::span<const std::string> words) {
     run_words(comm, words, petsc);
     return 0;
   } catch (const UserError& error) {
-    if (root) std::fprintf(stderr, "pounding: %s\n", error.what());
+    if (root) std::fprintf(stderr, "pounding: %s\n", one_line(error.what()).c_str());
   } catch (const DivergenceError& error) {
-    if (root) std::fprintf(stderr, "pounding: %s\n", error.what());
+    if (root) std::fprintf(stderr, "pounding: %s\n", one_line(error.what()).c_str());
   } catch (const StoppedBySignal& stop) {
-    if (root) std::fprintf(stderr, "pounding: %s\n", stop.what());
+    if (root) std::fprintf(stderr, "pounding: %s\n", one_line(stop.what()).c_str());
     return 2;
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "pounding: %s\n", out_of_memory(rank_of(comm)).c_str());
     MPI_Abort(comm, 1);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "pounding: internal error on rank %d: %s\n", rank_of(comm), error.what());
+    std::fprintf(stderr, "pounding: internal error on rank %d: %s\n", rank_of(comm),
+                 one_line(error.what()).c_str());
     MPI_Abort(comm, 1);
   }
   return 1;

@@ -4,11 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "common/byte_texts.h"
+#include "common/standard_streams.h"
 #include "spectra/spectra_job.h"
 #include "spectra/spectra_options.h"
 
 /// Exit status: 0, or 1 after an error, which is one line.
 int main(int count, char** arguments) {
+  pounding::guard_standard_streams();
   const std::vector<std::string> words(arguments + 1, arguments + count);
   if (std::ranges::any_of(words, [](const std::string& word) {
         return word == "--help" || word == "-help" || word == "-h";
@@ -20,7 +23,7 @@ int main(int count, char** arguments) {
     pounding::run_spectra(pounding::read_spectra_options(words));
     return 0;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "pounding-spectra: %s\n", error.what());
+    std::fprintf(stderr, "pounding-spectra: %s\n", pounding::one_line(error.what()).c_str());
   }
   return 1;
 }

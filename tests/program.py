@@ -55,7 +55,7 @@ def launch(arguments, ranks=RANKS, timeout=900, folder=SOURCE, environment=None)
     start = line[:at] if ranks > 1 else []
     with tempfile.TemporaryDirectory(prefix="pounding-ranks-") as notes:
         result = subprocess.run([*start, "bash", "-c", NOTING, notes, *line[at:]], cwd=folder,
-                                env=environment or ENVIRONMENT, capture_output=True, text=True, timeout=timeout)
+                                env=environment or ENVIRONMENT, capture_output=True, text=True, errors="replace", timeout=timeout)
         noted = [int(pathlib.Path(notes, name).read_text()) for name in sorted(os.listdir(notes))]
     if result.returncode == 0:
         assert len(noted) == ranks and len(set(noted)) == 1, f"exit statuses {noted}: {result.stderr[-2000:]}"

@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from .files import write_text
+from .files import write_bytes
 
 
 class SceneError(Exception):
@@ -39,6 +39,7 @@ def flatten(scene: dict, prefix: str = "") -> dict:
 
 def _quoted(text: str) -> str:
     escapes = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t"}
+    escapes |= {chr(code): f"\\x{code:02x}" for code in [*range(32), 127] if chr(code) not in escapes}
     return '"' + "".join(escapes.get(letter, letter) for letter in text) + '"'
 
 
@@ -61,13 +62,18 @@ def write_scene(path: Path | str, scene: dict, comment: str = "") -> Path:
         if any(letter in text for letter in "\0\r\x85\u2028\u2029") or not text.isascii() and _not_utf_8(text):
             raise SceneError(f"{name}: {text!a} has letters that no file of options can hold")
     head = [f"# {line}".rstrip() for line in comment.splitlines()]
-    write_text(path, "\n".join(head + _lines(scene, "")) + "\n")
+    write_bytes(path, ("\n".join(head + _lines(scene, "")) + "\n").encode("utf-8", "surrogateescape"))
     return path
+
+
+def _letter(escape: re.Match) -> str:
+    code = escape[1]
+    return chr(int(code[1:], 16)) if len(code) == 3 else {"n": "\n", "t": "\t"}.get(code, code)
 
 
 def _not_utf_8(text: str) -> bool:
     try:
-        text.encode("utf-8")
+        text.encode("utf-8", "surrogateescape")
     except UnicodeEncodeError:
         return True
     return False
@@ -77,15 +83,12 @@ def read_scene(path: Path | str) -> dict:
     """Option -> text of a `resolved.yaml`, or of another file of flat lines `name: "value"`. Throws SceneError,
     or OSError if there is none."""
     options = {}
-    try:
-        text = Path(path).read_text(encoding="utf-8")
-    except UnicodeDecodeError as error:
-        raise SceneError(f"{path}: no text in UTF-8") from error
+    text = Path(path).read_text(encoding="utf-8", errors="surrogateescape")  # names of files are bytes
     for number, line in enumerate(text.split("\n"), 1):
         if not line.strip() or line.startswith("#"):
             continue
         found = re.fullmatch(r'"?([A-Za-z][\w/.]*)"?: "((?:[^"\\]|\\.)*)"', line)
         if not found:
             raise SceneError(f"{path}, line {number}: not a line of resolved options")
-        options[found[1]] = re.sub(r"\\(.)", lambda pair: {"n": "\n", "t": "\t"}.get(pair[1], pair[1]), found[2])
+        options[found[1]] = re.sub(r"\\(x[0-9a-f]{2}|.)", _letter, found[2])
     return options

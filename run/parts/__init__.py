@@ -3,6 +3,7 @@ other people's scripts is the package `pounding` of the folder python."""
 
 import argparse
 import atexit
+import io
 import os
 import re
 import signal
@@ -34,6 +35,31 @@ NEEDED = ("numpy", "scipy", "h5py", "matplotlib", "yaml")
 STOPPING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
+class Unheard(io.FileIO):
+    """A standard stream whose reader may go: its words end then, and not the command."""
+
+    def write(self, data) -> int:
+        try:
+            return super().write(data)
+        except BrokenPipeError:
+            return len(data)
+
+
+def open_streams() -> None:
+    """Standard streams that were closed take words and lose them, so that no file gets them that is opened later; of
+    terminals that have few letters, others are written in numbers."""
+    while (opened := os.open(os.devnull, os.O_RDWR)) <= 2:  # the lowest that is free
+        os.set_inheritable(opened, True)
+    os.close(opened)
+    for number, name in ((1, "stdout"), (2, "stderr")):
+        stream = getattr(sys, name)
+        encoding = stream.encoding if hasattr(stream, "encoding") else "utf-8"
+        if stream is None or hasattr(stream, "reconfigure"):
+            buffered = io.BufferedWriter(Unheard(number, "w", closefd=False))
+            setattr(sys, name, io.TextIOWrapper(buffered, encoding=encoding, errors="backslashreplace",
+                                                line_buffering=number == 2 or os.isatty(number)))
+
+
 def begin(name: str) -> str:
     """For the first line of a command: what it is called, and how it ends when it does not end by itself: in one line.
     While it is made ready a signal ends it at once; what nobody thought of has exit status 2."""
@@ -42,7 +68,7 @@ def begin(name: str) -> str:
     def leave(line: str, status: int) -> None:
         try:
             sys.stdout.flush()
-        except OSError:  # nobody reads it
+        except OSError:  # the disk is full
             pass
         try:
             print(f"{told}: {line}", file=sys.stderr, flush=True)
@@ -55,8 +81,6 @@ def begin(name: str) -> str:
         words = " ".join(str(error).split())
         if issubclass(kind, KeyboardInterrupt):
             leave("interrupted", 1)
-        if issubclass(kind, BrokenPipeError):
-            leave("nobody reads what it says any more", 1)
         if issubclass(kind, ModuleNotFoundError) and error.name in NEEDED:
             leave(f"{error}; install python3-{error.name}", 1)
         if issubclass(kind, (OSError, MemoryError)):
@@ -69,14 +93,10 @@ def begin(name: str) -> str:
     def flush() -> None:
         try:
             sys.stdout.flush()
-        except BrokenPipeError:
-            leave("nobody reads what it says any more", 1)
         except OSError as error:
             leave(f"what it says cannot be written: {error.strerror}", 1)
 
-    for stream in (sys.stdout, sys.stderr):
-        if hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="backslashreplace")  # of terminals that have few letters
+    open_streams()
     sys.excepthook = tell
     atexit.register(flush)
     for number in STOPPING:
@@ -97,8 +117,6 @@ def end(name: str, main: Callable, *faults: type, goes_on: bool = False) -> NoRe
     stop_when_terminated()
     try:
         sys.exit(main())
-    except BrokenPipeError:
-        raise  # which `begin` answers
     except (*faults, OSError) as error:
         print(f"{name}: {line_of(error)}", file=sys.stderr)
     except KeyboardInterrupt:

@@ -1,5 +1,7 @@
 #include "common/crowded_node.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <fcntl.h>
 #include <fstream>
@@ -13,6 +15,18 @@ namespace pounding {
 namespace {
 
 constexpr const char* local_size = "OMPI_COMM_WORLD_LOCAL_SIZE";
+
+/// Variables of launchers and of batch systems: without any, a process is a rank of its own.
+constexpr auto launchers =
+    std::to_array<const char*>({local_size, "PMIX_NAMESPACE", "PMI_RANK", "PMI_FD", "SLURM_JOB_ID",
+                                "PBS_JOBID", "LSB_JOBID", "PE_HOSTFILE", "FLUX_JOB_ID"});
+
+/// Whether Open MPI's launcher started all ranks on this node.
+bool is_one_node() {
+  const char* const here = std::getenv(local_size);
+  const char* const all = std::getenv("OMPI_COMM_WORLD_SIZE");
+  return here != nullptr && all != nullptr && std::string(here) == all;
+}
 
 /// Whether a process was started as one of the ranks, or by one: with the variable of ranks.
 bool is_of_a_rank(pid_t process) {
@@ -74,10 +88,21 @@ bool crowded_node() {
 }
 
 void yield_while_waiting() {
-  const char* const here = std::getenv(local_size);
-  const char* const all = std::getenv("OMPI_COMM_WORLD_SIZE");
-  const bool one_node = here != nullptr && all != nullptr && std::string(here) == all;
-  if (one_node || crowded_node()) setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+  if (is_one_node() || crowded_node()) setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+}
+
+void listen_nowhere() {
+  const bool alone = std::ranges::none_of(
+      launchers, [](const char* name) { return std::getenv(name) != nullptr; });
+  if (!alone && !is_one_node()) return;
+  char release[MPI_MAX_LIBRARY_VERSION_STRING];
+  int length = 0;
+  MPI_Get_library_version(release, &length);  // may be called before MPI_Init
+  const bool fourth = std::string(release).starts_with("Open MPI v4");
+  setenv("OMPI_MCA_btl", fourth ? "self,vader" : "self,sm", 0);
+  setenv("OMPI_MCA_pml", "ob1", 0);  // others have networks of their own
+  // A rank without mpirun would start a daemon, which listens; release 5 has none.
+  if (alone) setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
 }
 
 bool NodeLoad::is_above_processors() {

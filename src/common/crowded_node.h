@@ -20,6 +20,12 @@ bool crowded_node();
 /// (OMPI_MCA_mpi_yield_when_idle) stays.
 void yield_while_waiting();
 
+/// Has ranks speak to each other through common memory alone, and listen at no address of the
+/// network, where all of them are on this node: Open MPI's TCP, of one rank as well, would listen
+/// at each. Before MPI_Init. Ranks of several nodes, those of another launcher or of a batch system
+/// keep their network, and so does whoever chose one (OMPI_MCA_btl, OMPI_MCA_pml).
+void listen_nowhere();
+
 /// Whether more threads want to run on this node than it has processors, by the count of the kernel
 /// (/proc/loadavg): a rank that waits should sleep then, since giving its processor away still
 /// leaves it its share. False where that file cannot be read. Local.

@@ -56,6 +56,7 @@ PetscSession::PetscSession(MPI_Comm comm, const std::map<std::string, std::strin
   POUNDING_PETSC(SlepcInitialize(&count_, &words, nullptr, nullptr));
   sigaction(SIGHUP, &hangup, nullptr);
   signal(SIGXFSZ, SIG_IGN);
+  signal(SIGPIPE, SIG_IGN);
   POUNDING_PETSC(PetscOptionsClearValue(nullptr, "-skip_petscrc"));
   PetscBool obeyed = PETSC_FALSE;  // asked for here, so that -options_left does not miss it
   POUNDING_PETSC(PetscOptionsHasName(nullptr, nullptr, "-viewer_binary_skip_info", &obeyed));

@@ -129,7 +129,10 @@ Json without_nothing(const Json& object) {
 }
 
 void print(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
+  std::string shown = text;
+  std::ranges::replace_if(
+      shown, [](unsigned char c) { return (c < ' ' && c != '\n') || c == 0x7f; }, ' ');
+  std::fputs(shown.c_str(), stdout);
 }
 
 }  // namespace pounding

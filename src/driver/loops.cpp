@@ -17,6 +17,7 @@
 #include "common/parallel.h"
 #include "common/types.h"
 #include "driver/element_middle.h"
+#include "driver/facts.h"
 #include "driver/run_statistics.h"
 #include "interactions/laws/hysteretic_law.h"
 #include "io/csv_file.h"
@@ -29,6 +30,8 @@ constexpr int of_section = -2;
 constexpr int of_section_link = -3;
 
 /// A link that an item of the option may mean, as it travels between ranks.
+constexpr double far_point = 10;  ///< of an element from the place that loops_at names [m]
+
 struct Candidate {
   int item = 0;
   int component = 0;
@@ -125,6 +128,11 @@ void keep_nearest(const Loop& loop, int item, std::vector<Candidate>& all) {
       if (link.item != item || !(away < least * (1 - 1e-9))) continue;
       least = away;
       nearest = link.number;
+    }
+    if (least > far_point) {
+      throw UserError(sentence(
+          "option -loops_at: the nearest element of {} is {:.4g} m from ({:.6g}, {:.6g}, {:.6g})",
+          {loop.name, least, point[0], point[1], point[2]}));
     }
     kept.insert(nearest);
   }

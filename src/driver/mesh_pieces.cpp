@@ -213,6 +213,15 @@ std::size_t dofs_of(const GlobalMesh& mesh) {
 /// Cuts the meshes and writes all files. Rank 0.
 void cut_and_write(const Scene& scene, const WholeMeshes& whole, Model& model) {
   const int ranks = scene.write_mesh_pieces;
+  std::size_t elements = 0;
+  for (const GlobalMesh& mesh : whole.meshes) {
+    for (const ElementSet& set : mesh.regions) elements += set.tags.size();
+  }
+  if (static_cast<std::size_t>(ranks) > elements) {
+    throw UserError("option -write_mesh_pieces " + std::to_string(ranks) +
+                    ": more than the meshes have elements, " + std::to_string(elements) +
+                    "; give fewer pieces");
+  }
   const Partition partition = cut_meshes(scene, whole.meshes, model.interface, ranks);
   model.partition_imbalance = partition.imbalance;
   model.partition_edge_cut = partition.edge_cut;

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double level_mat = 1;        ///< height over which nodes of a mat may lie [m]
 constexpr double level_part = 0.1;     ///< or this part of its longer side
+constexpr double long_spring = 5;      ///< between two nodes; a device is shorter [m]
 constexpr double wide_gap = 1;         ///< joints of buildings are narrower [m]
 constexpr double wide_part = 0.05;     ///< and narrower than this part of the model
 constexpr double narrow_floor = 0.15;  ///< extent in plan over that of the widest floor
@@ -37,6 +38,26 @@ void doubt_mat(const Structure& structure, const GlobalMesh& mesh,
       sentence("structure {}: the nodes of its mat on soil, group {}, lie from z = {} to {} m, and "
                "all of them move as one rigid body; -{}_soil_mat takes the group of the mat alone",
                {structure.name, structure.soil->mat, box.low[2], box.high[2], structure.name}));
+}
+
+/// A spring acts along the axes, and gives no moment for its length.
+void doubt_springs(const Structure& structure, const GlobalMesh& mesh,
+                   std::vector<std::string>& doubts) {
+  for (const ElementSet& set : mesh.regions) {
+    if (traits_of(set.type).family != ElementFamily::spring) continue;
+    double longest = 0;
+    for (std::size_t i = 0; i + 1 < set.connectivity.size(); i += 2) {
+      longest = std::max(longest, norm(minus(mesh.position(set.connectivity[i]),
+                                             mesh.position(set.connectivity[i + 1]))));
+    }
+    if (!(longest > long_spring)) continue;
+    std::ostringstream text;
+    text.precision(4);
+    text << "structure " << structure.name << ", group " << set.group << ": a spring of " << longest
+         << " m; it acts along the axes whatever its direction, and its length gives no moment; a "
+            "bar acts along its line, is one meant?";
+    doubts.push_back(text.str());
+  }
 }
 
 /// The two faces of a contact, along their normal.
@@ -189,7 +210,10 @@ std::vector<std::string> place_doubts(const Scene& scene, std::span<const Global
                                       const interactions::Interface& interface,
                                       std::span<const ResolvedProbe> probes) {
   std::vector<std::string> doubts;
-  for (std::size_t s = 0; s < meshes.size(); ++s) doubt_mat(scene.structures[s], meshes[s], doubts);
+  for (std::size_t s = 0; s < meshes.size(); ++s) {
+    doubt_mat(scene.structures[s], meshes[s], doubts);
+    doubt_springs(scene.structures[s], meshes[s], doubts);
+  }
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
     if (scene.contacts[c].primary.is_wall() || scene.contacts[c].stop) continue;
     JointDoubts(scene, meshes, scene.contacts[c], interface.reports[c], interface.model_size)

@@ -83,6 +83,9 @@ class Inputs {
     std::error_code failure;
     if (!std::filesystem::is_regular_file(path, failure)) return;
     if (!std::ifstream(path)) return;  // its reader says so
+    for (const char* of : {"_record", "_target", "_table", "_capacity"}) {
+      if (option.ends_with(of)) require_finite_file(path, "option -" + option + " ", largest_text);
+    }
     const auto read = std::ranges::find(files, path, &InputFile::path);
     const bool named = std::ranges::any_of(
         files, [&](const InputFile& file) { return file.path == path && file.option == option; });
@@ -288,6 +291,7 @@ void try_folder(const std::string& option, const std::string& folder) {
 }
 
 std::vector<std::string> replaced_results(const Scene& scene, const std::string& resolved) {
+  require_finite_file(scene.output + "/resolved.yaml");
   std::ifstream file(scene.output + "/resolved.yaml");
   if (!file || !scene.restart.empty()) return {};
   std::ostringstream text;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "common/byte_texts.h"
 #include "common/version.h"
 #include "io/new_file.h"
 #include "io/schema.h"
@@ -13,6 +14,21 @@ namespace {
 
 double microseconds_per_step(const RunStatistics& run) {
   return 1e6 * run.step_time / static_cast<double>(std::max<std::int64_t>(1, run.steps));
+}
+
+/// A value whose texts and keys JSON can have.
+Json with_readable_texts(const Json& value) {
+  if (value.is_string()) return readable(value.get_ref<const std::string&>());
+  if (!value.is_structured()) return value;
+  Json made = value.is_array() ? Json::array() : Json::object();
+  for (const auto& [key, part] : value.items()) {
+    if (value.is_array()) {
+      made.push_back(with_readable_texts(part));
+    } else {
+      made[readable(key)] = with_readable_texts(part);
+    }
+  }
+  return made;
 }
 
 std::string probe_places(const Scene& scene, const std::vector<ResolvedProbe>& probes) {
@@ -27,7 +43,52 @@ std::string probe_places(const Scene& scene, const std::vector<ResolvedProbe>& p
   return text + sentence("[  ... and {} more probes\n]", {std::max(shown, probes.size()) - shown});
 }
 
+/// The joint that misses most of the width that its mode shapes need.
+std::string joint_needed(const Scene& scene, const Model& model) {
+  const auto worst = std::ranges::max_element(
+      model.separations, {}, [](const Separation& one) { return one.modal - one.gap; });
+  if (worst == model.separations.end()) return "";
+  return sentence("joint needed by response spectrum: {:.4g mm} in {}, where there are {:.4g mm}\n",
+                  {worst->modal, scene.contacts[worst->contact].name, worst->gap});
+}
+
+std::string whether_they_hit(const FinishedRun& run) {
+  if (run.scene.contacts.empty()) return "";
+  const ImpactTotals& all = run.statistics.all_impacts;
+  const auto& impacts = run.impacts.impacts();
+  if (impacts.empty()) {
+    if (run.statistics.closings.empty()) return "they do not hit\n";
+    const auto nearest =
+        std::ranges::max_element(run.statistics.closings, {}, &JointClosing::largest);
+    return sentence(
+        "they do not hit; {} closes most, by {:.4g mm}\n",
+        {run.scene.contacts[static_cast<std::size_t>(nearest - run.statistics.closings.begin())]
+             .name,
+         nearest->largest});
+  }
+  const auto first = std::ranges::min_element(impacts, {}, &Impact::start);
+  return sentence(
+      "they hit: {} impact{}, the first at {:.4g} s in {}, {:.5g} N s in all, at most {:.4g kN} "
+      "over "
+      "{:.3g ms}\n",
+      {all.episodes, all.episodes == 1 ? "" : "s", first->start,
+       run.scene.contacts[first->contact].name, all.total_impulse, all.window_force,
+       run.scene.force_window});
+}
+
 }  // namespace
+
+std::string doubts_again(std::initializer_list<std::span<const std::string>> lists) {
+  constexpr std::size_t shown = 8;
+  std::vector<std::string> lines;
+  for (const auto& list : lists) lines.insert(lines.end(), list.begin(), list.end());
+  if (lines.empty()) return "no doubts\n";
+  std::string text = sentence("doubts, {}:\n", {lines.size()});
+  for (std::size_t i = 0; i < std::min(shown, lines.size()); ++i) {
+    text += "  " + one_line(lines[i]) + "\n";
+  }
+  return text + sentence("[  ... and {} more above\n]", {std::max(shown, lines.size()) - shown});
+}
 
 void print_title(const Scene& scene, const std::string& overrides, int ranks) {
   int major = 0;
@@ -37,8 +98,8 @@ void print_title(const Scene& scene, const std::string& overrides, int ranks) {
   print(sentence(
       "pounding {} ({}), PETSc {}.{}.{}, {} rank{}\n",
       {program_version(), program_commit(), major, minor, subminor, ranks, ranks == 1 ? "" : "s"}));
-  if (!scene.title.empty()) print(scene.title + "\n");
-  if (!overrides.empty()) print("  " + overrides + "\n");
+  if (!scene.title.empty()) print(one_line(scene.title) + "\n");
+  if (!overrides.empty()) print("  " + one_line(overrides) + "\n");
   print(climb_facts(scene));
   print(warning_facts(scene.warnings));
 }
@@ -97,10 +158,13 @@ void print_results(const FinishedRun& run) {
   print("\n");
   print(warning_facts(statistics.warnings));
   print(energy_facts(statistics));
-  print(sentence("\nwall time {:.2f} s, {:.3f} microseconds per step\n",
-                 {statistics.wall_time, microseconds_per_step(statistics)}));
+  print("\n");
   print(phase_facts(statistics.phases));
-  print("results in " + scene.output + "\n");
+  print("\n" + whether_they_hit(run) + joint_needed(scene, run.model));
+  print(doubts_again({scene.warnings, run.model.warnings, statistics.warnings}));
+  print(sentence("wall time {:.2f} s, {:.3f} microseconds per step\n",
+                 {statistics.wall_time, microseconds_per_step(statistics)}));
+  print("results in " + one_line(scene.output) + "\n");
 }
 
 void write_summary(const std::string& path, const FinishedRun& run) {
@@ -152,7 +216,7 @@ void write_summary(const std::string& path, const FinishedRun& run) {
   for (const auto& [name, value] : resolved_values(run.resolved)) {
     facts.values["options"][name] = value;
   }
-  write_whole_file(path, facts.values.dump(1) + '\n');
+  write_whole_file(path, with_readable_texts(facts.values).dump(1) + '\n');
 }
 
 }  // namespace pounding

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <vector>
@@ -40,6 +41,9 @@ struct FinishedRun {
   const std::vector<TargetSpectrum>& capacities;  ///< of equipment, in the order of the scene
   int ranks = 1;
 };
+
+/// The doubts of a run once more, for its end: the first ones, and the number of all.
+std::string doubts_again(std::initializer_list<std::span<const std::string>> lists);
 
 void print_results(const FinishedRun& run);
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "common/byte_texts.h"
 #include "common/vector_unit.h"
 #include "driver/report.h"
 #include "driver/time_step.h"
@@ -84,7 +85,7 @@ Facts warning_facts(std::span<const std::string> lines) {
   Facts facts{Json::array()};
   for (const std::string& line : lines) {
     facts.values.push_back(line);
-    facts.say("warning: {}\n", {line});
+    facts.say("warning: {}\n", {one_line(line)});
   }
   return facts;
 }

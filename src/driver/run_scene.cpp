@@ -131,7 +131,10 @@ RunOutcome run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
   if (scene.dry_run) {
     profile.note_memory(Phase::step);
     const PhaseReport phases = report_phases(comm, profile, model.dofs());
-    if (root) print(phase_facts(phases));
+    if (root) {
+      print(phase_facts(phases));
+      print("\n" + doubts_again({scene.warnings, model.warnings}));
+    }
     return {};
   }
   const double step_start = MPI_Wtime();

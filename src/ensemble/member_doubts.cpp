@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "common/error.h"
 #include "common/parallel.h"
@@ -63,6 +64,22 @@ std::vector<std::string> MemberDoubts::told(const MemberTable& table) const {
     told.push_back(line + " (" + about + ")");
   }
   return told;
+}
+
+std::vector<std::string> repeated_members(const MemberTable& table) {
+  std::map<std::vector<std::string>, std::size_t> first;
+  std::vector<std::string> doubts;
+  std::size_t repeated = 0;
+  for (std::size_t m = 0; m < table.members(); ++m) {
+    std::vector<std::string> values;
+    for (std::size_t c = 0; c < table.columns.size(); ++c) values.push_back(table.value(m, c));
+    const auto [found, is_new] = first.try_emplace(values, m);
+    if (is_new || ++repeated > 1) continue;
+    doubts.push_back(table.place(m) + "the same run as line " +
+                     std::to_string(table.lines[found->second]));
+  }
+  if (repeated > 1) doubts[0] += "; so are " + std::to_string(repeated - 1) + " more";
+  return doubts;
 }
 
 double check_motion(const MemberScene& member, std::vector<std::string>& doubts) {

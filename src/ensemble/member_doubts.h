@@ -29,6 +29,9 @@ class MemberDoubts {
   std::map<std::string, std::vector<std::size_t>> members_;  ///< of a line, increasing
 };
 
+/// The doubt about rows of a table that are the same, in one line; none where all differ.
+std::vector<std::string> repeated_members(const MemberTable& table);
+
 /// Checks the motion of a member, without making synthetic ones: its files and its peaks. Returns
 /// the shortest interval between samples of its motion [s], infinite without one. Throws UserError.
 double check_motion(const MemberScene& member, std::vector<std::string>& doubts);

@@ -120,6 +120,7 @@ class Ensemble {
     for (const Contact& contact : scene_.contacts) layout_.contacts.push_back(contact.name);
     table_ = read_member_table(comm_, read_.ensemble, structures, layout_.contacts);
     layout_.table = &table_;
+    if (root()) print(warning_facts(repeated_members(table_)));
     for (std::size_t m = 0; m < table_.members(); ++m) {
       members_.push_back(read_member(database_, table_, m));
     }

@@ -446,6 +446,12 @@ FidelityEstimate estimate_fidelity(MPI_Comm comm, const Scene& scene, const Mode
 }
 
 std::string without_window(const Scene& scene) {
+  const auto compared = [](double frequency) {
+    return frequency >= compared_bands[0].low && frequency <= compared_bands[0].high;
+  };
+  if (std::ranges::count_if(scene.spectra.frequencies, compared) < 2) {
+    return "fewer than two of -spectra_frequencies are between 1 and 400 Hz";
+  }
   if (!scene.supports.empty()) return "supports move on their own";
   if (scene.motion_from_below) return "the motion comes from below";
   if (!scene.restart.empty()) return "the run before the checkpoint is not at hand";

@@ -32,7 +32,7 @@ class CsvFile {
   void row(const std::string& label, std::initializer_list<double> values) {
     row(label, std::span(values.begin(), values.size()));
   }
-  /// Throws if anything was not written. Standard output stays open.
+  /// Throws if anything was not written and somebody reads it. Standard output stays open.
   void close();
 
  private:

@@ -34,6 +34,7 @@ std::string without_padding(const std::string& text) {
 Hdf5Reader::Hdf5Reader(const std::string& path, Kind kind) : path_(path) {
   prepare_hdf5();
   if (!std::filesystem::is_regular_file(path)) fail("no such file");
+  bytes_ = std::filesystem::file_size(path);
   if (kind == Kind::sealed) check_seal(path);
   if (H5Fis_hdf5(path.c_str()) <= 0) fail("not an HDF5 file, or its beginning is damaged");
   file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -85,6 +86,9 @@ Hdf5Reader::Shape Hdf5Reader::shape(const std::string& dataset) const {
   const int rank = H5Sget_simple_extent_ndims(space.get());
   if (rank != 1 && rank != 2) fail("dataset '" + dataset + "' has not one or two dimensions");
   H5Sget_simple_extent_dims(space.get(), size, nullptr);
+  if (size[0] > bytes_ / std::max<hsize_t>(1, size[1])) {
+    fail("dataset '" + dataset + "' claims more values than the file has bytes: it is damaged");
+  }
   return {size[0], size[1]};
 }
 
@@ -140,6 +144,7 @@ std::vector<std::string> Hdf5Reader::strings(const std::string& dataset) const {
     fail("dataset '" + dataset + "' does not hold strings of fixed length");
   }
   const std::size_t width = H5Tget_size(type.get());
+  if (count * width > bytes_) fail("dataset '" + dataset + "' claims more than the file has");
   std::string block(count * width, '\0');
   if (count > 0 &&
       H5Dread(data.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, block.data()) < 0) {

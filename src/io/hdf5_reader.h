@@ -49,6 +49,7 @@ class Hdf5Reader {
   [[noreturn]] void fail(const std::string& what) const;
 
   std::string path_;
+  std::uintmax_t bytes_ = 0;  ///< of the file when it was opened
   hid_t file_ = -1;
 };
 

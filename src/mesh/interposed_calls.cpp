@@ -1,6 +1,7 @@
 #include "mesh/interposed_calls.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdarg>
 #include <cstdio>
 #include <dlfcn.h>
@@ -37,6 +38,15 @@ void note(const char* name, int descriptor) {
   }
 }
 
+/// Whether a name is that of a pipe, a socket or a device, which a geometry must not wait for.
+bool has_no_end(const char* name) {
+  struct stat state {};
+  if (opened == nullptr || name == nullptr || stat(name, &state) != 0) return false;
+  const std::string path(name);
+  if (path == "/dev/null" || path == "/dev/urandom" || path == "/dev/random") return false;
+  return S_ISFIFO(state.st_mode) || S_ISSOCK(state.st_mode) || S_ISCHR(state.st_mode);
+}
+
 }  // namespace
 
 void note_opened_files() {
@@ -62,6 +72,10 @@ int noted_open(const char* name, int flags, ...) {
   va_start(list, flags);
   const mode_t mode = (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(list, mode_t) : 0;
   va_end(list);
+  if (has_no_end(name)) {
+    errno = ENXIO;
+    return -1;
+  }
   const auto descriptor = static_cast<int>(syscall(SYS_openat, AT_FDCWD, name, flags, mode));
   note(name, descriptor);
   return descriptor;
@@ -70,6 +84,10 @@ int noted_open(const char* name, int flags, ...) {
 std::FILE* noted_fopen(const char* name, const char* mode) {
   static auto* const real =
       reinterpret_cast<std::FILE* (*)(const char*, const char*)>(dlsym(RTLD_NEXT, "fopen"));
+  if (has_no_end(name)) {
+    errno = ENXIO;
+    return nullptr;
+  }
   std::FILE* const stream = real(name, mode);
   if (stream != nullptr) note(name, fileno(stream));
   return stream;

@@ -8,7 +8,8 @@
 /// of Gmsh and of its parts arrive here. Part of the program pounding-mesh only.
 namespace pounding {
 
-/// Begins to note regular files that are opened for reading.
+/// Begins to note regular files that are opened for reading; others, which may have no end, are not
+/// opened any more.
 void note_opened_files();
 
 /// Absolute paths of these files, as they were named, each once, in the order of their opening.

@@ -44,7 +44,9 @@ void read_table(const std::string& load, LoadFunction& function) {
     throw UserError("option -" + load + "_table " + function.file + ", line " +
                     std::to_string(line) + ": " + why);
   };
-  for (const TextLine& line : read_text_lines(function.file)) {
+  std::vector<TextLine> lines = read_text_lines(function.file);
+  replace_decimal_commas(function.file, 1, lines);
+  for (const TextLine& line : lines) {
     if (line.text.empty() || is_comment(line.text)) continue;
     const std::vector<std::string_view> words = split_words(line.text);
     std::vector<double> numbers;

@@ -123,7 +123,7 @@ double rms_of_channels(std::span<const ChannelDistance> channels, std::size_t ba
     sum += channel.rms[band] * channel.rms[band];
     ++count;
   }
-  return count > 0 ? std::sqrt(sum / count) : 0;
+  return count > 0 ? std::sqrt(sum / count) : -1;
 }
 
 std::vector<char> moving_channels(std::span<const std::vector<SpectrumPoint>> spectra) {

@@ -51,7 +51,8 @@ ChannelDistance spectral_distance(const std::string& name, std::span<const Spect
 /// Root of the sum of the squares of two rms, below 0 where one is.
 double joined(double one, double other);
 
-/// Root of the mean square of the channels' rms in a band, of those that have it; 0 without any.
+/// Root of the mean square of the channels' rms in a band, of those that have it; below 0
+/// without any.
 double rms_of_channels(std::span<const ChannelDistance> channels, std::size_t band);
 
 /// Which spectra count, channels of a probe being three that follow one another: the largest value

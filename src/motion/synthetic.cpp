@@ -187,7 +187,9 @@ double TargetSpectrum::at(double f) const {
 TargetSpectrum read_target_spectrum(const std::string& file, const std::string& values) {
   TargetSpectrum target;
   bool names_allowed = true;
-  for (const auto& line : read_text_lines(file)) {
+  std::vector<TextLine> lines = read_text_lines(file);
+  replace_decimal_commas(file, 1, lines);
+  for (const auto& line : lines) {
     if (line.text.empty() || is_comment(line.text)) continue;
     const auto row = parse_row(line);
     if (!row && names_allowed && !parse_number(split_words(line.text)[0])) {

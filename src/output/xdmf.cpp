@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "common/byte_texts.h"
+
 namespace pounding {
 namespace {
 
@@ -16,7 +18,7 @@ std::string numbers(const std::vector<std::size_t>& values) {
 
 std::string escaped(const std::string& text) {
   std::string safe;
-  for (const char letter : text) {
+  for (const char letter : one_line(readable(text))) {
     switch (letter) {
       case '&':
         safe += "&amp;";

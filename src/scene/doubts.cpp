@@ -35,6 +35,8 @@ constexpr Plausible bearing_friction{"sliding_friction", 0, 1, "-",
                                      "it is a coefficient; is it in percent or degrees?"};
 constexpr Plausible soil_velocity{"soil_vs", 20, 5000, "m/s", "is it in km/s?"};
 constexpr Plausible soil_density{"soil_density", 500, 4000, "kg/m3", "is it in t/m3 or kN/m3?"};
+constexpr Plausible soil_embedment{"soil_embedment", 0, 100, "m", "is it in mm?"};
+constexpr Plausible pendulum_radius{"pendulum_radius", 0.3, 50, "m", "is it in mm?"};
 constexpr Plausible delay{"delay", 0, 10, "s", "is it in ms?"};
 constexpr Plausible likely_gravity{"gravity", 1.5, 30, "m/s2", "is it in g or cm/s2?"};
 constexpr Plausible gyration{"radius of gyration", 1e-3, 20, "m",
@@ -86,6 +88,9 @@ class Doubts {
 void look_at_region(const std::string& structure, const Region& region, Doubts& doubts) {
   const std::string owner = structure + ", group " + region.group;
   doubts.look_at(owner, bearing_friction, region.nonlinear.friction);
+  if (region.nonlinear.radius > 0) {
+    doubts.look_at(owner, pendulum_radius, region.nonlinear.radius);
+  }
   if (!has_extent(region.element)) return;
   if (const std::string_view caution = traits_of(region.element).caution; !caution.empty()) {
     doubts.add(owner + ": " + std::string(caution));
@@ -197,6 +202,7 @@ std::vector<std::string> scene_doubts(const Scene& scene) {
       doubts.look_at("structure " + structure.name, soil_velocity,
                      structure.soil->ground.shear_velocity);
       doubts.look_at("structure " + structure.name, soil_density, structure.soil->ground.density);
+      doubts.look_at("structure " + structure.name, soil_embedment, structure.soil->embedment);
     }
     look_at_direction(structure, doubts);
     if (!scene.preload) look_at_gravity(structure, doubts);

@@ -80,10 +80,11 @@ std::vector<Vector3> OptionReader::points(std::string_view pattern, const Names&
 void OptionReader::refuse(std::string_view pattern, const Names& names,
                           const std::string& why) const {
   const std::string shown = shown_value(value(pattern, names));
+  const std::string hint = decimal_comma_hint(shown, option_row(pattern).kind == OptionKind::real);
   throw UserError("option -" + option_name(pattern, names) + " " + shown +
                   (given(pattern, names) ? "" : " (default)") + ": " +
-                  (why.empty() ? "" : why + "; ") + "expected " +
-                  expected_text(option_row(pattern)));
+                  (why.empty() ? "" : why + "; ") + (hint.empty() ? "" : hint + "; ") +
+                  "expected " + expected_text(option_row(pattern)));
 }
 
 void OptionReader::forbid(std::string_view pattern, const Names& names,

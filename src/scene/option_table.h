@@ -144,6 +144,7 @@ inline constexpr Range positive{0, infinity, true, false};
 inline constexpr Range not_negative{0, infinity, false, false};
 inline constexpr Range at_least_1{1, infinity, false, false};
 inline constexpr Range damping_ratio{0, 1, false, true};
+inline constexpr Range patch_count{0, 10000, false, false};
 inline constexpr Range csv_digits{6, 17, false, false};
 
 constexpr Preset value(std::string_view text) {

@@ -62,9 +62,25 @@ std::vector<std::string> split(std::string_view text, char separator) {
   }
 }
 
+bool has_needless_zero(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of("+- \t"), text.size()));
+  return text.size() > 1 && text[0] == '0' && std::isdigit(static_cast<unsigned char>(text[1]));
+}
+
+std::string decimal_comma_hint(std::string_view text, bool one) {
+  const std::vector<std::string> items = split(text, ',');
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const bool is_doubtful = has_needless_zero(items[i]) || (one && i == 1);
+    if (!is_doubtful || !parse_number<double>(items[i])) continue;
+    if (i == 0) return "'" + items[0] + "' begins with a needless zero";
+    return "decimals have a point, is " + items[i - 1] + "." + items[i] + " meant?";
+  }
+  return "";
+}
+
 std::optional<double> parse_real(std::string_view text) {
   const auto number = parse_number<double>(text);
-  return number && std::isfinite(*number) ? number : std::nullopt;
+  return number && std::isfinite(*number) && !has_needless_zero(text) ? number : std::nullopt;
 }
 
 std::optional<int> parse_integer(std::string_view text) {
@@ -99,6 +115,10 @@ std::optional<std::vector<double>> parse_increasing(std::string_view text) {
     return std::nullopt;
   }
   return values;
+}
+
+bool are_of_oscillators(const std::vector<double>& frequencies) {
+  return frequencies.front() >= 1e-6 && frequencies.back() <= 1e6;
 }
 
 std::string upper_case(std::string_view text) {

@@ -14,7 +14,13 @@ std::string trimmed(std::string_view text);
 /// The trimmed pieces between separators; "" is one empty piece.
 std::vector<std::string> split(std::string_view text, char separator);
 
-/// A finite number ("nan", "inf", "1e999" and trailing text are none).
+/// Whether a number begins with a zero and another digit, as the decimals behind a comma may.
+bool has_needless_zero(std::string_view text);
+
+/// The remedy for a value, of one number or a list, in which a comma may be that of decimals; "".
+std::string decimal_comma_hint(std::string_view text, bool one);
+
+/// A finite number without a needless zero ("nan", "inf", "1e999" and trailing text are none).
 std::optional<double> parse_real(std::string_view text);
 
 /// An integer without fraction or exponent, in the range of int.
@@ -29,6 +35,9 @@ std::optional<std::vector<double>> parse_reals(std::string_view text);
 /// "start:stop:COUNTlog", "start:stop:COUNTlin" (ends included exactly) or "f1,f2,...": strictly
 /// increasing finite numbers; a logarithmic range needs start > 0.
 std::optional<std::vector<double>> parse_increasing(std::string_view text);
+
+/// Whether increasing frequencies [Hz] are such that powers of them are numbers: 1e-6 to 1e6.
+bool are_of_oscillators(const std::vector<double>& frequencies);
 
 /// Small letters of the alphabet made capital.
 std::string upper_case(std::string_view text);

@@ -6,9 +6,11 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <set>
 #include <yaml.h>
 
+#include "common/byte_texts.h"
 #include "common/error.h"
 #include "common/parallel.h"
 #include "scene/option_values.h"
@@ -64,6 +66,8 @@ struct Waiting {
 
 constexpr int deepest = 16;                   // mappings inside each other
 constexpr std::size_t most_options = 100000;  // anchors of anchors grow without bound
+constexpr std::size_t most_visits = 1000000;  // of lines, again through each anchor
+constexpr int deepest_brackets = 64;
 
 struct Entry {
   std::string value;
@@ -149,8 +153,10 @@ class Yaml {
   bool loaded_ = false;
 };
 
+/// Bytes of a scalar; YAML has letters alone.
 std::string text_of(const yaml_node_t& scalar) {
-  return {reinterpret_cast<const char*>(scalar.data.scalar.value), scalar.data.scalar.length};
+  return with_plain_bytes(
+      {reinterpret_cast<const char*>(scalar.data.scalar.value), scalar.data.scalar.length});
 }
 
 /// Flattens the mappings of a document.
@@ -167,6 +173,9 @@ class OptionsReader {
     Entries merged;
     const auto& pairs = mapping.data.mapping.pairs;
     for (const yaml_node_pair_t* pair = pairs.start; pair < pairs.top; ++pair) {
+      if (++visits_ > most_visits) {
+        refuse(file_, mapping.start_mark, "anchors hold anchors too many times over");
+      }
       const yaml_node_t& key = *yaml_.node(pair->key);
       const yaml_node_t& value = *yaml_.node(pair->value);
       if (key.type != YAML_SCALAR_NODE || text_of(key).empty()) {
@@ -245,7 +254,28 @@ class OptionsReader {
 
   Yaml& yaml_;
   const std::string& file_;
+  std::size_t visits_ = 0;
 };
+
+/// Refuses brackets inside each other of which the parser would look at each from each other.
+void require_shallow(const std::string& text, const std::string& file) {
+  yaml_parser_t parser{};
+  if (yaml_parser_initialize(&parser) == 0) throw std::bad_alloc();
+  const std::unique_ptr<yaml_parser_t, decltype(&yaml_parser_delete)> freed(&parser,
+                                                                            &yaml_parser_delete);
+  yaml_parser_set_input_string(&parser, reinterpret_cast<const unsigned char*>(text.data()),
+                               text.size());
+  yaml_event_t event{};
+  for (int depth = 0; yaml_parser_parse(&parser, &event) != 0;) {
+    const yaml_event_type_t type = event.type;
+    const yaml_mark_t place = event.start_mark;
+    yaml_event_delete(&event);
+    if (type == YAML_STREAM_END_EVENT) return;
+    if (type == YAML_MAPPING_START_EVENT || type == YAML_SEQUENCE_START_EVENT) ++depth;
+    if (type == YAML_MAPPING_END_EVENT || type == YAML_SEQUENCE_END_EVENT) --depth;
+    if (depth > deepest_brackets) refuse(file, place, "brackets are nested too deep");
+  }
+}
 
 }  // namespace
 
@@ -306,7 +336,10 @@ OptionsDatabase petsc_options(const OptionsDatabase& database) {
   return options;
 }
 
-OptionsDatabase parse_options_file(const std::string& text, const std::string& file) {
+OptionsDatabase parse_options_file(const std::string& bytes, const std::string& file) {
+  const bool is_utf16 = bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff");
+  const std::string text = is_utf16 ? bytes : with_marked_bytes(bytes);
+  require_shallow(text, file);
   Yaml yaml(text, file);
   const yaml_node_t* root = yaml.next();
   if (root == nullptr || (root->type == YAML_SCALAR_NODE && text_of(*root).empty())) {

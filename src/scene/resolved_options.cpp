@@ -14,10 +14,12 @@ namespace {
 std::string quoted(const std::string& value) {
   std::string text = "\"";
   for (const char c : value) {
-    if (c == '\n') {
-      text += "\\n";
-    } else if (c == '\t') {
-      text += "\\t";
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '\n' || c == '\t') {
+      text += c == '\n' ? "\\n" : "\\t";
+    } else if (byte < ' ' || byte == 0x7f) {
+      constexpr const char* digits = "0123456789abcdef";
+      text += std::string("\\x") + digits[byte >> 4U] + digits[byte & 0xfU];
     } else {
       text += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
     }
@@ -67,10 +69,16 @@ std::vector<std::pair<std::string, std::string>> resolved_values(const std::stri
     std::string value = line.substr(colon + 2);
     if (value.size() >= 2 && value.front() == '"' && value.back() == '"') {
       value = value.substr(1, value.size() - 2);
-      // Inside quotes a backslash precedes a quote or another backslash.
+      // A backslash precedes a quote, another backslash, n, t, or x and two digits.
       for (std::size_t at = value.find('\\'); at != std::string::npos;
            at = value.find('\\', at + 1)) {
-        value.erase(at, 1);
+        if (value.compare(at, 2, "\\x") == 0) {
+          value.replace(at, 4, 1,
+                        static_cast<char>(std::stoi(value.substr(at + 2, 2), nullptr, 16)));
+        } else {
+          value.erase(at, 1);
+          if (value[at] == 'n' || value[at] == 't') value[at] = value[at] == 'n' ? '\n' : '\t';
+        }
       }
     }
     std::string name = line.substr(0, colon);

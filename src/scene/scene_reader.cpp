@@ -397,6 +397,9 @@ class SceneReader {
     if (!frequencies || !option_row("spectra_frequencies").range.contains(frequencies->front())) {
       options_.refuse("spectra_frequencies", {});
     }
+    if (!are_of_oscillators(*frequencies)) {
+      options_.refuse("spectra_frequencies", {}, "not between 1e-6 and 1e6 Hz");
+    }
     scene_.spectra.frequencies = *frequencies;
     resolve_frequency(frequencies->back());
     scene_.spectra.peak_frequency = options_.real("peak_frequency");

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 
+#include "common/byte_texts.h"
 #include "common/error.h"
 #include "io/hdf5_reader.h"
 #include "io/schema.h"
@@ -135,6 +137,9 @@ void read_record(const std::string& path, const SpectraOptions& options,
   }
   for (const int column : options.columns) {
     Accelerogram record = read_accelerogram({path, options.unit, options.time_step, column});
+    for (const std::string& doubt : record.doubts) {
+      std::fprintf(stderr, "pounding-spectra: warning: %s\n", one_line(doubt).c_str());
+    }
     const std::string name = column == 0 ? std::filesystem::path(path).stem().string()
                                          : "column" + std::to_string(column);
     NamedSignal& signal = signals.emplace_back();
@@ -176,6 +181,7 @@ std::vector<NamedSignal> read_signals(const SpectraOptions& options) {
     }
   }
   for (NamedSignal& signal : signals) {
+    signal.name = one_line(signal.name);
     std::ranges::replace(signal.name, ',', '_');
     begin_at(options.start, signal);
   }

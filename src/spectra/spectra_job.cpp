@@ -73,6 +73,7 @@ std::vector<TimeWindow> contact_windows(const SpectraOptions& options, const Nam
 
 double time_step_of_run(const NamedSignal& named) {
   const std::string path = named.folder + "/summary.json";
+  require_finite_file(path);
   const auto summary = nlohmann::json::parse(std::ifstream(path), nullptr, false);
   const auto found = summary.is_object() ? summary.find("time_step") : summary.end();
   if (!summary.is_object() || found == summary.end() || !found->is_number()) {

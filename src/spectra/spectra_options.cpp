@@ -66,6 +66,9 @@ std::vector<double> read_frequencies(OptionReader& reader) {
   if (text == "regulatory") return regulatory_frequencies();
   const auto frequencies = parse_increasing(text);
   if (!frequencies || frequencies->front() <= 0) reader.refuse("-frequencies", {});
+  if (!are_of_oscillators(*frequencies)) {
+    reader.refuse("-frequencies", {}, "not between 1e-6 and 1e6 Hz");
+  }
   return *frequencies;
 }
 

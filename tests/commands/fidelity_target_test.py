@@ -75,6 +75,14 @@ class Estimate(unittest.TestCase):
         _, told = self.estimate(words + reduced(("tall", "low"), 1000, 0.5))
         self.assertLess(told["window_rms"]["1-400"], 0.004)
 
+    def test_bands_that_were_not_looked_at(self):
+        words = [*PIERS, *reduced(("tall", "low"), 6, 0.1), "-end_time", 0.6, "-spectra_frequencies"]
+        result = program.must_end(self, [*words, "1:33:30log", "-output", os.path.join(self.folder, "low")])
+        self.assertRegex(result.stdout, r"\n  all that move( +[\d.]+){3} +- +-\n")
+        told = program.summary(os.path.join(self.folder, "low"))["fidelity"]["rms"]
+        self.assertEqual([told["50-150"], told["150-400"]], [None, None])
+        program.must_refuse(self, [*words, "500,600"], "fewer than two of -spectra_frequencies")
+
     def test_ranks_and_repetition(self):
         words = PIERS + reduced(("tall", "low"), 6, 0.2) + ["-end_time", 1]
         told = [self.estimate(words, ranks)[1] for ranks in (1, 2, 2)]

@@ -1,10 +1,11 @@
 """The table of pounding-spectra goes to where the shell points its standard output: behind what is
-there, and never in silence to nowhere."""
+there, and never in silence to nowhere. Words that nobody reads end alone, and not a program or command."""
 import os
 import subprocess
 import tempfile
 import unittest
 
+import program
 from spectra_command import SPECTRA, frequencies, spectra, write_record
 
 
@@ -50,6 +51,44 @@ class StandardOutput(unittest.TestCase):
             self.assertEqual(result.returncode, 1, line)
             if "--help" not in line:
                 self.assertIn("could not be written completely", result.stderr)
+
+
+    def test_an_unread_table_leaves_the_other_whole(self):
+        impacts = os.path.join(self.folder, "impacts.csv")
+        with open(impacts, "w") as file:
+            file.write("contact,start,end\nroof,0.005,0.015\n")
+        words = ["--treatment", "all", "--impacts", impacts, "--dirac-step", "0.001", "--peaks", self.path]
+        reading, writing = os.pipe()
+        os.close(reading)
+        result = subprocess.run([SPECTRA, *self.words, *words], stdout=writing, stderr=subprocess.PIPE, timeout=60)
+        os.close(writing)
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        with open(self.path) as file:
+            self.assertTrue(file.readline().startswith("probe,direction,"))
+
+    def test_a_closed_one_is_an_error(self):
+        result = self.shell('"$0" "$@" >&-')
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("could not be written completely", result.stderr)
+
+    def test_a_limit_of_sizes_leaves_no_table(self):
+        result = self.shell(f'ulimit -f 0; "$0" "$@" --output {self.path}')
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("all.csv: could not be written completely", result.stderr)
+        self.assertFalse(os.path.exists(self.path))
+
+
+class Commands(unittest.TestCase):
+    def test_go_on_where_nobody_reads(self):
+        command = os.path.join(program.SOURCE, "run", "new")
+        for line in ('"$0" two-buildings "$1" >&-', '"$0" two-buildings "$1" 2>&1 >&- | cat',
+                     '{ sleep 0.3; "$0" two-buildings "$1"; echo $? > "$1/status"; } | true'):
+            folder = os.path.join(tempfile.mkdtemp(prefix="pounding-"), "mine")
+            result = subprocess.run(["bash", "-c", line, command, folder], capture_output=True, text=True, timeout=60)
+            self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""), line)
+            self.assertTrue(os.path.exists(os.path.join(folder, "two-buildings.yaml")))
+        with open(os.path.join(folder, "status")) as file:
+            self.assertEqual(file.read(), "0\n")
 
 
 class OutputFiles(unittest.TestCase):

@@ -205,7 +205,7 @@ class Refusals(unittest.TestCase):
         self.refuse(["--dampin", 0.05, self.history], "--dampin", "did you mean damping")
         self.refuse([self.history, "--damping"], "--damping", "needs a value")
         for option, value in (("--damping", "1"), ("--damping", "five"), ("--frequencies", "0,1"),
-                              ("--frequencies", "5,3"), ("--frequencies", "1:9:800"), ("--broaden", "100"),
+                              ("--frequencies", "5,3"), ("--frequencies", "1:9:800"), ("--frequencies", "1e160"), ("--frequencies", "1e-160,1"), ("--broaden", "100"),
                               ("--treatment", "peaks"), ("--columns", "0"), ("--unit", "mm"),
                               ("--frame", "floor"), ("--after", "rest"), ("--margin", "-1"),
                               ("--time-step", "0"), ("--dirac-step", "nan")):
@@ -218,6 +218,14 @@ class Refusals(unittest.TestCase):
         self.refuse([os.path.join(self.folder, "none.AT2")], "none.AT2")
         self.refuse([os.path.join(self.folder, "summary.json")], "summary.json")
         self.refuse([self.history, "--output", "/nowhere/table.csv"], "/nowhere/table.csv")
+
+    def test_rows_that_may_be_columns_are_doubted(self):
+        record = os.path.join(self.folder, "three.txt")
+        with open(record, "w") as file:
+            file.write("dt = 0.02 s, units: cm/s2\n" + "".join(f"{i % 7}.5 {i % 5}.5 -{i % 3}.5\n" for i in range(40)))
+        result = spectra(record, "--frequencies", "2,10", "--treatment", "complete")
+        self.assertEqual(result.returncode, 0)
+        self.assertRegex(result.stderr, "^pounding-spectra: warning: .*rows of 3 values that follow one another, or columns")
 
     def test_channels(self):
         self.refuse([self.history, "--channels", "roof.z"], "roof.z", "did you mean")

@@ -353,6 +353,10 @@ class Refusals(unittest.TestCase):
         program.must_refuse(self, words, "line 3 (member 2)", "-floor2_gap: a gap of -5 m", "cannot be meant")
         self.assertEqual(os.listdir(output), [])
 
+    def test_members_that_are_the_same(self):
+        words = [*SCENE, *MODAL, "-dry_run", "-ensemble", table(["0.01", "0.02", "0.01", "0.01"], "floor1_gap")]
+        self.assertIn("line 4 (member 3): the same run as line 2; so are 1 more", program.must_end(self, words).stdout)
+
     def test_doubts_of_single_runs(self):
         rows = ["0.01,3.5,1", "20,3.5,1", "20,0.3,1", "0.01,0.3,1e-9"]
         words = [*SCENE, *MODAL, "-dry_run", "-ensemble", table(rows, "floor1_gap,motion_x_pga,right_damping_factor")]

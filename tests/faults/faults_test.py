@@ -17,7 +17,7 @@ import h5py
 
 import program
 
-PROCESSORS = 2  # killed ranks
+PROCESSORS = 2  # killed ranks, sockets
 
 TRIES = int(os.environ.get("POUNDING_FAULTS", "3"))
 SECONDS = 60  # a job that has not ended by then hangs, also on a busy machine
@@ -84,6 +84,52 @@ class Job:
     def said(self):
         self.error.seek(0)
         return self.error.read()
+
+
+class Sockets(unittest.TestCase):
+    """What the ranks of this machine listen at, without the variables that run/environment sets."""
+
+    def listening(self, ranks):
+        """Ports at which processes of a run listen at any address, by the name of the process."""
+        folder = tempfile.mkdtemp(prefix="pounding-sockets-")
+        words = program.words([*SMALL, "-output", folder], ranks)
+        plain = {name: value for name, value in program.ENVIRONMENT.items()
+                 if not name.startswith(("OMPI_MCA_btl", "OMPI_MCA_pml", "OMPI_MCA_ess"))}
+        with open(os.path.join(folder, "log"), "w") as log:
+            job = subprocess.Popen(words if ranks > 1 else words[words.index(program.PROGRAM):], cwd=program.SOURCE, env=plain,
+                                   stdout=log, stderr=log, start_new_session=True)
+            try:
+                deadline = time.time() + SECONDS
+                while not os.path.exists(os.path.join(folder, "history.h5")):
+                    self.assertLess(time.time(), deadline)
+                    self.assertIsNone(job.poll())
+                    time.sleep(0.01)
+                return self.sockets_of([job.pid, *ranks_of(job.pid)])
+            finally:
+                os.killpg(job.pid, signal.SIGKILL)
+                job.wait()
+
+    def sockets_of(self, processes):
+        any_address = {}
+        for family in ("tcp", "tcp6"):
+            with open(f"/proc/net/{family}") as table:
+                for row in [line.split() for line in table][1:]:
+                    if row[3] == "0A" and not row[1].startswith("0100007F:"):
+                        any_address[f"socket:[{row[9]}]"] = int(row[1].split(":")[1], 16)
+        found = {}
+        for process in processes:
+            with open(f"/proc/{process}/comm") as file:
+                ports = found.setdefault(file.read().strip(), [])
+            for name in os.listdir(f"/proc/{process}/fd"):
+                target = os.readlink(f"/proc/{process}/fd/{name}")
+                ports += [any_address[target]] if target in any_address else []
+        return found
+
+    def test_one_rank_listens_nowhere(self):
+        self.assertEqual(self.listening(1), {"pounding": []})
+
+    def test_nor_do_two(self):
+        self.assertEqual(self.listening(2)["pounding"], [])  # mpirun itself does
 
 
 class Faults(unittest.TestCase):

@@ -45,7 +45,7 @@ MAY_INCLUDE = {
     "run_job.h": set(),
     "run_job.cpp": {"common", "scene", "ensemble", "run_job.h"},
     "main.cpp": {"common", "io", "run_job.h"},
-    "spectra_main.cpp": {"spectra"},
+    "spectra_main.cpp": {"common", "spectra"},
     "mesh_main.cpp": {"mesh"},
 }
 

@@ -11,6 +11,7 @@ PAGE = os.path.join(program.SOURCE, "docs", "scene.md")
 # Named bounds of the table, in the words of the page; "any" is not written.
 RANGES = {"any": "", "positive": "> 0", "not_negative": ">= 0", "at_least_1": ">= 1", "fraction": "(0, 1]",
           "damping_ratio": "[0, 1)", "uniform_ratio": "[0, 0.3]", "eigen_tolerance": "[1e-10, 0.1]", "filter_count": "[1, 8]", "csv_digits": "[6, 17]",
+          "patch_count": "[0, 10000]",
           "dashpot_power": "[0.01, 2]", "below_1": "[0, 1)", "up_to_1": "[0, 1]",
           "poisson_ratio": "(-1, 0.5)", "soil_poisson": "[0, 0.5)", "Range{1, 2, false, false}": "[1, 2]",
           "Range{0, 10, false, false}": "[0, 10]", "rank_count": "[0, 99999]"}

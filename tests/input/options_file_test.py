@@ -39,6 +39,31 @@ class Files(Options):
     def test_broken_yaml(self):
         self.refuse_text("s1: {mesh: a.geo\n  b: [\n", "line 2, column 4", "not YAML")
 
+    def test_a_kilobyte_that_would_take_for_ever(self):
+        merges = "$$a0: &a0 {courant: 0.9}\n" + "".join(
+            f"$$a{i}: &a{i} {{<<: [{', '.join(['*a' + str(i - 1)] * 9)}]}}\n" for i in range(1, 14)) + "<<: *a13\n"
+        self.assertLess(len(merges), 1100)
+        self.refuse_text(merges, "anchors hold anchors")
+        self.refuse_text("s1: " + "[" * 100000, "line 1, column 68", "nested too deep")
+        self.refuse_text("a: " + "{b: " * 20000, "nested too deep")
+
+    def test_files_without_an_end_or_too_large(self):
+        pipe, large = os.path.join(self.folder, "pipe"), os.path.join(self.folder, "large.txt")
+        os.mkfifo(pipe)
+        with open(large, "wb") as file:
+            file.truncate(60_000_000_000)  # to hash it would take a minute
+        self.refuse(CASE + ["-motion_x_record", large], "-motion_x_record", "holds 60000 MB")
+        for option in ("-options_file", "-include", "-s1_mesh", "-motion_x_record", "-motion_x_target", "-restart",
+                       "-s1_initial_state"):
+            for path in (pipe, "/dev/zero"):
+                self.refuse([*CASE, option, path], path)
+
+    def test_a_geometry_that_names_a_pipe_or_a_device(self):
+        os.mkfifo(os.path.join(self.folder, "pipe.geo"))
+        for named in ("pipe.geo", "/dev/zero"):
+            path = self.file("case.geo", f'Include "{named}";\nPoint(1) = {{0, 0, 0}};\n')
+            self.refuse([*CASE, "-s1_mesh", path, "-s1_mesh_set", "none"], "-s1_mesh", "could not read it")
+
     def test_tab(self):
         self.refuse_text("s1:\n\tmesh: a.geo\n", "line 2, column 1", "a tab")
 

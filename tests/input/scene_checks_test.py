@@ -39,6 +39,8 @@ class Run(unittest.TestCase):
         result = program.must_end(self, ["-output", self.output, *words], timeout=120)
         printed = [line[9:] for line in result.stdout.splitlines() if line.startswith("warning: ")]
         self.assertEqual(program.summary(self.output)["warnings"], printed)
+        again = "".join(f"  {line}\n" for line in printed[:8])
+        self.assertIn(f"doubts, {len(printed)}:\n{again}" if printed else "\nno doubts\n", result.stdout[-3000:])
         return printed
 
     def doubt(self, words, *expected):
@@ -110,6 +112,20 @@ class Probes(Run):
                     "-material_s_poisson", "0", "-material_s_density", "1000", "-m_clamp", "line:y+z",
                     "-m_initial_velocity", "1,0,0", "-end_time", "0.01", "-modes", "0", *PROBE, "3.25,0,0",
                     "-output_interval", "1e-3"], "probe p", "0.25 m away", "1 m")
+
+    def test_a_metre_off_large_elements(self):
+        lines = self.doubts(["-structures", "m", "-m_mesh", "tests/meshes/line.geo", "-m_mesh_set", "length=60,n=6",
+                    "-m_line_element", "bar", "-m_line_area", "1", "-m_line_material", "s", "-material_s_young", "1e9",
+                    "-material_s_poisson", "0", "-material_s_density", "1000", "-m_clamp", "line:y+z",
+                    "-m_initial_velocity", "1,0,0", "-end_time", "0.1", "-modes", "0", *PROBE, "31,0,0",
+                    "-output_interval", "1e-3"])
+        self.assertTrue(any("probe p: its node is 1 m away" in line for line in lines), lines)
+
+    def test_a_spring_of_ten_metres(self):
+        path = os.path.join(self.folder, "chain.geo")
+        with open(path, "w") as file, open(os.path.join(program.SOURCE, "tests/meshes/chain.geo")) as chain:
+            file.write(chain.read().replace("{2, 0, 0}", "{11, 0, 0}"))
+        self.doubt([*CHAIN, "-m_mesh", path, *PROBE, "1,0,0"], "group link2: a spring of 10 m", "bar")
 
     def test_far_within_five_percent_of_the_extent(self):
         self.refuse(["-structures", "m", "-m_mesh", "tests/meshes/line.geo", "-m_mesh_set", "length=100,n=100",

@@ -67,6 +67,11 @@ class WrongInput(unittest.TestCase):
     def test_not_a_number_in_an_option(self):
         self.refuse(CASE + ["-end_time", "nan"], "-end_time", "nan")
 
+    def test_decimal_commas(self):
+        for option, value in (("-floor1_gap", "0,05"), ("-floor1_gap", "0,00"), ("-s1_gravity", "0,05,-9,81"),
+                              ("-spectra_damping", "0,02"), ("-courant", "0,9")):
+            self.refuse(CASE + [option, value], option, f"decimals have a point, is {value[:4].replace(',', '.')}")
+
     def test_not_a_number_in_the_record(self):
         path = self.with_file("0.0 0.0\n0.01 0.1\n0.02 nan\n0.03 0.0\n")
         self.refuse(CASE + ["-motion_x_record", path, "-motion_x_unit", "g"], path, "3")

@@ -173,6 +173,7 @@ int main(int count, char** words) {
   }
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   pounding::yield_while_waiting();
+  pounding::listen_nowhere();
   pounding::prepare_hdf5();
   MPI_Init(&count, &words);
   {

@@ -12,10 +12,14 @@ import unittest
 
 import program
 
-PROCESSORS = 2  # words while ranks run, on a terminal
+PROCESSORS = 2  # words while ranks run, on a terminal, and read by nobody
 
 CASE = ["-options_file", "petsc-options/plant/frames.yaml", "-end_time", "0.02", "-modes", 1, "-dry_run",
         "-a_mesh_set", "size=2,bays_x=4", "-b_mesh_set", "size=2,bays_x=3,x_offset=24.05,face_at_end=0"]
+SMALL = ["-structures", "bar", "-bar_mesh", "tests/meshes/box.geo", "-bar_body_element", "hex8_full",
+         "-bar_body_material", "soft", "-material_soft_young", 900, "-material_soft_poisson", 0.2, "-material_soft_density", 1,
+         "-bar_damping_beta", 1e-4, "-bar_gravity", "0,0,-10", "-contacts", "stop", "-stop_secondary", "bar:z_min",
+         "-stop_primary", "wall", "-stop_gap", 0.5, "-end_time", 1]
 PHASES = ("a: mesh", "b: mesh", "a: lowest modes", "a: largest frequency and stable time step",
           "a: bounds of the gap rates")
 
@@ -24,6 +28,31 @@ def phases(text):
     """The phases that printed progress, and how many times each of them ended."""
     found = re.findall(r"^  (\S.*?): \d+\.\d s(?:, (?!done)[^,\n]+)?(, done)?$", text, re.MULTILINE)
     return {name: sum(1 for other, done in found if other == name and done) for name, _ in found}
+
+
+class Unheard(unittest.TestCase):
+    """The words of a run end where nobody reads them, and not the run."""
+
+    def ends_well(self, ranks, wrapped=(), lines=1):
+        folder = tempfile.mkdtemp(prefix="pounding-")
+        words = program.words([*SMALL, "-progress_interval", 1e-5, "-output", folder], ranks)
+        words = words if ranks > 1 else words[words.index(program.PROGRAM):]
+        with subprocess.Popen([*wrapped, *words], cwd=program.SOURCE, env=program.ENVIRONMENT, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True) as run:
+            for _ in range(lines):
+                run.stdout.readline()
+            run.stdout.close()
+            self.assertEqual((run.stderr.read(), run.wait(60)), ("", 0))
+        self.assertIn("started", program.summary(folder))
+
+    def test_after_a_line(self):
+        self.ends_well(1)
+
+    def test_after_a_line_of_two_ranks(self):
+        self.ends_well(2)
+
+    def test_closed_from_the_start(self):
+        self.ends_well(1, ["bash", "-c", 'exec "$0" "$@" >&- <&-'], 0)
 
 
 class Progress(unittest.TestCase):

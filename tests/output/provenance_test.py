@@ -8,12 +8,18 @@ import hashlib
 import os
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
 
 import numpy
 
 import program
+
+sys.path.insert(0, os.path.join(program.SOURCE, "python"))
+from pounding.scenes import read_scene  # noqa: E402
+
+LATIN = b"K\xf6ln".decode(errors="surrogateescape")
 
 SAMPLES = [0.0, 0.5, -1.0, 2.5, 1.0, 0.0]  # m/s2
 STEP = 0.02
@@ -41,12 +47,36 @@ probes: post
 
     def write(self, name, text):
         path = os.path.join(self.folder, name)
-        with open(path, "w") as file:
+        with open(path, "w", errors="surrogateescape") as file:
             file.write(text)
         return path
 
     def run_case(self, *words, ranks=1):
         return program.must_run(self, ["-options_file", self.scene, *words], ranks)[1]
+
+    def test_names_are_bytes(self):
+        """Folder, mesh, record, title and output in Latin-1, and a title that a terminal would obey."""
+        self.folder = os.path.join(self.folder, LATIN)
+        os.mkdir(self.folder)
+        self.write(f"{LATIN}.geo", "Point(1) = {0, 0, 0};\nPoint(2) = {1, 0, 0};\nLine(1) = {1, 2};\n"
+                   'Transfinite Curve {1} = 3;\nPhysical Curve("post") = {1};\nPhysical Point("foot") = {1};\n')
+        self.write(f"{LATIN}.txt", "".join(f"{value}\n" for value in SAMPLES))
+        with open(self.scene) as file:
+            text = file.read().replace("include: parts.yaml", f"include: {os.path.dirname(self.folder)}/parts.yaml")
+        self.write("case.yaml", text.replace("stick.geo", f"{LATIN}.geo").replace("record.txt", f"{LATIN}.txt")
+                   .replace("A post, 1 m", f"{LATIN}"))
+        out = os.path.join(self.folder, LATIN)
+        first = program.launch(["-options_file", "case.yaml", "-output", out], folder=self.folder)
+        self.assertEqual(first.returncode, 0, ascii(first.stderr))
+        told = program.summary(out)
+        self.assertEqual((told["title"], os.path.basename(told["machine"]["folder"])), ("K\xf6ln", "K\xf6ln"))
+        self.assertIn("K\xf6ln.txt", [os.path.basename(one["file"]) for one in told["inputs"]])
+        resolved = os.path.join(out, "resolved.yaml")
+        self.assertEqual(read_scene(resolved)["title"], LATIN)
+        again = program.launch(["-options_file", resolved, "-title", "a\033[31m\nb", "-output", out + "2"], folder=self.folder)
+        self.assertEqual(again.returncode, 0, ascii(again.stderr))
+        self.assertIn("\na [31m b\n", again.stdout)
+        self.assertEqual(read_scene(os.path.join(out + "2", "resolved.yaml"))["title"], "a\033[31m\nb")
 
     def test_every_input_has_the_hash_of_its_content(self):
         names = ("case.yaml", "parts.yaml", "stick.geo", "points.geo", "record.txt")

@@ -7,6 +7,7 @@
 int main(int count, char** words) {
   testing::InitGoogleTest(&count, words);
   pounding::yield_while_waiting();
+  pounding::listen_nowhere();
   SlepcInitialize(&count, &words, nullptr, nullptr);
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);

@@ -237,6 +237,8 @@ class Refused(unittest.TestCase):
         program.must_refuse(self, [*self.SCENE, "-write_mesh_pieces", 2], "-write_mesh_pieces", "-mesh_pieces")
         program.must_refuse(self, [*self.SCENE, "-mesh_pieces", self.pieces, "-write_mesh_pieces", 2, "-dry_run"],
                             "not with -dry_run")
+        program.must_refuse(self, [*self.SCENE, "-mesh_pieces", self.place + "/many", "-write_mesh_pieces", 99999],
+                            "-write_mesh_pieces 99999: more than the meshes have elements")
         self.refuse(self.pieces, "a structure is reduced", more=["-frame_model", "modal", "-frame_modal_vectors", 5])
 
     def test_a_run_on_pieces_continues_one_on_whole_meshes(self):

@@ -3,6 +3,7 @@ import os
 import shutil
 import tempfile
 import unittest
+import zlib
 
 import h5py
 import numpy
@@ -262,6 +263,21 @@ class Refusals(RestartCase):
 
     def test_the_original_is_accepted(self):
         self.complete([*self.CASE, "-restart", checkpoint(self.copy())])
+
+    def test_sealed_but_of_more_rows_than_the_file_has_bytes(self):
+        def claim(group):
+            def change(file):
+                name, data = next(iter(file[group].items()))
+                del file[group][name]
+                file[group].create_dataset(name, (10**10, *data.shape[1:]), "f8", chunks=(1000, *data.shape[1:]))
+            return change
+
+        for group in ("tables", "sums"):
+            folder = self.copy(claim(group), seal=False)
+            data = content(folder, "checkpoint.h5")[512:]
+            seal = f"pounding seal 1\nbytes {len(data)}\ncrc32 {zlib.crc32(data):08x}\n".encode().ljust(512, b"\0")
+            self.write(folder, "checkpoint.h5", seal + data)
+            self.refuse(folder, ["claims more values than the file has bytes"])
 
     def test_no_such_file(self):
         self.refuse(self.copy(), ["no such file"], name="nothing.h5")

@@ -303,7 +303,8 @@ RecordContent read_record_content(const std::string& file, const std::vector<Tex
                             content.header.number_of_values().has_value());
     std::string_view names = lines[i].text;
     if (is_comment(names)) names.remove_prefix(names.find_first_not_of("%;#!* \t"));
-    for (const auto name : split_words(names)) content.names.emplace_back(name);
+    const bool says = names.find_first_of(":=") != std::string_view::npos;  // "units: g" names none
+    for (const auto name : split_words(says ? "" : names)) content.names.emplace_back(name);
     break;
   }
   if (content.names.size() != columns) content.names.clear();

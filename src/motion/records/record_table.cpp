@@ -20,6 +20,9 @@ bool is_table(const RecordContent& content, int column) {
   const std::size_t width = rows[0].values.size();
   if (column > 0) return true;
   if (width == 1) return false;
+  const bool equal = std::ranges::all_of(
+      rows, [width](const NumberRow& row) { return row.values.size() == width; });
+  if (width <= columns_in_doubt && equal && !content.names.empty()) return true;
   long long total = 0;
   for (const auto& row : rows) total += static_cast<long long>(row.values.size());
   const long long announced = content.header.number_of_values().value_or(0);
@@ -117,15 +120,48 @@ bool is_time(const std::string& name) {
   return name.find_first_of("tT") < 2;  // time, Time, "t
 }
 
+/// Whether a column may be that of the times: it grows, but for a few lines gone wrong.
+bool grows(const std::vector<NumberRow>& rows, std::size_t column) {
+  std::size_t falls = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    falls += rows[i].values[column] > rows[i - 1].values[column] ? 0 : 1;
+  }
+  return falls <= std::max<std::size_t>(1, rows.size() / 5) &&
+         rows.back().values[column] > rows[0].values[column];
+}
+
+bool grows_evenly(const std::vector<NumberRow>& rows) {
+  const double whole = rows.back().values[0] - rows[0].values[0];
+  const double step = whole / static_cast<double>(rows.size() - 1);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const double here = rows[i].values[0] - rows[i - 1].values[0];
+    if (!(here > step / 2 && here < 2 * step)) return false;
+  }
+  return rows.size() > 2;
+}
+
 // The column of the times, from 1; 0: there is none.
 int time_column(const RecordContent& content) {
   const std::size_t width = content.rows[0].values.size();
   for (std::size_t i = 0; i < content.names.size() && width > 1; ++i) {
-    if (is_time(content.names[i])) return static_cast<int>(i) + 1;
+    if (is_time(content.names[i]) && grows(content.rows, i)) return static_cast<int>(i) + 1;
   }
-  if (width < 2 || !content.names.empty()) return 0;
-  if (!counts_rows(content.rows)) return 1;
-  return width > 2 ? 2 : 0;
+  if (width < 2) return 0;
+  const bool counted = counts_rows(content.rows);
+  if (!content.names.empty()) return !counted && grows_evenly(content.rows) ? 1 : 0;
+  if (counted) return width > 2 && grows(content.rows, 1) ? 2 : 0;
+  return grows(content.rows, 0) ? 1 : 0;
+}
+
+/// "1, 2 or 4": the columns that are not the time.
+std::string columns_to_give(int width, int time) {
+  std::string text;
+  for (int column = 1; column <= width; ++column) {
+    if (column == time) continue;
+    const bool last = column == width || (column + 1 == width && time == width);
+    text += (text.empty() ? "" : last ? " or " : ", ") + std::to_string(column);
+  }
+  return text;
 }
 
 std::string columns_text(const RecordContent& content, int time) {
@@ -142,8 +178,8 @@ RecordValues read_table(const RecordedMotion& motion, const RecordContent& conte
   require_equal_rows(motion.file, rows);
   const int width = static_cast<int>(rows[0].values.size());
   const int time = time_column(content);
-  const std::string range = "give column: 1 to " + std::to_string(width);
-  if (motion.column == 0 && width > 2) {
+  const std::string range = "give column: " + columns_to_give(width, time);
+  if (motion.column == 0 && (width > 2 || (time == 0 && !counts_rows(rows)))) {
     throw UserError(at_line(motion.file, rows[0].line) + columns_text(content, time) +
                     "; which one holds the acceleration? " + range);
   }

@@ -15,8 +15,6 @@
 namespace pounding {
 namespace {
 
-constexpr std::uintmax_t largest_text = 512'000'000;  // bytes
-
 constexpr std::string_view blanks = " \t\r\f\v";
 
 std::string_view trim(std::string_view text) {

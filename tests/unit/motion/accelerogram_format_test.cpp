@@ -191,6 +191,21 @@ TEST_F(AccelerogramFormat, DecimalCommas) {
   expect("dt = 0,02 s; cm/s2\n0,00E+00\n8,00E-02\n-1,40E-01\n2,30E-01\n", 0.02, values, 0.01);
 }
 
+TEST_F(AccelerogramFormat, TimesInOtherLanguages) {
+  const std::vector<double> values{0.5, 0.08, -0.14, 0.23};
+  expect("Zeit (s);a (m/s2)\n0,00;0,50\n0,02;0,08\n0,04;-0,14\n0,06;0,23\n", 0.02, values, 1);
+  expect("sec,m/s2\n0.00,0.50\n0.02,0.08\n0.04,-0.14\n0.06,0.23\n", 0.02, values, 1);
+}
+
+TEST_F(AccelerogramFormat, AColumnOfComponentsWithoutTimes) {
+  const std::string rows =
+      "0.01 -1.4 -0.3\n0.04 1.8 0.2\n0.05 -1.8 1.8\n5.5 0.9 -4.1\n-4.4 7.4 0.9\n-11 -0.5 -7.4\n";
+  for (const std::string head : {"dt = 0.02 s, units: cm/s2\n", "dt = 0.02 s\nN E Z\n"}) {
+    expect(head + rows, 0.02, {0.01, 0.04, 0.05, 5.5, -4.4, -11}, 0.01, options("cm/s2", 0, 1));
+    expect(head + rows, 0.02, {-1.4, 1.8, -1.8, 0.9, 7.4, -0.5}, 0.01, options("cm/s2", 0, 2));
+  }
+}
+
 TEST_F(AccelerogramFormat, TimesRoundedToMilliseconds) {
   std::string text = "t [s], a [m/s2]\n";
   std::vector<double> values;

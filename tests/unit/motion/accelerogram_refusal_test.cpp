@@ -84,9 +84,24 @@ TEST_F(AccelerogramRefusal, CountsAndStepsThatCannotBe) {
 TEST_F(AccelerogramRefusal, SeveralColumnsOfWhichNoneIsAsked) {
   EXPECT_THAT(refused("time,acc,vel,disp\n0,1,2,3\n0.1,2,3,4\n0.2,3,4,5\n", "m/s2"),
               AllOf(HasSubstr("4 columns (time, acc, vel, disp)"), HasSubstr("time in column 1"),
-                    HasSubstr("give column: 1 to 4")));
+                    HasSubstr("give column: 2, 3 or 4")));
   EXPECT_THAT(refused("0 1 2 3\n0.1 2 3 4\n0.2 3 4 5\n", "m/s2"), HasSubstr("give column"));
   EXPECT_THAT(refused("1 0 1\n2 0.05 2\n3 0.1 3\n", "m/s2"), HasSubstr("time in column 2"));
+}
+
+/// A column is no time because it is the first, nor a name of a component one of a time.
+TEST_F(AccelerogramRefusal, ComponentsWithoutTimes) {
+  const std::string head = "dt = 0.02 s, units: cm/s2\n";
+  const std::string two =
+      "3.0 11.8\n3.1 13.8\n2.6 15.3\n1.2 16.0\n-1.2 15.6\n-4.9 13.8\n-9.9 10.4\n";
+  for (const std::string names : {"NS EW\n", "R T\n", ""}) {
+    EXPECT_THAT(refused(head + names + two, ""),
+                AllOf(HasSubstr("none of them a time"), HasSubstr("give column: 1 or 2")))
+        << names;
+  }
+  const std::string three =
+      "3.0 11.8 0.1\n3.1 13.8 0.2\n2.6 15.3 0.3\n1.2 16.0 0.2\n-1.2 15.6 0.1\n";
+  EXPECT_THAT(refused(head + "N-S E-W U-D\n" + three, ""), HasSubstr("give column: 1, 2 or 3"));
 }
 
 TEST_F(AccelerogramRefusal, TimesThatAreNotSeconds) {

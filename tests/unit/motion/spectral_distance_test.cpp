@@ -37,7 +37,7 @@ TEST(SpectralDistance, BandsWithoutTwoFrequenciesCountForNothing) {
   const ChannelDistance distance = spectral_distance("roof.x", two, two);
   EXPECT_EQ(distance.rms[1], 0);
   EXPECT_LT(distance.rms[4], 0);
-  EXPECT_EQ(rms_of_channels({&distance, 1}, 4), 0);
+  EXPECT_LT(rms_of_channels({&distance, 1}, 4), 0);
 }
 
 TEST(SpectralDistance, ChannelsCountAlike) {

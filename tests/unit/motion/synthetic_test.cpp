@@ -145,6 +145,9 @@ TEST_F(Synthetic, SeedDecidesTheMotionToTheBit) {
 TEST_F(Synthetic, TargetReadsEitherOrderWithCommentsAndNames) {
   const auto up =
       read_target_spectrum(write("up.csv", "# shape\nHz,PSA/PGA\n1, 1\n10, 3\n30, 1\n"));
+  const auto commas = read_target_spectrum(write("commas.csv", "Hz;PSA/PGA\n1,5;1\n10;3,25\n"));
+  EXPECT_EQ(commas.frequency, (std::vector<double>{1.5, 10}));
+  EXPECT_EQ(commas.ratio, (std::vector<double>{1, 3.25}));
   const auto down = read_target_spectrum(write("down.csv", "30;1\r\n10;3\r\n# middle\r\n\r\n1;1"));
   EXPECT_EQ(up.frequency, (std::vector<double>{1, 10, 30}));
   EXPECT_EQ(up.ratio, (std::vector<double>{1, 3, 1}));

@@ -73,6 +73,16 @@ TEST(SceneDoubts, OneLineForEachWrongUnit) {
   expect_one([](Structure& s) { s.regions[1].thickness = 200; },
              "structure tower, group slab: thickness 200 m");
   expect_one([](Structure& s) { s.regions[2].area = 117; }, "group brace: area 117 m2");
+  expect_one([](Structure& s) { s.regions[3].nonlinear.radius = 2500; },
+             "group machine: pendulum_radius 2500 m");
+  expect_one(
+      [](Structure& s) {
+        s.soil.emplace();
+        s.soil->ground.shear_velocity = 300;
+        s.soil->ground.density = 2000;
+        s.soil->embedment = 1e4;
+      },
+      "soil_embedment 10000 m");
   // A material that two groups share is named once.
   expect_one(
       [](Structure& s) {

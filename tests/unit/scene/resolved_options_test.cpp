@@ -141,6 +141,7 @@ TEST(ResolvedOptions, SplitIntoNamesAndValues) {
   ASSERT_EQ(values.size(), 2u);
   EXPECT_EQ(values[0], std::make_pair(std::string("end_time"), std::string("25")));
   EXPECT_EQ(values[1].second, "a: \"b\" \\ c");
+  EXPECT_EQ(resolved_values("title: \"a\\n\\tb\\x1b\\\\n\"\n")[0].second, "a\n\tb\x1b\\n");
 }
 
 TEST(ResolvedOptions, AwkwardTextReadsBackAlike) {
