@@ -236,8 +236,15 @@ class CrackingShells final : public interactions::ElementLaw {
 /// cannot be. Local.
 Law cracking_shells(const Structure& structure, const Mesh& mesh, int region) {
   const Region& own = structure.regions[region];
-  const CrackingShell shell(own.material.young, own.material.poisson, own.thickness,
-                            *own.yielding_shell.cracking);
+  const ShellCracking law =
+      CrackingShell::with_slopes(*own.yielding_shell.cracking, own.material.poisson);
+  if (!(law.tension < 1)) {
+    throw UserError(
+        "option -" + structure.name + "_" + own.group +
+        "_cracked_tension: more than is left beside its cracked_compression; give less, "
+        "or more of that");
+  }
+  const CrackingShell shell(own.material.young, own.material.poisson, own.thickness, law);
   auto shells = std::make_shared<CrackingShells>(shell, own.thickness);
   for_each_of_region(structure, mesh, region,
                      [&](ElementType type, const auto& x, const auto& properties) {

@@ -1,15 +1,17 @@
 """Shells that crack by damage, through the program: one element thrown in tension, bending and shear against its closed
 form, published values of Code_Aster, walls against linear ones, ranks, rests, continued runs.
 
-Without lateral contraction the force of a strip in tension has two slopes over its strain, as the moment has when it is
-bent to a cylinder; in shear the tensioned diagonal softens and the other one does not.
+Slopes are those of a strip that may contract across. Without lateral contraction its force in tension has two slopes over
+its strain, as the moment has when it is bent to a cylinder; in shear the tensioned diagonal softens and the other one does not.
 """
+import os
 import tempfile
 import unittest
 
 import numpy
 
 import program
+from input.corpus.meshes import document
 from loops_test import Loops
 from recorded import Recorded, assert_continues
 from yielding_shells_test import THICKNESS, YOUNG, wall
@@ -35,6 +37,46 @@ def turn_of(mass, speed, stiffness, first, ratio):
     left = mass * speed**2 / 2 - force * first / 2
     slope = ratio * stiffness
     return first + (-force + (force**2 + 2 * slope * left)**0.5) / slope
+
+
+def ratios(poisson):
+    """What stays of membrane and bending energy, with which a strip that is free across has the slopes of CRACKS: the roots
+    of s (1 + nu) (1 + 2 p g) = g (1 + p + 2 p g), p = nu / (1 - 2 nu), and s (1 + nu) (1 - nu + nu g) = g (1 + nu g)."""
+    p, pulled, bent = poisson / (1 - 2 * poisson), CRACKS["tension"] * (1 + poisson), CRACKS["bending"] * (1 + poisson)
+    return (max(numpy.roots([2 * p, 1 + p - 2 * p * pulled, -pulled])),
+            max(numpy.roots([poisson, 1 - bent * poisson, -bent * (1 - poisson)])))
+
+
+class Strip(unittest.TestCase):
+    """A square element, held along one edge and free to contract and to curve along it, at rest under loads on the other."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.mesh = os.path.join(tempfile.mkdtemp(), "strip.msh")
+        with open(cls.mesh, "w") as file:
+            file.write(document({1: (0, 0, 0), 2: (1, 0, 0), 3: (1, 1, 0), 4: (0, 1, 0)},
+                                [(1, 3, 1, (1, 2, 3, 4)), (2, 1, 2, (1, 4)), (3, 15, 3, (1,)), (4, 1, 4, (2, 3))],
+                                {1: (2, "slab"), 2: (1, "root"), 3: (0, "pin"), 4: (1, "tip")}))
+
+    def at_rest(self, poisson, what, value):
+        words = ["-structures", "w", "-w_mesh", self.mesh, "-w_slab_element", "shell", "-w_slab_material", "concrete",
+                 "-w_slab_thickness", THICKNESS, "-material_concrete_young", YOUNG, "-material_concrete_poisson", poisson,
+                 "-material_concrete_density", 2400, "-w_clamp", "root:x+z+ry,pin:y+rz", "-preload", "static", "-loads", "pull",
+                 "-pull_on", "w:tip", f"-pull_{what}", value, "-probes", "tip", "-tip_structure", "w", "-tip_group", "tip",
+                 "-end_time", 1e-5]
+        return Recorded(self, [str(word).replace("w_wall", "w_slab") for word in [*words, *cracking()]], identity=1)
+
+    def test_slopes_at_any_poisson_ratio(self):
+        pulled, bent = CRACKS["force"] / (YOUNG * THICKNESS), 6 * CRACKS["moment"] / (YOUNG * THICKNESS**3)
+        for poisson in (0, 0.2, 0.3):
+            x = [self.at_rest(poisson, "force", f"{n * CRACKS['force'] / 2!r},0,0").displacement("tip.x")[0] for n in (2, 3)]
+            self.assertAlmostEqual(pulled / (x[1] - x[0]) / CRACKS["tension"], 1, delta=2e-3)
+            z = [self.at_rest(poisson, "moment", f"0,{-n * CRACKS['moment'] / 2!r},0").displacement("tip.z")[0] for n in (2, 3)]
+            self.assertAlmostEqual(bent / (z[1] - z[0]) / CRACKS["bending"], 1, delta=2e-2)
+
+    def test_more_than_pressure_leaves_is_refused(self):
+        program.must_refuse(self, wall(*cracking(tension=0.99), "-w_wall_cracked_compression", 0.2, skeleton=None),
+                            "-w_wall_cracked_tension", "beside its cracked_compression")
 
 
 class OneElement(unittest.TestCase):
@@ -63,11 +105,12 @@ class OneElement(unittest.TestCase):
         strain, stress = run.elongation[:, 0], run.force[:, 0]
         mu = YOUNG / (2 * (1 + poisson)) * THICKNESS
         lame = YOUNG * poisson / ((1 + poisson) * (1 - 2 * poisson)) * THICKNESS
-        kept = 1 - CRACKS["tension"]
+        tension, _ = ratios(poisson)
+        kept = 1 - tension
         threshold = kept / 4 * (CRACKS["force"] / (YOUNG * THICKNESS))**2 * (lame * (1 - 2 * poisson)**2 + 2 * mu)
         damage = numpy.maximum(0, (mu * kept * strain**2 / 8 / threshold)**0.5 - 1)
         self.assertGreater(damage.max(), 10)
-        left = (1 + CRACKS["tension"] * damage) / (1 + damage)
+        left = (1 + tension * damage) / (1 + damage)
         expected = mu / THICKNESS * strain * (left + 1) / 2
         self.assertLess(abs(stress - expected).max(), 1e-10 * abs(expected).max())
 
@@ -87,7 +130,7 @@ class OneElement(unittest.TestCase):
         mu, lame = YOUNG / (2 * (1 + poisson)) * part, YOUNG * poisson / (1 - poisson**2) * part
         first = CRACKS["moment"] / (lame * (1 - poisson) + 2 * mu) * (
             (lame / 2 * (1 - poisson)**2 + mu) / (lame / 2 + mu))**0.5
-        top = turn_of(4 * inertia * rate**2 / 9, 1, lame + 2 * mu, first, CRACKS["bending"])
+        top = turn_of(4 * inertia * rate**2 / 9, 1, lame + 2 * mu, first, ratios(poisson)[1])
         self.assertGreater(top, 3 * first)
         self.assertAlmostEqual(run.summary["yielding"]["w:wall:cracking"]["ductility"] / (top / first), 1, delta=1e-4)
 

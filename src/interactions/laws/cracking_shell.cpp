@@ -39,6 +39,12 @@ double square(double x) {
   return x * x;
 }
 
+/// The positive root of a x^2 + b x = c, a >= 0, c >= 0.
+double rising_root(double a, double b, double c) {
+  const double root = std::sqrt(b * b + 4 * a * c);
+  return b > 0 ? 2 * c / (b + root) : (root - b) / (2 * a);
+}
+
 }  // namespace
 
 /// Parts of -d psi / d damage that strains make.
@@ -68,6 +74,19 @@ CrackingShell::CrackingShell(double young, double poisson, double thickness,
   const double curvature = cracking.moment / (lambda_f_ * (1 - poisson) + 2 * mu_f_);
   alpha_ = (1 - bending_) * square(curvature) / threshold_ *
            (lambda_f_ / 2 * square(1 - poisson) + mu_f_);
+}
+
+ShellCracking CrackingShell::with_slopes(ShellCracking law, double poisson) {
+  if (poisson == 0) return law;
+  // With large damages xi is g along the strip, c across, and 1 through the thickness; strains across
+  // follow from no force there, so s (1 + nu) = g (1 + p / (1 + p g (1 + 1 / c))).
+  const double p = poisson / (1 - 2 * poisson), c = law.compression;
+  const double pulled = law.tension * (1 + poisson);
+  law.tension = rising_root(p * (1 + c), c * (1 + p) - pulled * p * (1 + c), pulled * c);
+  // The other face stays sound: s (1 + nu) (1 - nu + nu g) = g (1 + nu g).
+  const double bent = law.bending * (1 + poisson);
+  law.bending = rising_root(poisson, 1 - bent * poisson, bent * (1 - poisson));
+  return law;
 }
 
 CrackingShell::Drive CrackingShell::drive_of(const ShellVector& e) const {
