@@ -248,7 +248,13 @@ class PairFinder {
     constraint.contact = number_;
     constraint.friction = contact_.friction;
     if (contact_.sliding > 0) constraint.facet_size = 2 * contact_.sliding;
-    for (std::size_t t = 0; t < 2; ++t) constraint.place[t] = x[report_.tangent_axes[t]];
+    const auto [a, b] = report_.tangent_axes;
+    const Vector3& n = report_.normal;
+    constraint.place = {x[a], x[b]};
+    // A plane seen along the third axis is shorter by |n| of it along (n_a, n_b).
+    const double third = std::abs(n[3 - a - b]);
+    const double longer = (n[a] * x[a] + n[b] * x[b]) / (third * (1 + third));
+    constraint.level = {x[a] + longer * n[a], x[b] + longer * n[b]};
     if (constraint.geometric_gap < open_gap) ++report_.pairs;
     report_.matched += constraint.matched ? 1 : 0;
     interface.constraints.push_back(std::move(constraint));

@@ -118,7 +118,7 @@ void count_patches(const Contact& contact, std::span<const Constraint> rows,
 double GivenGap::of(const Constraint& row, const GapShare& share) const {
   if (const int patch = patch_at(contact_, row); patch >= 0) return contact_.gap.patches[patch].gap;
   const std::vector<double>& gap = contact_.gap.values;
-  return (gap.empty() ? row.geometric_gap : given_gap(gap, share)) + field_.at(row.place);
+  return (gap.empty() ? row.geometric_gap : given_gap(gap, share)) + field_.at(row.level);
 }
 
 std::vector<double> node_areas(const ContactFace& face) {

@@ -21,7 +21,7 @@ class GapField {
  public:
   explicit GapField(const Contact& contact);
 
-  /// Value at a place on the tangent axes of the face [m].
+  /// Value at a place in the plane of the face [m].
   double at(const std::array<double, 2>& place) const;
 
  private:

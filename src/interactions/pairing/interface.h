@@ -84,6 +84,7 @@ struct Constraint {
   double facet_size = 0;          ///< of the facet that it faces, or twice how far pairs may slide
                                   ///< where they are found anew; 0: a wall, endless [m]
   std::array<double, 2> place{};  ///< secondary node on the tangent axes [m]
+  std::array<double, 2> level{};  ///< and in the mean plane of the face, lengths kept [m]
   bool matched = false;           ///< faces one primary node exactly
   double friction = 0;            ///< Coulomb's coefficient [-]
   FillerPart filler;
@@ -149,6 +150,7 @@ void pass_rows(Stream& stream, AnyInterface& interface) {
     stream(row.geometric_gap);
     stream(row.facet_size);
     stream(row.place);
+    stream(row.level);
     stream(row.matched);
     stream(row.friction);
     stream(row.filler);
