@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "driver/report.h"
+#include "driver/warnings.h"
 
 namespace pounding {
 
@@ -56,6 +57,7 @@ Facts contact_facts(const Scene& scene, const Model& model, std::size_t c) {
   const JointGaps& gaps = model.joint_gaps[c];
   Facts facts{{{"largest_closing", nullptr},
                {"closing_factor", nullptr},
+               {"closing_factor_scales", scaled_by_closing(scene)},
                {"pairs", report.pairs},
                {"matched", report.matched},
                {"unmatched_nodes", report.unmatched_nodes},
@@ -130,7 +132,9 @@ Facts joint_facts(const Scene& scene, const Model& model, const RunStatistics& r
                      {contact.name});
     if (apart) {
       closings += told(
-          "[; if all stays linear, a motion {closing_factor:.4g} times as strong closes it]", of);
+          "[; if all stays linear, {closing_factor:.4g} times the {closing_factor_scales} closes "
+          "it]",
+          of);
     }
     closings += '\n';
     slides +=

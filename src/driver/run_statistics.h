@@ -67,8 +67,9 @@ struct FidelityEstimate {
 /// How far the pairs of a contact have closed since the start of a run.
 struct JointClosing {
   double largest = 0;  ///< of all pairs [m]
-  /// Least over the pairs of gap at the start over closing: as long as everything stays linear, a
-  /// motion so many times as strong just closes the first of them [-]. Infinite where none closes.
+  /// Least over the pairs of gap at the start over closing: as long as everything stays linear, so
+  /// many times all that moves them from the start (scaled_by_closing) just closes the first of them
+  /// [-]. Infinite where none closes.
   double factor = std::numeric_limits<double>::infinity();
 };
 

@@ -293,6 +293,28 @@ std::vector<std::string> slide_warnings(const Scene& scene, const RunStatistics&
   return warnings;
 }
 
+std::string scaled_by_closing(const Scene& scene) {
+  const bool loads = std::ranges::any_of(scene.loads, [&](const Load& load) {
+    return !scene.preload || load.function.kind != LoadFunction::Kind::constant;
+  });
+  const bool weight = std::ranges::any_of(scene.structures, [&](const Structure& structure) {
+    return !scene.preload && structure.gravity != Vector3{};
+  });
+  return std::string("motion") + (loads ? " and loads" : "") + (weight ? " and weight" : "");
+}
+
+std::vector<std::string> closing_warnings(const Scene& scene, const RunStatistics& statistics) {
+  const std::string scaled = scaled_by_closing(scene);
+  const bool closes = std::ranges::any_of(
+      statistics.closings, [](const JointClosing& joint) { return std::isfinite(joint.factor); });
+  if (scaled == "motion" || statistics.all_impacts.episodes > 0 || !closes) return {};
+  return {sentence(
+      "closing factors are of {} together, since one run does not tell what each of them closes: "
+      "the motion alone closes a joint sooner where the others hold it open, later where they "
+      "close it{}; -motion_level shows",
+      {scaled, scene.preload ? "" : "; -preload static takes constant ones out"})};
+}
+
 std::vector<std::string> pendulum_warnings(const RunStatistics& statistics) {
   std::vector<std::string> warnings;
   for (const std::string& structure : statistics.overpressed) {

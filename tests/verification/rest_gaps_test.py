@@ -130,6 +130,21 @@ class Margin(unittest.TestCase):
         self.assertGreater(moved(1.01e-3 * factor).summary["impacts"]["episodes"], 0)
 
 
+    def test_says_that_loads_are_scaled_as_well(self):
+        """A load that sets in with the run is not in the rest; one that is constant is, unless the run starts without it."""
+        def told(*more):
+            push = ["-loads", "push", "-push_on", "over:z_min", "-push_force", "0,0,-1", "-over_initial_velocity", "0,0,-1e-3"]
+            run = Recorded(self, scene(*push, *more, steps=150, gap=4e-5), identity=1)
+            joint = run.summary["contacts"]["joint"]
+            self.assertGreater(joint["closing_factor"], 1.1)
+            doubts = [line for line in run.summary["warnings"] if line.startswith("closing factors are of")]
+            self.assertEqual(len(doubts), joint["closing_factor_scales"] != "motion")
+            return joint["closing_factor_scales"]
+        self.assertEqual(told(), "motion")
+        self.assertEqual(told("-push_function", "ramp", "-push_rise", 1e-3), "motion and loads")
+        self.assertEqual(told("-preload", "none", "-joint_gap_at", "rest"), "motion and loads and weight")
+
+
 class Sliding(unittest.TestCase):
     """Pairs that are found anew: nodes that face nothing yet are open, and gaps count from the rest."""
 

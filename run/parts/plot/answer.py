@@ -149,7 +149,7 @@ def verdict(run: Result) -> str:
         margin = f", where response spectra ask for {_millimetres(asked)} (SRSS)" if asked else " and no margin"
         return f"{name} of {width} closes, with {_plural(run.summary['impacts']['episodes'], 'impact')} in all{margin}"
     factor = run.closing_factors().get(name)
-    margin = f" with a margin of {factor:.3g} on the motion" if factor else ""
+    margin = f" with a margin of {factor:.3g} on the {run.scaled_by_closing(name)}" if factor else ""
     return f"{name} of {width} stays open{margin}"
 
 
@@ -214,7 +214,9 @@ def _apart(run: Result) -> list:
         factors = run.closing_factors()
         if factors:
             first = min(factors, key=factors.get)
-            lines.append(f"As long as everything stays linear, a motion {factors[first]:.3g} times as strong would close "
+            what = run.scaled_by_closing(first)
+            what = "a motion" if what == "motion" else what
+            lines.append(f"As long as everything stays linear, {what} {factors[first]:.3g} times as strong would close "
                          f"{'it' if first == name else f'{first}, the first of the joints'}.")
     return lines
 
