@@ -8,6 +8,7 @@ import numpy as np
 from .fragility import widened
 
 CABINET = " cabinet"  # behind an item's name, for a probe in spectra.csv
+RIGID = 33.0  # Hz: what vibrates no lower feels the peak of its floor
 SIXTH = 2 ** (1 / 6)  # of an octave
 
 
@@ -50,8 +51,7 @@ def _demand(one: dict, frequency: np.ndarray, spectrum: np.ndarray) -> tuple:
     high = ratio[counting(at, one["high_band"])].min(initial=np.inf)
     verdict = {"passes": not short.any(), "ratio": _number(ratio[least]),
                "frequency": float(at[least] if np.isfinite(ratio[least]) else frequency[0]), "high_band_ratio": _number(high),
-               # The spectrum at its highest frequency is the peak of the floor's own acceleration.
-               "required_at_zero_period": float(required[-1]), "capacity_at_zero_period": float(capacity[-1])}
+               "capacity_at_zero_period": float(curve[1][-1]) if curve[0][-1] >= RIGID else None}
     return verdict, at, required, capacity, counted
 
 
@@ -67,6 +67,9 @@ def judge(summary: dict, spectrum) -> tuple:
         for way in one["directions"]:
             place = name + CABINET if "cabinet" in one else one["probe"]
             ways[way], at, *curves, counted = _demand(one, *spectrum(place, way, one["damping"]))
+            # Of the floor itself: inside a cabinet no oscillator is stiff beside it.
+            peaks = None if "cabinet" in one else summary.get("probes", {}).get(one["probe"], {}).get("peak_acceleration")
+            ways[way]["required_at_zero_period"] = peaks["xyz".index(way)] if peaks else None
             rows += zip([name] * len(at), [way] * len(at), counted.astype(float), at, *curves)
         worst = min(ways, key=lambda way: np.inf if ways[way]["ratio"] is None else ways[way]["ratio"])
         highs = [way["high_band_ratio"] for way in ways.values() if way["high_band_ratio"] is not None]

@@ -206,6 +206,32 @@ std::vector<double> with_capacities(std::vector<double> frequencies,
   return frequencies;
 }
 
+std::vector<std::string> coarse_spectra_warnings(const Scene& scene,
+                                                 std::span<const TargetSpectrum> capacities) {
+  constexpr double widest = 1.1 * (1 + 1e-6);  // as Regulatory Guide 1.122 has it
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < capacities.size(); ++i) {
+    const Equipment& item = scene.equipment[i];
+    std::array<double, 2> worst{1, 1};
+    double before = 0;
+    for (const double frequency : scene.spectra.frequencies) {
+      if (frequency < capacities[i].frequency.front() ||
+          frequency > capacities[i].frequency.back() || !within(item.band, frequency)) {
+        continue;
+      }
+      if (before > 0 && frequency / before > worst[1] / worst[0]) worst = {before, frequency};
+      before = frequency;
+    }
+    if (worst[1] / worst[0] <= widest) continue;
+    warnings.push_back(sentence(
+        "equipment {}: its floor's spectrum has no frequency between {:.4g} and {:.4g} Hz "
+        "(-spectra_frequencies), where a peak that turns its verdict is not seen; give them 10 % "
+        "apart or closer",
+        {item.name, worst[0], worst[1]}));
+  }
+  return warnings;
+}
+
 std::vector<ProbeSpectrum> cabinet_spectra(const Scene& scene, const Recorder& recorder,
                                            std::span<const ProbeSpectrum> floors) {
   std::vector<ProbeSpectrum> spectra;

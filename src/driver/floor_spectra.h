@@ -50,6 +50,11 @@ std::vector<TargetSpectrum> read_capacities(const Scene& scene);
 std::vector<double> with_capacities(std::vector<double> frequencies,
                                     std::span<const TargetSpectrum> capacities);
 
+/// Doubts about frequencies of floor spectra farther apart than 10 % where an item's capacity counts:
+/// a peak of the floor between two of them is not seen.
+std::vector<std::string> coarse_spectra_warnings(const Scene& scene,
+                                                 std::span<const TargetSpectrum> capacities);
+
 /// Spectra of items in a cabinet, an oscillator on the floor: those of the cabinet's absolute
 /// acceleration at the damping ratio and in the directions of the item, with `<item> cabinet` in
 /// place of a probe. `floors`: spectra of the probes. Rank 0, after the recorder finished.

@@ -60,9 +60,28 @@ class Equipment(unittest.TestCase):
         numpy.testing.assert_allclose(table["capacity"], 50, rtol=1e-8)
         one = self.hit.verdicts["flat"]
         self.assertAlmostEqual(one["ratio"] * self.required.max() / 50, 1, delta=1e-7)
-        self.assertAlmostEqual(one["directions"]["x"]["required_at_zero_period"] / self.required[-1], 1, delta=1e-7)
+        at_zero = one["directions"]["x"]
+        self.assertEqual(at_zero["required_at_zero_period"], self.hit.summary["probes"]["left_roof"]["peak_acceleration"][0])
+        self.assertAlmostEqual(at_zero["capacity_at_zero_period"], 50, delta=1e-6)
         high = self.required[(self.frequency >= 20) & (self.frequency <= 40)].max()
         self.assertAlmostEqual(one["high_band_ratio"] * high / 50, 1, delta=1e-7)
+
+    def test_zero_period_of_a_capacity_that_ends_below_it(self):
+        """The floor has its peak, the capacity no such value; inside a cabinet there is no floor's peak. Spectra whose
+        frequencies are so far apart that a peak hides between them are doubted."""
+        items = {"low": {"capacity": self.file("low", [(1, 40), (5, 40)])},
+                 "inside": {"capacity": self.file("inside", [(1, 40), (50, 40)]), "cabinet_frequency": 12,
+                            "cabinet_damping": .03}}
+        run = self.run_with("low", items, gap=.01, spectra_frequencies="1,2,4.5,5,50")
+        low, inside = (run.verdicts[name]["directions"]["x"] for name in items)
+        self.assertEqual(low["required_at_zero_period"], run.summary["probes"]["left_roof"]["peak_acceleration"][0])
+        self.assertIsNone(low["capacity_at_zero_period"])
+        self.assertIsNone(inside["required_at_zero_period"])
+        self.assertAlmostEqual(inside["capacity_at_zero_period"], 40, delta=1e-6)
+        doubts = [line for line in run.summary["warnings"] if "has no frequency between" in line]
+        self.assertEqual([line.split(":")[0] for line in doubts], ["equipment low", "equipment inside"])
+        self.assertIn("between 2 and 4.5 Hz", doubts[0])
+        self.assertFalse(any("has no frequency between" in line for line in self.hit.summary["warnings"]))
 
     def test_spectra_have_the_corners_of_capacities(self):
         """Those between the ends of spectra_frequencies; the others stay as they are."""
