@@ -66,6 +66,13 @@ class BeamDivider {
         }
       }
     }
+    for (RawEntity& entity : mesh_.entities) {
+      const auto has = [&](const Region& region) { return is_of(region, entity); };
+      if (std::ranges::any_of(structure_.regions, has)) continue;
+      for (RawElements& part : entity.elements) {
+        if (part.type == line_type) follow(part);
+      }
+    }
     return divided;
   }
 
@@ -122,16 +129,36 @@ class BeamDivider {
       const std::int64_t last = part.nodes[2 * e + 1];
       const bool whole = shared || edges_.contains(edge_of(first, last));
       const std::size_t count = whole ? 1 : parts_of(region, first, last);
-      std::int64_t from = first;
+      std::vector<std::int64_t> chain{first};
       for (std::size_t i = 1; i <= count; ++i) {
         const std::int64_t tag = i == 1 ? part.tags[e] : ++last_element_;
         const std::int64_t to = i == count ? last : add_node(between(first, last, i, count));
-        add(tag, from, to);
-        from = to;
+        add(tag, chain.back(), to);
+        chain.push_back(to);
       }
+      if (count > 1) chains_.emplace(edge_of(first, last), std::move(chain));
       ++lines.lines;
       lines.beams += static_cast<GlobalIndex>(count);
       lines.whole += whole ? 1 : 0;
+    }
+    part = std::move(cut);
+  }
+
+  /// Lines that no elements are made of, of loads, clamps, ties, contacts, probes, get the nodes of
+  /// the beams on them.
+  void follow(RawElements& part) {
+    RawElements cut;
+    cut.type = part.type;
+    for (std::size_t e = 0; e < part.tags.size(); ++e) {
+      const std::array<std::int64_t, 2> ends{part.nodes[2 * e], part.nodes[2 * e + 1]};
+      const auto found = chains_.find(edge_of(ends[0], ends[1]));
+      std::vector<std::int64_t> chain(ends.begin(), ends.end());
+      if (found != chains_.end()) chain = found->second;
+      if (chain.front() != ends[0]) std::ranges::reverse(chain);
+      for (std::size_t i = 1; i < chain.size(); ++i) {
+        cut.tags.push_back(i == 1 ? part.tags[e] : ++last_element_);
+        cut.nodes.insert(cut.nodes.end(), {chain[i - 1], chain[i]});
+      }
     }
     part = std::move(cut);
   }
@@ -147,7 +174,8 @@ class BeamDivider {
   const Structure& structure_;
   RawMesh& mesh_;
   const std::set<Edge> edges_;
-  std::map<std::int64_t, std::size_t> places_;  ///< of the nodes of the file, by tag
+  std::map<std::int64_t, std::size_t> places_;        ///< of the nodes of the file, by tag
+  std::map<Edge, std::vector<std::int64_t>> chains_;  ///< nodes of the beams that lines became
   std::int64_t last_node_ = 0;
   std::int64_t last_element_ = 0;
 };

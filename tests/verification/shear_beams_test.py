@@ -12,6 +12,7 @@ References:
 """
 import math
 import os
+import tempfile
 import unittest
 
 import numpy
@@ -21,6 +22,7 @@ import scipy.optimize
 import decks
 import modal_run
 import program
+from input.corpus.meshes import document
 from recorded import Recorded
 
 STEEL = (200e9, 0.3, 7800)
@@ -184,6 +186,27 @@ class Division(unittest.TestCase):
         modal_run.assert_close(self, modal_run.frequencies(divided), modal_run.frequencies(finer), 1e-10, "modes")
         self.assertEqual(divided["dofs"], finer["dofs"])
         self.assertEqual(divided["beams"]["b2"]["divided"], {"lines": 1, "beams": 3, "left_whole": 0})
+
+    def test_other_groups_on_the_same_lines(self):
+        """A cantilever of one line, which is a line of the group deck as well, the other way round: a load per length on deck
+        is one on all of its beams, and a clamp of deck holds all of them."""
+        length, load, young, inertia = 4.0, 1e4, 3e10, .0032
+        nodes = {1: (0, 0, 0), 2: (length, 0, 0)}
+        elements = [(1, 1, 1, (1, 2)), (2, 1, 2, (2, 1)), (3, 15, 3, (1,)), (4, 15, 4, (2,))]
+        with tempfile.NamedTemporaryFile("w", suffix=".msh") as mesh:
+            mesh.write(document(nodes, elements, {1: (1, "b"), 2: (1, "deck"), 3: (0, "foot"), 4: (0, "tip")}))
+            mesh.flush()
+            words = ["-structures", "s", "-s_mesh", mesh.name, "-s_b_element", "euler_beam", "-s_b_material", "m", "-s_b_section",
+                     "q", *decks.material("m", young, .2, 2500), *decks.section("q", .24, inertia, .0072, .0056), "-loads", "p",
+                     "-p_on", "s:deck", "-p_line_force", f"0,0,{-load}", "-preload", "static", *decks.probes(t="s:tip", d="s:deck"),
+                     "-end_time", 5e-4, "-modes", 0]
+            for parts in (1, 4):
+                more = ["-s_b_divide", parts] if parts > 1 else []
+                run = Recorded(self, [*words, "-s_clamp", "foot", *more])
+                self.assertAlmostEqual(run.displacement("t.z")[0] / (-load * length**4 / 8 / young / inertia), 1, delta=1e-9)
+            held = Recorded(self, [*words, "-s_clamp", "foot,deck:z", "-s_b_divide", 4])
+            self.assertEqual(abs(held.displacement("d.z")).max(), 0)
+            self.assertEqual(held.summary["structures"]["s"]["beams"]["b"]["divided"]["beams"], 4)
 
     def test_automatic(self):
         """Of 3 beams 4 in each half wave up to 1600 Hz, and then no doubt is left."""
