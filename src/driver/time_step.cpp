@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <sstream>
+#include <utility>
 #include <vector>
 
 #include "common/error.h"
@@ -12,6 +14,7 @@
 #include "interactions/filler_rows.h"
 #include "modal/reduced_system.h"
 #include "stability/stable_time_step.h"
+#include "system/links.h"
 
 namespace pounding {
 namespace {
@@ -39,8 +42,47 @@ void choose_automatically(const Scene& scene, const StepLimits& limits, Model& m
   }
 }
 
+/// Dashpots in series with springs make vibrations that modes, which leave them out, do not show.
+bool hides_vibrations(const Structure& structure) {
+  return std::ranges::any_of(structure.regions,
+                             [](const Region& region) { return region.nonlinear.has_series(); });
+}
+
+/// What those springs add to omega^2 at most, their dashpots held: the largest sum of a row of
+/// M^-1 sum k b b^T [1/s2]. Collective.
+double added_by_series(const LinearSystem& system, MPI_Comm comm) {
+  std::vector<double> sums(system.lumped_mass.size(), 0.0);
+  std::vector<double> field = sums;
+  for (const Link& link : system.links->links()) {
+    const interactions::LinkOrigin& origin = link.origin;
+    if (origin.region == nullptr || origin.part != interactions::SpringPart::dashpot) continue;
+    const auto component = static_cast<std::size_t>(origin.component);
+    const double k = origin.share * origin.region->nonlinear.dashpot_stiffness[component];
+    const Trace& trace = system.links->trace();
+    for (std::size_t i = 0; i < link.place.size(); ++i) {
+      if (link.place[i] < 0) continue;
+      trace.add_force(static_cast<std::size_t>(link.place[i]), link.weight[i], field);
+    }
+    double whole = 0;
+    for (const LocalIndex dof : trace.dofs()) whole += std::abs(field[dof]);
+    for (const LocalIndex dof : trace.dofs()) {
+      sums[dof] += k * whole * std::abs(std::exchange(field[dof], 0));
+    }
+  }
+  double most = 0;
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (sums[i] > 0) most = std::max(most, sums[i] / system.lumped_mass[i]);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, comm);
+  return most;
+}
+
 /// "2 Hz, the highest mode of a up to 400 Hz".
 std::string frequency_text(const Scene& scene, const ResolvedMotion& resolved) {
+  if (!resolved.load.empty()) {
+    return sentence("{:.4g} Hz, the fastest part of load {}",
+                    {resolved.frequency(), resolved.load});
+  }
   const std::string which = resolved.is_mode
                                 ? sentence("highest mode of {} up to {:.4g} Hz",
                                            {resolved.structure, scene.spectra.frequencies.back()})
@@ -92,8 +134,10 @@ ResolvedMotion resolved_motion_of(const Structure& structure, const ModalBasis& 
   for (std::size_t i = 0; i < masses.size(); ++i) {
     frequencies.push_back(std::sqrt(basis.squared_frequency[i] / masses[i]) / turn);
   }
+  const bool all = !hides_vibrations(structure);
   ResolvedMotion resolved =
-      resolved_motion(frequencies, true, largest_frequency(structure, basis).omega_max, last);
+      resolved_motion(frequencies, all, largest_frequency(structure, basis).omega_max, last);
+  if (!all) resolved = {turn * last, false, {}};
   resolved.structure = structure.name;
   return resolved;
 }
@@ -105,6 +149,12 @@ ResolvedMotion resolved_motion_of(const Building& building, double last) {
   const bool all = static_cast<GlobalIndex>(frequencies.size()) >= building.mesh->global_dofs;
   ResolvedMotion resolved =
       resolved_motion(frequencies, all, building.limits.largest.omega_max, last);
+  if (hides_vibrations(*building.structure)) {
+    const double fastest =
+        std::hypot(building.limits.largest.omega_max,
+                   std::sqrt(added_by_series(*building.system, building.mesh->comm)));
+    resolved = all ? ResolvedMotion{fastest, true, {}} : resolved_motion({}, false, fastest, last);
+  }
   resolved.structure = building.structure->name;
   return resolved;
 }
@@ -116,7 +166,15 @@ StepLimits step_limits(const Scene& scene, const Model& model) {
     limits.resolved = faster(limits.resolved, resolved_motion_of(building, last));
   }
   limit_by_fillers(model.filler_time_step, last, limits);
+  limit_by_loads(scene, model.load_histories.get(), limits);
   return limits;
+}
+
+void limit_by_loads(const Scene& scene, const LoadHistories* histories, StepLimits& limits) {
+  for (std::size_t l = 0; l < scene.loads.size(); ++l) {
+    const double fastest = histories->fastest(l, scene.end_time, !scene.preload);
+    limits.resolved = faster(limits.resolved, {turn * fastest, false, {}, scene.loads[l].name});
+  }
 }
 
 void limit_by_fillers(double stable, double last, StepLimits& limits) {
@@ -178,9 +236,10 @@ std::vector<std::string> long_step_warnings(const Scene& scene, const Model& mod
   if (!(scene.time_step > accurate * noticeable)) return {};
   return {sentence(
       "the time step {:.3g} s makes {}, {:.3g} % too high, and none up to {:.3g} Hz by more "
-      "than 0.3 %; give -time_step {:.3g} or less, leave it out, or end -spectra_frequencies there",
+      "than 0.3 %; give -time_step {:.3g} or less, or leave it out{}",
       {scene.time_step, frequency_text(scene, resolved), 100 * resolved.error(scene.time_step),
-       resolved_frequency(scene.time_step), accurate})};
+       resolved_frequency(scene.time_step), accurate,
+       resolved.load.empty() ? ", or end -spectra_frequencies there" : ""})};
 }
 
 double filler_limit(MPI_Comm comm, const Scene& scene, const Model& model,

@@ -7,6 +7,7 @@
 
 #include "driver/model.h"
 #include "modal/modal_basis.h"
+#include "motion/load_histories.h"
 #include "scene/scene.h"
 #include "stability/resolved_motion.h"
 
@@ -23,6 +24,9 @@ ResolvedMotion resolved_motion_of(const Structure& structure, const ModalBasis& 
 
 /// Limits of all structures and fillers of a model together.
 StepLimits step_limits(const Scene& scene, const Model& model);
+
+/// Narrows limits to what the histories of loads ask for.
+void limit_by_loads(const Scene& scene, const LoadHistories* histories, StepLimits& limits);
 
 /// Narrows limits to those of fillers whose stable time step is `stable` [s]; `last`: see above.
 void limit_by_fillers(double stable, double last, StepLimits& limits);

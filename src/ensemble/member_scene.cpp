@@ -131,6 +131,7 @@ StepLimits member_limits(const MemberScene& member, const EnsembleModel& shared)
         filler_limit(MPI_COMM_SELF, scene, member_structures(member, shared), shared.model->meshes),
         last, limits);
   }
+  limit_by_loads(scene, shared.model->load_histories.get(), limits);
   return limits;
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "common/error.h"
 #include "motion/records/record_text.h"
@@ -36,6 +38,46 @@ double history_at(const LoadFunction& f, double t) {
       return interpolated(f.times, f.values, t);
   }
   return 0;
+}
+
+/// Where a table first leaves a peak by half of the way to its neighbour, from value `i` on in steps
+/// of `by` up to value `end` [s].
+double half_way(const LoadFunction& f, std::size_t i, std::size_t end) {
+  const double half = (f.values[i] + f.values[end]) / 2;
+  const bool falls = f.values[end] < f.values[i];
+  const std::size_t by = end > i ? 1 : static_cast<std::size_t>(-1);
+  while ((f.values[i + by] > half) == falls) i += by;
+  const double share = (half - f.values[i]) / (f.values[i + by] - f.values[i]);
+  return f.times[i] + share * (f.times[i + by] - f.times[i]);
+}
+
+/// The narrowest peak of a table, either way, that begins before `end`: twice its width at half of
+/// its height [s]. Turns by less than a hundredth of its range are noise. `sudden`: its first value
+/// is a peak as well, as of a blast that is there at once.
+double narrowest_peak(const LoadFunction& f, double end, bool sudden) {
+  const auto [least, most] = std::ranges::minmax(f.values);
+  std::vector<std::size_t> turns{0};
+  std::size_t far = 0;  // the farthest value since the last turn
+  double way = 0;
+  for (std::size_t i = 1; i < f.values.size(); ++i) {
+    const double on = f.values[i] - f.values[far];
+    if (way == 0) way = on > 0 ? 1 : on < 0 ? -1 : 0;
+    if (on * way > 0) {
+      far = i;
+    } else if (-on * way > (most - least) / 100) {
+      turns.push_back(std::exchange(far, i));
+      way = -way;
+    }
+  }
+  if (far > 0) turns.push_back(far);
+  double narrowest = std::numeric_limits<double>::infinity();
+  sudden = sudden && turns.size() > 1 && std::abs(f.values[0]) > std::abs(f.values[turns[1]]);
+  for (std::size_t k = sudden ? 0 : 1; k + 1 < turns.size(); ++k) {
+    const double from = k > 0 ? half_way(f, turns[k], turns[k - 1]) : f.times[0];
+    const double to = half_way(f, turns[k], turns[k + 1]);
+    if (from < end && to > 0) narrowest = std::min(narrowest, 2 * (to - from));
+  }
+  return narrowest;
 }
 
 /// Two columns, time and value; lines before the first row of numbers are a header.
@@ -102,6 +144,12 @@ double LoadHistories::peak(std::size_t load, double end) const {
     if (inside) largest = std::max(largest, std::abs(function.values[i]));
   }
   return std::abs(factor) * largest;
+}
+
+double LoadHistories::fastest(std::size_t load, double end, bool sudden) const {
+  const LoadFunction& f = histories_[load].function;
+  if (f.kind == Kind::harmonic) return f.start < end ? f.frequency : 0;
+  return f.kind == Kind::table ? 1 / narrowest_peak(f, end, sudden) : 0;
 }
 
 std::string LoadHistories::describe(std::size_t load) const {

@@ -12,6 +12,7 @@ struct ResolvedMotion {
   double omega = 0;       ///< circular frequency [rad/s]; 0: nothing vibrates
   bool is_mode = false;   ///< that of a mode; otherwise of the last frequency of the spectra
   std::string structure;  ///< whose
+  std::string load{};     ///< the load whose history it is; empty: none
 
   double frequency() const;         ///< [Hz]
   double accurate_step() const;     ///< [s]; infinite where nothing vibrates

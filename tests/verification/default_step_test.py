@@ -92,6 +92,48 @@ class Oscillators(unittest.TestCase):
         # Where every mode is faster than the spectra reach, these are resolved.
         self.assertAlmostEqual(self.step((500, 500, 500)) / last, 1, delta=1e-5)
 
+    def test_histories_of_loads_bound_it(self):
+        """One of 40 Hz on 2 Hz; a triangle of 10 ms, which is a quarter of the step for 2 Hz; a blast that is there at once."""
+        push = ["-loads", "push", "-push_on", "a:m", "-push_force", "100,0,0"]
+        for more, frequency in ((["-push_function", "harmonic", "-push_frequency", 40], 40),
+                                (["-push_values", "0,0;0.1,0;0.105,1;0.11,0"], 100),
+                                (["-push_values", "0,1;0.01,0"], 100),
+                                # a plateau whose ends are all but steep; noise of digits; sets in too late
+                                (["-push_values", "0,0;0.2,0;0.200001,1;0.249999,1;0.25,0"], 10),
+                                (["-push_values", "0,0;0.05,1;0.0501,0.999;0.0502,1;0.1,0"], 10)):
+            with self.subTest(more=more):
+                expected = 0.268 / (2 * math.pi * frequency)
+                step = self.step((2, 2, 2), *push, *more, said="Hz, the fastest part of load push")
+                self.assertAlmostEqual(step / expected, 1, delta=5e-3)
+        slow = 0.268 / (4 * math.pi)
+        for more in (["-push_function", "ramp", "-push_rise", 1e-3], ["-push_values", "0,0;20,0;20.001,1;20.002,0"],
+                     ["-push_function", "harmonic", "-push_frequency", 40, "-push_start", 20],
+                     ["-push_values", "0,1;0.01,0", "-preload", "static"]):
+            self.assertAlmostEqual(self.step((2, 2, 2), *push, *more) / slow, 1, delta=1e-5)
+        # The largest of two equal kicks is 1 over the frequency beside a short blast: I / (m omega).
+        run = program.must_run(self, self.words((2, 2, 2), *push, "-push_values", "0,0;0.1,0;0.105,1e3;0.11,0", "-a_initial_velocity",
+                                                "0,0,0", end_time=1))[0]
+        with h5py.File(os.path.join(run, "history.h5")) as file:
+            x = abs(file["displacement"][:, 0]).max()
+        self.assertAlmostEqual(x / (100 * 1e3 * 0.005 / (MASS * 4 * math.pi)), 1, delta=0.01)
+        line, = self.doubts(program.must_run(self, self.words((2, 2, 2), *push, "-push_function", "harmonic", "-push_frequency", 40,
+                                                              "-time_step", 0.02, end_time=1))[1])
+        self.assertIn("makes 40 Hz, the fastest part of load push", line)
+
+    def test_dashpots_in_series_with_springs_bound_it(self):
+        """A mass on 2 Hz and, through a dashpot, on 16 Hz: with the dashpot stiff it swings at the two together."""
+        k = MASS * (2 * math.pi * 16) ** 2
+        words = self.words((2, 2, 2), "-a_k_dashpot", ",".join([repr(k / 10)] * 3), "-a_k_dashpot_stiffness",
+                           ",".join([repr(k)] * 3), "-spectra_frequencies", "1,4", "-output_interval", 1e-3, end_time=1)
+        found = []
+        for more in ([], ["-time_step", 1e-4]):
+            folder, summary = program.must_run(self, [*words, *more])
+            with h5py.File(os.path.join(folder, "history.h5")) as file:
+                found.append(abs(file["displacement"][:, 0]).max())
+            if not more:
+                self.assertAlmostEqual(summary["time_step"] * 2 * math.pi * 16.1 / 0.268, 1, delta=0.1)
+        self.assertAlmostEqual(found[0] / found[1], 1, delta=0.02)
+
     def test_a_longer_step_is_doubted(self):
         folder, summary = program.must_run(self, self.words((2, 2, 2), "-time_step", 0.05, end_time=1))
         line, = self.doubts(summary)
