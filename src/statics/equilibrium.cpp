@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "common/dense_matrix.h"
 #include "common/error.h"
@@ -161,7 +162,9 @@ class Search {
 
   /// Where elements yield, K corrects too little. Goes on from the mean of the last steps' ends
   /// whose corrections d cancel best in the norm of K + sigma M (Anderson, J. ACM 12 (1965), 547):
-  /// while the same elements yield, that finds the rest of as many of them in as many steps.
+  /// while the same elements yield, that finds the rest of as many of them in as many steps. Where
+  /// others do it may lead away; then the last step's end stays, as K is stiffer than any tangent and
+  /// such steps alone never go away.
   void accelerate(Trial step) {
     if (trials_.size() == most_trials) trials_.erase(trials_.begin());
     trials_.push_back(std::move(step));
@@ -185,7 +188,9 @@ class Search {
     if (!solve_dense(products, weights)) weights.assign(n, 0.0);
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     if (!(sum > 0)) return;
-    displacement_ = zeros();
+    const double plain = relative_residual();
+    const Fields end = std::exchange(displacement_, zeros());
+    const std::vector<double> forces = force_;
     std::ranges::fill(force_, 0.0);
     for (std::size_t k = 0; k < n; ++k) {
       const double part = weights[k] / sum;
@@ -196,6 +201,11 @@ class Search {
       }
       for (std::size_t i = 0; i < force_.size(); ++i) force_[i] += part * trials_[k].force[i];
     }
+    update_residual();
+    if (relative_residual() <= plain) return;
+    displacement_ = end;
+    force_ = forces;
+    trials_.clear();
     update_residual();
   }
 

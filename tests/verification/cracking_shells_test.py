@@ -74,6 +74,14 @@ class Strip(unittest.TestCase):
             z = [self.at_rest(poisson, "moment", f"0,{-n * CRACKS['moment'] / 2!r},0").displacement("tip.z")[0] for n in (2, 3)]
             self.assertAlmostEqual(bent / (z[1] - z[0]) / CRACKS["bending"], 1, delta=2e-2)
 
+    def test_finds_a_rest_at_every_load(self):
+        """On the second slope, which it is on from 1.4 times the cracking force within some of its width."""
+        loads = [1.4, 1.5, 1.6, 1.7, 1.8, 2, 2.5, 3]
+        x = [self.at_rest(0.3, "force", f"{n * CRACKS['force'] / 2!r},0,0").displacement("tip.x")[0] for n in loads]
+        slope = CRACKS["force"] / (YOUNG * THICKNESS) / CRACKS["tension"]
+        for load, found in zip(loads[:-1], x):
+            self.assertAlmostEqual((x[-1] - found) / (3 - load) / slope, 1, delta=1e-2)
+
     def test_more_than_pressure_leaves_is_refused(self):
         program.must_refuse(self, wall(*cracking(tension=0.99), "-w_wall_cracked_compression", 0.2, skeleton=None),
                             "-w_wall_cracked_tension", "beside its cracked_compression")
