@@ -93,19 +93,23 @@ double energy_round_off(const Model& model, std::size_t structure, const Structu
   return product_round_off * omega * omega * energy.displacement_mass;
 }
 
-void watch_passivity(const EnergyLine& line, double largest_term) {
-  const auto refuse = [&](const char* what, double loss) {
+void watch_passivity(const EnergyLine& line, double largest_term, bool leaning) {
+  const auto refuse = [&](const char* what, double loss,
+                          const char* remedy = "a smaller time step") {
     throw DivergenceError(
         sentence("{} gave {} J more than it took until t = {} s (largest term of the energies {} "
-                 "J); the run is stopped, its results cannot be trusted; try a smaller time step",
-                 {what, -loss, line.time, largest_term}));
+                 "J); the run is stopped, its results cannot be trusted; try {}",
+                 {what, -loss, line.time, largest_term, remedy}));
   };
   const double allowed = given_energy * largest_term;
   if (line.link_loss < -allowed) refuse("links", line.link_loss);
   if (line.plastic_loss < -allowed) refuse("yielding elements", line.plastic_loss);
   const double dashpots = line.device_work - line.link_loss;
   if (line.damping_loss + dashpots + std::abs(line.slow_relief) < -allowed) {
-    refuse("damping", line.damping_loss + dashpots);
+    refuse("damping", line.damping_loss + dashpots,
+           leaning ? "damping_alpha alone: beta damps with the stiffness that is left, and beside "
+                     "p_delta that is below 0 where columns yield and lean, at any time step"
+                   : "a smaller time step");
   }
 }
 
@@ -146,7 +150,12 @@ ClosedLine close_line(MPI_Comm comm, const Model& model, const State& state,
   energy.note(closed.line);
   watch_divergence(model, state, closed.line, closed.energies);
   watch_identity(model, closed.line, closed.energies, energy.largest_term());
-  watch_passivity(closed.line, energy.largest_term());
+  const bool leaning = std::ranges::any_of(model.buildings, [](const Building& building) {
+    const auto yields = [](const Region& region) { return region.inelastic; };
+    return building.structure->p_delta && building.system->damping.beta > 0 &&
+           std::ranges::any_of(building.structure->regions, yields);
+  });
+  watch_passivity(closed.line, energy.largest_term(), leaning);
   watch_contact(comm, contact, closed.line.time);
   for (std::size_t s = 0; s < closed.energies.size(); ++s) {
     closed.round_off.push_back(energy_round_off(model, s, closed.energies[s]));

@@ -31,7 +31,8 @@ void watch_identity(const Model& model, const EnergyLine& line,
 
 /// Throws DivergenceError if parts that can only take energy have given some: damping and devices
 /// together, or tension-only bars, by more than a millionth of the largest term [J] so far.
-void watch_passivity(const EnergyLine& line, double largest_term);
+/// `leaning`: beta acts beside P-Delta of columns that yield, which no time step mends.
+void watch_passivity(const EnergyLine& line, double largest_term, bool leaning = false);
 
 /// A line of the ledger with the energies of the structures and their round-off [J].
 struct ClosedLine {

@@ -14,6 +14,7 @@ import numpy
 import scipy.io
 
 import program
+from input.corpus.meshes import document
 from recorded import Recorded, assert_continues
 
 GRAVITY = 9.81
@@ -35,6 +36,34 @@ def column(cells, mass, *more, density=1e-1, gravity=-GRAVITY, height=HEIGHT):
 def frequency(test, words, ranks=program.RANKS):
     _, summary = program.must_run(test, words, ranks)
     return summary["structures"]["it"]["frequencies"][0]["frequency"]
+
+
+class Yielded(unittest.TestCase):
+    """A mass of 60 t on a column of 3 m whose foot yields on a flat skeleton: beneath it less stiffness than P / L is left."""
+
+    def test_beta_beside_it_is_refused_by_its_cause(self):
+        inertia, first = .002, 2e-3
+        moment = YOUNG * inertia * first
+        record = program.write_samples(2.2 * numpy.sin(3 * numpy.pi * numpy.arange(0, 1, 2e-3)), 2e-3)
+        with tempfile.NamedTemporaryFile("w", suffix=".msh") as mesh:
+            mesh.write(document({1: (0, 0, 0), 2: (0, 0, .5), 3: (0, 0, 3)},
+                                [(1, 1, 1, (1, 2)), (2, 1, 2, (2, 3)), (3, 15, 3, (1,)), (4, 15, 4, (3,))],
+                                {1: (1, "hinge"), 2: (1, "stem"), 3: (0, "base"), 4: (0, "top")}))
+            mesh.flush()
+            words = column(1, 6e4, "-it_top_rotary_inertia", "10,10,10", "-material_stuff_density", 2400, "-section_pipe_area",
+                           .15, *(word for d in ("inertia_y", "inertia_z", "torsion") for word in (f"-section_pipe_{d}", inertia)),
+                           "-section_pipe_z_axis", "0,1,0", "-it_hinge_element", "euler_beam", "-it_hinge_material", "stuff",
+                           "-it_hinge_section", "pipe", "-it_hinge_bending_skeleton_z",
+                           f"{first!r},{moment!r},{100 * first!r},{1.0001 * moment!r}", "-it_hinge_bending_rule", "kinematic",
+                           "-motion_x_record", record, "-motion_x_unit", "m/s2", "-end_time", .5, "-time_step", 4e-5)
+            at = words.index("-it_mesh")
+            words[at + 1] = mesh.name
+            del words[at + 2:at + 4]
+            stopped = program.run([*words, "-it_damping_beta", 1e-3])
+            self.assertEqual(stopped.returncode, 1)
+            self.assertIn("damping gave", stopped.stderr)
+            self.assertIn("try damping_alpha alone: beta damps with the stiffness that is left", stopped.stderr)
+            program.must_run(self, [*words, "-it_damping_alpha", 1])
 
 
 class Column(unittest.TestCase):
