@@ -8,7 +8,7 @@ import numpy as np
 from .fragility import widened
 
 CABINET = " cabinet"  # behind an item's name, for a probe in spectra.csv
-RIGID = 33.0  # Hz: what vibrates no lower feels the peak of its floor
+RIGID = 33.0  # Hz: oscillators no softer feel the peak of their floor
 SIXTH = 2 ** (1 / 6)  # of an octave
 
 

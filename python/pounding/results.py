@@ -163,13 +163,13 @@ class Result:
         return found
 
     def scaled_by_closing(self, contact: str) -> str:
-        """What the closing factor of a contact multiplies: "motion", or "motion and loads"."""
+        """All that the closing factor of a contact multiplies: "motion", or "motion and loads"."""
         return self.summary["contacts"][contact].get("closing_factor_scales", "motion")
 
     def closing_factors(self) -> dict:
         """Contact -> how many times as strong a motion would just close it, as long as everything stays linear: the
-        least of its pairs; with what scaled_by_closing names beside it. Where summary.json does not tell, no more than that, from the widest gap at rest and the
-        smallest gap of the history. Contacts that never close have none."""
+        least of its pairs (see scaled_by_closing). Where summary.json does not tell, no more than that, from the widest gap
+        at rest and the smallest gap of the history. Contacts that never close have none."""
         found = {}
         for name, closing in self.closings().items():
             one = self.summary["contacts"][name]

@@ -50,7 +50,7 @@ std::vector<TargetSpectrum> read_capacities(const Scene& scene);
 std::vector<double> with_capacities(std::vector<double> frequencies,
                                     std::span<const TargetSpectrum> capacities);
 
-/// Doubts about frequencies of floor spectra farther apart than 10 % where an item's capacity counts:
+/// Doubts about frequencies of floor spectra more than 10 % apart where an item's capacity counts:
 /// a peak of the floor between two of them is not seen.
 std::vector<std::string> coarse_spectra_warnings(const Scene& scene,
                                                  std::span<const TargetSpectrum> capacities);

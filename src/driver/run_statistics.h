@@ -68,8 +68,8 @@ struct FidelityEstimate {
 struct JointClosing {
   double largest = 0;  ///< of all pairs [m]
   /// Least over the pairs of gap at the start over closing: as long as everything stays linear, so
-  /// many times all that moves them from the start (scaled_by_closing) just closes the first of them
-  /// [-]. Infinite where none closes.
+  /// many times all that moves them from the start (scaled_by_closing) just closes the first of
+  /// them [-]. Infinite where none closes.
   double factor = std::numeric_limits<double>::infinity();
 };
 

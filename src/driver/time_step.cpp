@@ -48,8 +48,8 @@ bool hides_vibrations(const Structure& structure) {
                              [](const Region& region) { return region.nonlinear.has_series(); });
 }
 
-/// What those springs add to omega^2 at most, their dashpots held: the largest sum of a row of
-/// M^-1 sum k b b^T [1/s2]. Collective.
+/// Upper bound of the part that those springs have in omega^2 while their dashpots hold: largest
+/// sum of a row of M^-1 sum k b b^T [1/s2]. Collective.
 double added_by_series(const LinearSystem& system, MPI_Comm comm) {
   std::vector<double> sums(system.lumped_mass.size(), 0.0);
   std::vector<double> field = sums;

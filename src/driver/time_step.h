@@ -25,7 +25,7 @@ ResolvedMotion resolved_motion_of(const Structure& structure, const ModalBasis& 
 /// Limits of all structures and fillers of a model together.
 StepLimits step_limits(const Scene& scene, const Model& model);
 
-/// Narrows limits to what the histories of loads ask for.
+/// Narrows limits by the histories of loads.
 void limit_by_loads(const Scene& scene, const LoadHistories* histories, StepLimits& limits);
 
 /// Narrows limits to those of fillers whose stable time step is `stable` [s]; `last`: see above.

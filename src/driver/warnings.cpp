@@ -309,7 +309,7 @@ std::vector<std::string> closing_warnings(const Scene& scene, const RunStatistic
       statistics.closings, [](const JointClosing& joint) { return std::isfinite(joint.factor); });
   if (scaled == "motion" || statistics.all_impacts.episodes > 0 || !closes) return {};
   return {sentence(
-      "closing factors are of {} together, since one run does not tell what each of them closes: "
+      "closing factors are of {} together, since one run cannot part them: "
       "the motion alone closes a joint sooner where the others hold it open, later where they "
       "close it{}; -motion_level shows",
       {scaled, scene.preload ? "" : "; -preload static takes constant ones out"})};

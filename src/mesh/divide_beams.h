@@ -22,10 +22,9 @@ inline constexpr int beams_per_half_wave = 4;
 
 /// Cuts the lines of regions of beams into equal parts, as many as the region says or as bending up
 /// to its resolved frequency needs. New nodes have tags beyond those of the file, and so have all
-/// but the first part of a line; every group that has the line, or a line of its own between the same
-/// nodes without elements, has all of it. Lines are left whole
-/// that are edges of surfaces or belong to other regions as well. Serial. Throws UserError where
-/// more than a thousand parts are needed.
+/// but the first part of a line; every group that has the line, or one between the same nodes
+/// without elements, has all of it. Lines are left whole that are edges of surfaces or belong to
+/// other regions as well. Serial. Throws UserError where more than a thousand parts are needed.
 std::vector<DividedLines> divide_beams(const Structure& structure, RawMesh& mesh);
 
 }  // namespace pounding

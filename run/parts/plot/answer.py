@@ -214,9 +214,9 @@ def _apart(run: Result) -> list:
         factors = run.closing_factors()
         if factors:
             first = min(factors, key=factors.get)
-            what = run.scaled_by_closing(first)
-            what = "a motion" if what == "motion" else what
-            lines.append(f"As long as everything stays linear, {what} {factors[first]:.3g} times as strong would close "
+            scaled = run.scaled_by_closing(first)
+            scaled = "a motion" if scaled == "motion" else scaled
+            lines.append(f"As long as everything stays linear, {scaled} {factors[first]:.3g} times as strong would close "
                          f"{'it' if first == name else f'{first}, the first of the joints'}.")
     return lines
 

@@ -78,8 +78,8 @@ CrackingShell::CrackingShell(double young, double poisson, double thickness,
 
 ShellCracking CrackingShell::with_slopes(ShellCracking law, double poisson) {
   if (poisson == 0) return law;
-  // With large damages xi is g along the strip, c across, and 1 through the thickness; strains across
-  // follow from no force there, so s (1 + nu) = g (1 + p / (1 + p g (1 + 1 / c))).
+  // Where damages are large xi is g along the strip, c across, and 1 through the thickness; strains
+  // across follow from no force there, so s (1 + nu) = g (1 + p / (1 + p g (1 + 1 / c))).
   const double p = poisson / (1 - 2 * poisson), c = law.compression;
   const double pulled = law.tension * (1 + poisson);
   law.tension = rising_root(p * (1 + c), c * (1 + p) - pulled * p * (1 + c), pulled * c);

@@ -37,7 +37,7 @@ class CrackingShell {
   /// `cracking`: tension and bending below 1, force and moment above 0. [Pa, -, m]
   CrackingShell(double young, double poisson, double thickness, const ShellCracking& cracking);
 
-  /// The same law with ratios of its energy in place of slopes of force and moment: a strip that is
+  /// A law with ratios of its energy in place of slopes of force and moment: a strip that is
   /// pulled or bent along one axis, free to contract across, has these slopes over the sound one's
   /// as its damages grow. Given ones at Poisson's ratio 0; a tension above 1 has none.
   static ShellCracking with_slopes(ShellCracking slopes, double poisson);
