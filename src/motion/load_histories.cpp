@@ -40,8 +40,8 @@ double history_at(const LoadFunction& f, double t) {
   return 0;
 }
 
-/// Where a table first leaves a peak by half of the way to its neighbour, from value `i` on in steps
-/// of `by` up to value `end` [s].
+/// Time at which a table, on its way from value `i` to value `end`, is half of the way between
+/// the two [s].
 double half_way(const LoadFunction& f, std::size_t i, std::size_t end) {
   const double half = (f.values[i] + f.values[end]) / 2;
   const bool falls = f.values[end] < f.values[i];

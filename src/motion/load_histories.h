@@ -23,9 +23,9 @@ class LoadHistories {
   double before_start(std::size_t load) const noexcept;
   /// Largest |f| of a load from the start of a run to its `end` [s].
   double peak(std::size_t load, double end) const;
-  /// Frequency of the fastest part of a load until `end` [s]: that of a harmonic one, of a table one
-  /// over twice the width of its narrowest peak at half of the height; 0: none. `sudden`: a first
-  /// value that is not 0 comes at once.
+  /// Frequency of the fastest part of a load until `end` [s]: that of a harmonic one, of a table
+  /// one over twice the width of its narrowest peak at half of the height [Hz]; 0: none. `sudden`:
+  /// a first value that is not 0 comes at once.
   double fastest(std::size_t load, double end, bool sudden) const;
   /// "ramp from 0.1 s on, over 0.05 s", for the report.
   std::string describe(std::size_t load) const;

@@ -163,8 +163,8 @@ class Search {
   /// Where elements yield, K corrects too little. Goes on from the mean of the last steps' ends
   /// whose corrections d cancel best in the norm of K + sigma M (Anderson, J. ACM 12 (1965), 547):
   /// while the same elements yield, that finds the rest of as many of them in as many steps. Where
-  /// others do it may lead away; then the last step's end stays, as K is stiffer than any tangent and
-  /// such steps alone never go away.
+  /// others do it may lead away; then the last step's end stays, as K is stiffer than any tangent
+  /// and such steps alone never go away.
   void accelerate(Trial step) {
     if (trials_.size() == most_trials) trials_.erase(trials_.begin());
     trials_.push_back(std::move(step));
