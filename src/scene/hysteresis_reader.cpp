@@ -279,6 +279,11 @@ void read_yielding_section(OptionReader& options, const Names& names, Region& re
       options.refuse(option, names,
                      "the beam is not flexible in shear; give its section a shear_area");
     }
+    if (kind[0] == 's' && region.element == ElementType::euler_beam) {
+      options.refuse(option, names,
+                     "an euler_beam is not flexible in shear and has no strength in it; give -" +
+                         option_name("<structure>_<group>_element", names) + " beam");
+    }
     law = read_law(options, names, option, prefix + "_rule", first_slope);
     laws.push_back(&*law);
   };

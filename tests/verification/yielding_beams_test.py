@@ -62,6 +62,11 @@ class OneBeam(unittest.TestCase):
             self.assertAlmostEqual(found["energy_lost"] / run.energy["plastic"], 1, delta=1e-9)
 
 
+    def test_without_flexibility_in_shear(self):
+        words = ["euler_beam" if word == "beam" else word for word in beam("-one_line_shear_skeleton_y", pairs(STIFF, 4e6))]
+        program.must_refuse(self, words, "-one_line_shear_skeleton_y", "no strength in it", "-one_line_element beam", ranks=1)
+
+
 class AtRest(unittest.TestCase):
     """One beam pushed at its end, at rest beyond its first corner."""
     MOMENT, HARDENING = 4e6, 0.05
