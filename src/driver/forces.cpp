@@ -33,6 +33,16 @@ void refuse_relieved(const ForceItem& force, const LinearSystem& system) {
                   force.structure + "_model full, or -loops for these elements");
 }
 
+/// Refuses a total of a reduced structure made of matrices: it would be that of the elements.
+void refuse_beside_matrices(const ForceItem& force, const Structure& structure,
+                            const LinearSystem& system) {
+  if (!system.generalised || structure.matrices.empty()) return;
+  throw UserError("option -" + force.name + "_kind: structure " + force.structure +
+                  " is reduced and made of -" + force.structure +
+                  "_matrices, and forces of modes come from elements; give -" + force.structure +
+                  "_model full");
+}
+
 std::vector<std::string> components_of(const ForceItem& force, const Structure& structure) {
   if (!force.of_elements()) return {total_names.begin(), total_names.end()};
   const auto region = std::ranges::find(structure.regions, force.group, &Region::group);
@@ -129,7 +139,10 @@ Forces::Forces(const ObservedRun& run) : run_(run), peaks_start_(run.scene.spect
           continue;
         }
         const bool cut = force.kind == ForceKind::cut;
-        if (!cut) refuse_relieved(force, model.systems[s]);
+        if (!cut) {
+          refuse_relieved(force, model.systems[s]);
+          refuse_beside_matrices(force, scene.structures[s], model.systems[s]);
+        }
         if (cut || model.systems[s].generalised) {
           add(total_rows(scene.structures[s], model.meshes[s], force, model.forces[i], first));
         }

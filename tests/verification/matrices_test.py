@@ -261,6 +261,15 @@ class Matrices(unittest.TestCase):
         early = cases[5]
         self.assertIn(early[1], self.refused(early[0], ranks=3))
 
+    def test_totals_of_modes_are_refused(self):
+        """They would be those of the elements, whatever the matrices are."""
+        place = os.path.join(self.folder, "undamped")
+        shutil.copytree(f"{self.export()}/s1", place, ignore=shutil.ignore_patterns("damping*"))
+        words = [*ONE_DAMPING, "-s1_matrices", place, "-forces", "base", "-base_structure", "s1", "-base_kind", "reactions",
+                 "-end_time", 1e-4]
+        program.must_refuse(self, [*words, "-s1_model", "modal", "-s1_modal_vectors", 10], "-base_kind",
+                            "forces of modes come from elements", "-s1_model full", ranks=1)
+
     def test_options_that_do_not_go_together(self):
         for words, expected in (
                 (["-s1_matrices", "here", "-s1_mass_scaling", 2e-5], "-s1_matrices"),
