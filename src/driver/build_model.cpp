@@ -241,6 +241,10 @@ void turn_weight_with_columns(MPI_Comm comm, const Scene& scene, Profile& profil
 void add_warnings(MPI_Comm comm, const Scene& scene, Model& model) {
   append(model.motion->doubts(), model.warnings);
   if (model.supports) append(model.supports->doubts(), model.warnings);
+  if (model.load_histories) {
+    append(model.load_histories->doubts(scene.loads, model.motion->origin(), scene.end_time),
+           model.warnings);
+  }
   for (const LinearSystem& system : model.systems) append(sliver_warnings(system), model.warnings);
   append(model.interface.warnings, model.warnings);
   for (const Building& building : model.buildings) {

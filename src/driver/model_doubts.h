@@ -17,8 +17,8 @@ std::vector<std::string> place_doubts(const Scene& scene, std::span<const Global
                                       const interactions::Interface& interface,
                                       std::span<const ResolvedProbe> probes);
 
-/// The doubt about a reduced structure whose modes end below the spectra of its probes, unless their
-/// error is estimated. Local.
+/// The doubt about a reduced structure whose modes end below the spectra of its probes, unless
+/// their error is estimated. Local.
 std::vector<std::string> reduction_doubts(const Scene& scene, std::span<const ResolvedProbe> probes,
                                           const Building& building);
 

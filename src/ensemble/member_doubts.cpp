@@ -10,6 +10,7 @@
 #include "driver/rest.h"
 #include "driver/warnings.h"
 #include "interactions/pairing/contact_checks.h"
+#include "motion/load_histories.h"
 #include "motion/synthetic.h"
 
 namespace pounding {
@@ -106,6 +107,7 @@ double check_motion(const MemberScene& member, std::vector<std::string>& doubts)
       interval = std::min(interval, description.time_step);
     }
     append(model.motion->doubts());
+    append(LoadHistories(scene.loads).doubts(scene.loads, model.motion->origin(), scene.end_time));
     append(run_warnings(scene, model));
   } catch (const UserError& error) {
     throw UserError(member.place + error.what());

@@ -52,10 +52,10 @@ struct ModalBasis {
 ///
 ///     z_j = P (A - shift)^-1 P M^-1/2 e_j,      P = I - Y Y^T
 ///
-/// with the shift just below zero, so that free structures pass; then, where they are asked for, the
-/// residual vectors, static responses to M iota of the motions of the ground, so that the mass that
-/// the modes leave out is carried as a rigid one (missing mass, U.S. NRC Regulatory Guide 1.92). Or,
-/// where faces have too many
+/// with the shift just below zero, so that free structures pass; then, where they are asked for,
+/// the residual vectors, static responses to M iota of the motions of the ground, so that the mass
+/// that the modes leave out is carried as a rigid one (missing mass, U.S. NRC Regulatory Guide
+/// 1.92). Or, where faces have too many
 /// points, to equal forces on the points of a patch (see `contact_patches`). They are made
 /// orthonormal, the largest remainder first; a vector in the span to 1e-8 is dropped. Rayleigh-Ritz
 /// on the whole space makes K diagonal.

@@ -152,6 +152,24 @@ double LoadHistories::fastest(std::size_t load, double end, bool sudden) const {
   return f.kind == Kind::table ? 1 / narrowest_peak(f, end, sudden) : 0;
 }
 
+std::vector<std::string> LoadHistories::doubts(std::span<const Load> loads, double origin,
+                                               double end) const {
+  std::vector<std::string> found;
+  for (std::size_t l = 0; l < loads.size(); ++l) {
+    const LoadFunction& f = histories_[l].function;
+    if (histories_[l].factor != 0 && peak(l, end) == 0) {
+      found.push_back("load " + loads[l].name + ": it is 0 throughout the run, which ends at " +
+                      text_of(end) + " s: " + describe(l));
+    }
+    if (std::abs(origin) > 0.01 * end && (f.kind == Kind::table || f.start > 0)) {
+      found.push_back("load " + loads[l].name + ": its times count from the start of the run, " +
+                      "which is at " + text_of(origin) +
+                      " s in the times of the records: subtract that where it has their clock");
+    }
+  }
+  return found;
+}
+
 std::string LoadHistories::describe(std::size_t load) const {
   const LoadFunction& f = histories_[load].function;
   switch (f.kind) {

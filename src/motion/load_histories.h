@@ -27,6 +27,9 @@ class LoadHistories {
   /// one over twice the width of its narrowest peak at half of the height [Hz]; 0: none. `sudden`:
   /// a first value that is not 0 comes at once.
   double fastest(std::size_t load, double end, bool sudden) const;
+  /// Loads that are 0 throughout a run until `end` [s], and those whose times may be meant in the
+  /// times of records that begin at `origin` [s].
+  std::vector<std::string> doubts(std::span<const Load> loads, double origin, double end) const;
   /// "ramp from 0.1 s on, over 0.05 s", for the report.
   std::string describe(std::size_t load) const;
   /// The history of a load, its table read.

@@ -259,6 +259,22 @@ class Refused(unittest.TestCase):
         _, summary = program.must_run(self, bar("-push_force", "1,0,0", "-push_on", "bar:x_min", "-end_time", 0.001))
         self.assertTrue(any("acts on clamped components" in line for line in summary["warnings"]))
 
+    def test_times_beside_records_that_begin_late(self):
+        """A record counts from its first time; a table does not, and both are told."""
+        def doubts(first, values):
+            with tempfile.NamedTemporaryFile("w", suffix=".txt") as record:
+                record.write("".join(f"{first + 1e-4 * k} {k % 3}\n" for k in range(12)))
+                record.flush()
+                _, summary = program.must_run(self, bar(
+                    "-push_force", "1,0,0", "-push_values", values, "-motion_x_record", record.name, "-motion_x_unit", "m/s2",
+                    "-end_time", 0.001))
+            return [line for line in summary["warnings"] if line.startswith("load push")]
+        idle, late = doubts(100, "100,0;100.0005,1")
+        self.assertIn("0 throughout the run", idle)
+        self.assertIn("which is at 100 s in the times of the records", late)
+        self.assertEqual(len(doubts(100, "0,0;0.0005,1")), 1)
+        self.assertEqual(doubts(0, "0,0;0.0005,1"), [])
+
 
 ON_RANKS = {"three loads on a bar": EveryRoom().words(),
             "a bar at rest under a pressure that is shaken": bar(
