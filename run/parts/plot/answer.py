@@ -375,4 +375,4 @@ def picture(result: Result) -> list:
         if result.spectrum_if_any(GROUND, way, damping):
             words[-1] += ", and that of the ground"
     words = "; ".join(words)
-    return save(figure, result.folder, "png", "In one picture", words[:1].upper() + words[1:] + ".")
+    return save(figure, result.folder, "answer.png", "In one picture", words[:1].upper() + words[1:] + ".")
