@@ -292,8 +292,9 @@ class Reduced(Shaken, unittest.TestCase):
         self.assertLess(max(self.differs(1000, full)), 1e-8, "all modes")
         self.assertLess(max(self.differs(1000, Forces(self, self.words(*STIFFER)), *STIFFER)), 1e-8, "stiffer")
         few, more = self.differs(8, full), self.differs(30, full)
-        self.assertLess(max(few), 0.3, "8 vectors")
-        self.assertLess(max(more), 0.1, "30 vectors")
+        self.assertLess(max(few), 0.01, "8 modes")
+        self.assertLess(max(more), 0.01, "30 modes")
+        self.assertGreater(min(self.differs(8, full, "-it_modal_residual", "false")), 2 * max(few), "without residual vectors")
 
 
 class Floors(unittest.TestCase):
