@@ -56,8 +56,8 @@ std::vector<std::vector<std::size_t>> contact_patches(std::span<const TracePoint
                                                       std::span<const Vector3> positions,
                                                       std::size_t count);
 
-/// M^1/2 iota of the motions of the ground, shape (owned dofs, motions): the columns of its
-/// supports, or x, y, z where it moves as one. Local.
+/// M^1/2 iota of the motions of the ground, shape (owned dofs, motions): x, y, z as one, and the
+/// columns of its supports. Local.
 DenseMatrix ground_loads(const LinearSystem& system);
 
 }  // namespace pounding

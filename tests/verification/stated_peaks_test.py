@@ -81,7 +81,7 @@ class Peaks(unittest.TestCase):
             self.assertAlmostEqual(middle.peaks(probe)[0] / fine.peaks(probe)[0], 1, delta=0.02)
             self.assertAlmostEqual(coarse.peaks(probe)[0] / fine.peaks(probe)[0], 1, delta=0.08)
         key = "sampled_peak_acceleration"
-        self.assertGreater(fine.peaks("edge", key)[0] / middle.peaks("edge", key)[0], 4)
+        self.assertGreater(fine.peaks("edge", key)[0] / middle.peaks("edge", key)[0], 3)
         for other, factor in ((middle, 4), (coarse, 8)):
             ratio = self.strongest(fine, other)
             self.assertAlmostEqual(ratio["window_force"], 1, delta=0.01)
