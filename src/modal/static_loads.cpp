@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "modal/orthonormal_space.h"
+#include "system/support_shapes.h"
 
 namespace pounding {
 namespace {
