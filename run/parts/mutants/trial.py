@@ -130,7 +130,7 @@ class Copy:
 
     def targets_of(self, test: str) -> list:
         program = PROGRAMS.get(test.partition(":")[0])
-        return [program] if program else ["pounding", "pounding-spectra"]
+        return [program] if program else ["pounding", "pounding-spectra", "job_server"]
 
     def run(self, test: str, whole: bool = False) -> str:
         """FOUND where a test fails, PASSED where all pass; throws TrialError where none runs. `whole`: not only up to
