@@ -337,13 +337,8 @@ class BasisMaker {
   void add_supports(const DenseMatrix& rotation, ModalBasis& basis) const {
     const SupportShapes& supports = *system_.supports;
     const std::size_t columns = supports.columns.size();
-    DenseMatrix scaled(dofs_, columns);  // M^1/2 iota
-    for (std::size_t c = 0; c < columns; ++c) {
-      for (std::size_t i = 0; i < supports.shape[c].size(); ++i) {
-        scaled.column(c)[i] = supports.shape[c][i] * std::sqrt(system_.lumped_mass[i]);
-      }
-    }
-    basis.support_participation = transposed_product(rotation, space_.parts(scaled)).numbers();
+    basis.support_participation =
+        transposed_product(rotation, space_.parts(support_loads(system_))).numbers();
     basis.support_rows.assign(columns * basis.points.size(), 0.0);
     for (std::size_t p = 0; p < basis.points.size(); ++p) {
       const LocalIndex dof = owned_dof(mesh_, basis.points[p]);

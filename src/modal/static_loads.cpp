@@ -153,7 +153,12 @@ DenseMatrix ground_loads(const LinearSystem& system) {
   for (const Vector3& along : {Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}}) {
     loads.append(weight_of(system, along));
   }
-  if (!system.supports) return loads;
+  if (system.supports) loads.append_columns(support_loads(system));
+  return loads;
+}
+
+DenseMatrix support_loads(const LinearSystem& system) {
+  DenseMatrix loads(system.lumped_mass.size(), 0);
   for (std::vector<double> load : system.supports->shape) {
     load.resize(loads.rows, 0.0);
     for (std::size_t i = 0; i < loads.rows; ++i) load[i] *= std::sqrt(system.lumped_mass[i]);

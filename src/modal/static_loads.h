@@ -60,4 +60,8 @@ std::vector<std::vector<std::size_t>> contact_patches(std::span<const TracePoint
 /// columns of its supports. Local.
 DenseMatrix ground_loads(const LinearSystem& system);
 
+/// M^1/2 iota of the columns of a system's supports, shape (owned dofs, columns); 0 where a support
+/// has no node of the structure. Local.
+DenseMatrix support_loads(const LinearSystem& system);
+
 }  // namespace pounding
