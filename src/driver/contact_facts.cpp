@@ -58,6 +58,7 @@ Facts contact_facts(const Scene& scene, const Model& model, std::size_t c) {
   Facts facts{{{"largest_closing", nullptr},
                {"closing_factor", nullptr},
                {"closing_factor_scales", scaled_by_closing(scene)},
+               {"passes", report.passes},
                {"pairs", report.pairs},
                {"matched", report.matched},
                {"unmatched_nodes", report.unmatched_nodes},
@@ -69,6 +70,7 @@ Facts contact_facts(const Scene& scene, const Model& model, std::size_t c) {
                {"half_thickness", report.half_thickness},
                {"largest_slide", nullptr},
                {"slide_facet_size", nullptr},
+               {"other_pass", nullptr},
                {"normal", report.normal}}};
   if (contact.crushes()) {
     facts.values["crushing"] = {{"area", report.filler_area},
@@ -82,6 +84,9 @@ Facts contact_facts(const Scene& scene, const Model& model, std::size_t c) {
       "\ncontact {}: {pairs} pairs ({matched} node to node), {unmatched_nodes} secondary nodes "
       "face nothing, initial gap {:.4g [mm]} to {:.4g mm}, normal {normal:.3g}\n",
       {report.contact, report.smallest_gap, report.largest_gap});
+  if (report.passes == 2) {
+    facts.say("  in two passes: nodes of either side are kept out of the other\n");
+  }
   for (std::size_t p = 0; p < report.patch_pairs.size(); ++p) {
     const Json patch{{"gap", contact.gap.patches[p].gap}, {"pairs", report.patch_pairs[p]}};
     facts.values["gap_patches"].push_back(patch);
@@ -128,6 +133,16 @@ Facts joint_facts(const Scene& scene, const Model& model, const RunStatistics& r
                {"closing_factor", std::isfinite(factor) ? Json(factor) : Json()},
                {"largest_slide", run.slides[c].distance},
                {"slide_facet_size", run.slides[c].facet_size}});
+    if (const OtherPass& other = run.other_passes[c]; other.depth > 0) {
+      of["other_pass"] = {{"depth", other.depth},
+                          {"facet_size", other.facet_size},
+                          {"place", other.place},
+                          {"time", other.time}};
+      closings += told(
+          "  {:-12s} nodes of the primary, of which no pass is taken, went into it by at most "
+          "{depth:.3g mm}, at ({place/0:.4g}, {place/1:.4g}) m, t = {time:.4g} s\n",
+          of["other_pass"], {contact.name});
+    }
     closings += told("  {:-12s} closed by at most {largest_closing:.4g mm} in the samples", of,
                      {contact.name});
     if (apart) {
@@ -183,6 +198,23 @@ Facts joint_facts(const Scene& scene, const Model& model, const RunStatistics& r
   }
   facts.text += closings + slides;
   return facts;
+}
+
+std::vector<std::string> pass_warnings(const Scene& scene, const RunStatistics& statistics) {
+  std::vector<std::string> warnings;
+  for (std::size_t c = 0; c < statistics.other_passes.size(); ++c) {
+    const OtherPass& other = statistics.other_passes[c];
+    if (!(other.depth > std::min(OtherPass::deep, OtherPass::deep_part * other.facet_size))) {
+      continue;
+    }
+    const std::string& name = scene.contacts[c].name;
+    warnings.push_back(sentence(
+        "contact {}: in one pass nodes of its primary went up to {:.3g mm} into facets of the "
+        "secondary of {:.3g} m, at ({:.4g}, {:.4g}) m, t = {:.4g} s: impacts are missed or late "
+        "there; give -{}_passes 2",
+        {name, other.depth, other.facet_size, other.place[0], other.place[1], other.time, name}));
+  }
+  return warnings;
 }
 
 Facts impact_facts(const Scene& scene, const RunStatistics& run, const ImpactCatalogue& impacts) {

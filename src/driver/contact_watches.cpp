@@ -36,6 +36,25 @@ constexpr auto slide_members = [](auto& slide, const auto& take) {
   take(slide.distance, slide.facet_size, slide.since);
 };
 
+constexpr auto pass_members = [](auto& other, const auto& take) {
+  take(other.depth, other.facet_size, other.place[0], other.place[1], other.time);
+};
+
+/// Rows of the pairs and, after them, of the passes that are not taken.
+std::vector<interactions::Constraint> all_rows(const interactions::Interface& interface) {
+  std::vector<interactions::Constraint> rows = interface.constraints;
+  rows.insert(rows.end(), interface.watched.begin(), interface.watched.end());
+  return rows;
+}
+
+/// What the rows of slides are over: two rows along the faces for every row, one across them for
+/// those of passes that are not taken.
+std::vector<interactions::Constraint> looked_at(const interactions::Interface& interface) {
+  std::vector<interactions::Constraint> rows = interactions::tangential_rows(all_rows(interface));
+  rows.insert(rows.end(), interface.watched.begin(), interface.watched.end());
+  return rows;
+}
+
 class SlideWatch final : public Observer {
  public:
   explicit SlideWatch(const ObservedRun& run);
@@ -45,20 +64,42 @@ class SlideWatch final : public Observer {
   void save(SavedState& saved) override {
     if (gather_.root() != rank_of(run_.comm)) return;
     saved.put("contact_slide", to_rows(slides_, slide_members), 3);
+    saved.put("contact_other_pass", to_rows(passes_, pass_members), 5);
   }
   void load(const SavedState& saved) override {
     std::vector<double> values(3 * slides_.size());
     saved.get("contact_slide", values);
     from_rows(values, slides_, slide_members);
+    values.resize(5 * passes_.size());
+    saved.get("contact_other_pass", values);
+    from_rows(values, passes_, pass_members);
   }
   void report(RunStatistics& statistics) override {
     statistics.slides = slides_;
+    statistics.other_passes = passes_;
     broadcast_array(run_.comm, statistics.slides, gather_.root());
+    broadcast_array(run_.comm, statistics.other_passes, gather_.root());
   }
 
  private:
+  /// Gathers the displacements of the operator's dofs, of every structure's displacements and of
+  /// the supports. Members only, collective over them.
+  void gather(const auto& of, std::span<const double> supports);
   /// Looks at all pairs at a time [s]. Members only, collective over them.
   void look(double time);
+  /// Looks at the passes that are not taken, at a time [s].
+  void look_at_other_passes(double time);
+  /// How far the sides of a row have slid along each other [m].
+  double slide_of(int row) const {
+    return std::hypot(operator_.apply(2 * row, displacement_),
+                      operator_.apply(2 * row + 1, displacement_));
+  }
+  /// By how much a row of a pass that is not taken is wider than unloaded [m].
+  double opening_of(std::size_t row) const {
+    const interactions::Interface& interface = run_.model.interface;
+    const std::size_t across = 2 * (interface.constraints.size() + interface.watched.size());
+    return operator_.apply(static_cast<int>(across + row), displacement_);
+  }
 
   ObservedRun run_;
   std::int64_t stride_;  ///< steps between two looks
@@ -69,6 +110,8 @@ class SlideWatch final : public Observer {
   std::vector<double> mine_;
   std::vector<double> displacement_;  ///< per dof of the operator
   std::vector<Slide> slides_;         ///< per contact
+  std::vector<OtherPass> passes_;     ///< per contact
+  std::vector<double> start_gaps_;    ///< per row of passes that are not taken [m]
 };
 
 /// The numbers of a ratio in a saved state.
@@ -165,40 +208,49 @@ void ImpactWatch::report(RunStatistics& statistics) {
 SlideWatch::SlideWatch(const ObservedRun& run)
     : run_(run),
       stride_(static_cast<std::int64_t>(std::max(1.0, look_interval / run.model.time_step))),
-      operator_(run.comm, interactions::tangential_rows(run.model.interface.constraints),
-                run.model.meshes),
+      operator_(run.comm, looked_at(run.model.interface), run.model.meshes),
       traces_(interactions::make_traces(operator_, run.model.systems, run.model.meshes, false)),
       gather_(run.comm,
               interactions::known_dofs(
                   interactions::dofs_by_structure(operator_, run.model.systems.size()), traces_)),
       displacement_(static_cast<std::size_t>(operator_.dofs()), 0.0),
-      slides_(run.scene.contacts.size()) {
+      slides_(run.scene.contacts.size()),
+      passes_(run.scene.contacts.size()) {
   std::size_t known = 0;
   for (const Trace& trace : traces_) {
     first_known_.push_back(known);
     known += trace.known().size();
   }
   mine_.assign(known, 0.0);
+  const std::vector<interactions::Constraint>& watched = run.model.interface.watched;
+  for (const interactions::Constraint& row : watched) start_gaps_.push_back(row.initial_gap);
+  if (!run.model.equilibrium || watched.empty() || !gather_.member()) return;
+  gather([&](std::size_t s) { return run.model.systems[s].rest_displacement.data(); }, {});
+  for (std::size_t w = 0; w < watched.size(); ++w) {
+    if (run.scene.contacts[watched[w].contact].gap_at_rest) start_gaps_[w] -= opening_of(w);
+  }
+}
+
+void SlideWatch::gather(const auto& of, std::span<const double> supports) {
+  for (std::size_t s = 0; s < traces_.size(); ++s) {
+    traces_[s].apply(of(s), mine_.data() + first_known_[s], 1, supports);
+  }
+  gather_.gather(1, mine_, displacement_);
 }
 
 StepNeeds SlideWatch::begin(const CdLagrange& stepper) {
   if (!gather_.member()) return {};
   const State& state = stepper.state();
-  for (std::size_t s = 0; s < traces_.size(); ++s) {
-    traces_[s].apply(state.structures[s].displacement.data(), mine_.data() + first_known_[s], 1,
-                     state.supports.displacement);
-  }
+  gather([&](std::size_t s) { return state.structures[s].displacement.data(); },
+         state.supports.displacement);
   look(static_cast<double>(state.step) * stepper.time_step());
   return {};
 }
 
 void SlideWatch::look(double time) {
-  gather_.gather(1, mine_, displacement_);
-  int row = 0;  // two per pair
+  int row = 0;
   for (const interactions::Constraint& constraint : run_.model.interface.constraints) {
-    const double distance =
-        std::hypot(operator_.apply(row, displacement_), operator_.apply(row + 1, displacement_));
-    row += 2;
+    const double distance = slide_of(row++);
     const double size = constraint.facet_size;
     Slide& slide = slides_[constraint.contact];
     if (size > 0 && distance > Slide::limit * size && slide.since < 0) slide.since = time;
@@ -208,6 +260,20 @@ void SlideWatch::look(double time) {
       slide.distance = distance;
       slide.facet_size = size;
     }
+  }
+  look_at_other_passes(time);
+}
+
+void SlideWatch::look_at_other_passes(double time) {
+  const interactions::Interface& interface = run_.model.interface;
+  for (std::size_t w = 0; w < interface.watched.size(); ++w) {
+    const interactions::Constraint& row = interface.watched[w];
+    const double depth = -(start_gaps_[w] + opening_of(w));
+    OtherPass& deepest = passes_[row.contact];
+    if (!(depth > deepest.depth)) continue;
+    const int number = static_cast<int>(interface.constraints.size() + w);
+    if (slide_of(number) > Slide::limit * row.facet_size) continue;  // off its facet
+    deepest = {depth, row.facet_size, row.place, time};
   }
 }
 

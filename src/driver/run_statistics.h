@@ -83,6 +83,18 @@ struct Slide {
   static constexpr double limit = 0.5;
 };
 
+/// How far nodes of a contact's primary went into its secondary, in a pass that is not taken.
+struct OtherPass {
+  double depth = 0;               ///< the largest that was seen [m]
+  double facet_size = 0;          ///< of the secondary's facet there [m]
+  std::array<double, 2> place{};  ///< of the node on the tangent axes [m]
+  double time = 0;                ///< when [s]
+
+  /// Depths that count, in metres and as a part of the facet.
+  static constexpr double deep = 1e-3;
+  static constexpr double deep_part = 0.01;
+};
+
 /// Contact ratio of a mat on compression-only springs: the stiffness of those that are pressed over
 /// that of all, 1 as long as nothing lifts off.
 struct ContactRatio {
@@ -163,6 +175,7 @@ struct RunStatistics {
   std::vector<YieldReport> yielding;                ///< per kind of law of a group; rank 0
   std::vector<ForceReport> forces;                  ///< per item of the option; rank 0
   std::vector<Slide> slides;                        ///< per contact
+  std::vector<OtherPass> other_passes;              ///< per contact
   std::vector<JointClosing> closings;               ///< per contact, of the samples of the gaps
   std::vector<ContactRatio> contact_ratios;  ///< per structure; empty where nothing may lift off
   StatedPeaks peaks;                         ///< rank 0

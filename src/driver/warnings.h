@@ -43,6 +43,9 @@ std::vector<std::string> contact_warnings(double residual);
 /// Contacts whose faces slid so far that nodes may have left the facets that they are paired with.
 std::vector<std::string> slide_warnings(const Scene& scene, const RunStatistics& statistics);
 
+/// Contacts of one pass whose primary went deep into their secondary.
+std::vector<std::string> pass_warnings(const Scene& scene, const RunStatistics& statistics);
+
 /// Names of all that a closing factor multiplies: "motion", "motion and loads" where some of those
 /// are not in the rest from which a run starts, "weight" likewise.
 std::string scaled_by_closing(const Scene& scene);

@@ -285,7 +285,8 @@ struct Contact {
   ContactSide secondary;
   ContactSide primary;
   InitialGap gap;
-  int passes = 1;                ///< 2: the nodes of the primary side are constrained as well
+  int passes = 1;                ///< 2: the nodes of the primary side are constrained as well;
+                                 ///< 0: where the faces ask for it
   bool gap_at_rest = false;      ///< the gap is that of the rest that the run starts from
   bool gap_assumed_so = false;   ///< that follows from the gap, it was not given
   double friction = 0;           ///< Coulomb's coefficient [-]

@@ -310,9 +310,10 @@ class SceneReader {
     contact.primary = options_.text("<contact>_primary", {name}) == "wall"
                           ? ContactSide{"wall", ""}
                           : read_side("<contact>_primary", name);
-    contact.passes = options_.integer("<contact>_passes", {name});
+    const std::string passes = options_.choice("<contact>_passes", {name});
+    contact.passes = passes == "auto" ? 0 : passes[0] - '0';
     contact.friction = options_.real("<contact>_friction", {name});
-    if (contact.primary.is_wall() && contact.passes != 1) {
+    if (contact.primary.is_wall() && contact.passes == 2) {
       options_.refuse("<contact>_passes", {name}, "a wall has no nodes");
     }
     contact.gap = read_gap(options_, name, contact.primary.is_wall());

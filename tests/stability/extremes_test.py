@@ -88,7 +88,10 @@ class Rows(unittest.TestCase):
         for case, words, shift in twice:
             allowed = 1e-9 + (shift if shift * CELLS < SNAP else 0.0)
             alone, run = History(self, words), History(self, words, 2)
-            self.assertEqual((run.summary["contact_rows"], run.summary["coupled_rows"]), (32, 32), case)
+            rows = (32, 32)
+            if "-joint_passes" in words:  # which holds a pair of nodes once; half of them are shifted
+                rows = (16, 0) if shift * CELLS < SNAP else (24, 24)
+            self.assertEqual((run.summary["contact_rows"], run.summary["coupled_rows"]), rows, case)
             for other in (once, alone):
                 for name in ("velocity", "displacement"):
                     self.assertLessEqual(abs(run.data[name] - other.data[name]).max() / abs(other.data[name]).max(),

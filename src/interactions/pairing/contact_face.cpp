@@ -176,6 +176,12 @@ ContactFace build_contact_face(const GlobalMesh& mesh, std::span<const Region> r
   return face;
 }
 
+double ContactFace::mean_facet_size() const {
+  double sum = 0;
+  for (std::size_t f = 0; f < facets.size(); ++f) sum += facet_size(f);
+  return sum / static_cast<double>(facets.size());
+}
+
 void turn_towards(ContactFace& face, const Vector3& point) {
   Vector3 normal{0, 0, 0};
   for (std::size_t f = 0; f < face.facets.size(); ++f) {

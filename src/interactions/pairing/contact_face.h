@@ -46,6 +46,7 @@ struct ContactFace {
     const double area = facet_area(facet);
     return facets[facet].count == 2 ? area : std::sqrt(area);
   }
+  double mean_facet_size() const;
   int beams = 0;         ///< facets that are axes of beams
   int inner_facets = 0;  ///< with elements on both of their sides
   /// Unit normals among which nothing chose, of facets that are left out: see build_contact_face.

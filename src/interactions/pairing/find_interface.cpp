@@ -37,19 +37,31 @@ class PairFinder {
 
   void find(Interface& interface) {
     const std::size_t first = first_row_ = interface.constraints.size();
+    const std::size_t first_watched = interface.watched.size();
     if (contact_.primary.is_wall()) {
       pair_with_wall(interface);
     } else if (has_crossing_lines()) {
       if (contact_.sliding > 0) refuse_sliding_lines();
       pair_crossings(interface);
     } else {
+      const bool both = contact_.passes == 2 || (contact_.passes == 0 && needs_both_passes());
+      report_.passes = both ? 2 : 1;
       pair(sides_.secondary, sides_.primary, interface);
-      if (contact_.passes == 2) pair(sides_.primary, sides_.secondary, interface);
+      if (both) {
+        const InterfaceReport one = report_;
+        pair(sides_.primary, sides_.secondary, interface);
+        report_.unmatched_nodes = one.unmatched_nodes;  // of the secondary
+        report_.left_behind = one.left_behind;
+        report_.farthest_behind = one.farthest_behind;
+        if (!contact_.filler && contact_.sliding == 0) drop_repeated(first, interface, report_);
+      } else {
+        watch_other_pass(interface);
+      }
     }
     if (report_.pairs == 0) refuse_without_pairs();
     const std::span<Constraint> found(&interface.constraints[first],
                                       interface.constraints.size() - first);
-    set_gaps(found);
+    set_gaps(found, std::span(interface.watched).subspan(first_watched));
     set_offsets(found, interface.sliding);
     if (contact_.filler) {
       lay_filler(contact_, has_lines(), common_area_, found, report_);
@@ -88,6 +100,27 @@ class PairFinder {
   /// Some part of either side is lines, which have no area.
   bool has_lines() const {
     return sides_.secondary.face.has_lines() || sides_.primary.face.has_lines();
+  }
+
+  /// Nodes of the primary may go between those of the secondary: lines are met along them alone,
+  /// and facets that are larger by more than round-off of a mesh hold some between their nodes.
+  bool needs_both_passes() const {
+    constexpr double as_large = 1.05;
+    return has_lines() || sides_.secondary.face.mean_facet_size() >
+                              as_large * sides_.primary.face.mean_facet_size();
+  }
+
+  /// Keeps the rows of a second pass that is not taken, those of nodes that face each other aside.
+  void watch_other_pass(Interface& interface) {
+    const InterfaceReport taken = report_;
+    Interface other;
+    watches_ = true;
+    pair(sides_.primary, sides_.secondary, other);
+    watches_ = false;
+    report_ = taken;
+    for (Constraint& row : other.constraints) {
+      if (!row.matched) interface.watched.push_back(std::move(row));
+    }
   }
 
   /// A pair for each place where an edge of one side crosses one of the other; a place at a node is
@@ -144,12 +177,12 @@ class PairFinder {
   void pair(const FaceSide& nodes, const FaceSide& facets, Interface& interface) {
     const double reach = (nodes.thickness + facets.thickness) / 2;
     const FacetFinder finder(*facets.mesh, facets.face, reach);
-    if (contact_.filler) {
+    if (contact_.filler && !watches_) {
       areas_ = has_lines() ? node_areas(nodes.face) : common_area(nodes, facets, finder);
-      common_area_ += std::accumulate(areas_.begin(), areas_.end(), 0.0) / contact_.passes;
+      common_area_ += std::accumulate(areas_.begin(), areas_.end(), 0.0) / report_.passes;
     }
     std::optional<SlidingBuilder> sliding;
-    if (contact_.sliding > 0) {
+    if (contact_.sliding > 0 && !watches_) {
       sliding.emplace(contact_, number_, nodes, facets, finder, interface.sliding);
     }
     std::vector<FacetFinder::Result> results;
@@ -238,7 +271,7 @@ class PairFinder {
   /// Adds the node's own terms, and keeps the constraint.
   void finish(const FaceSide& nodes, std::size_t i, Constraint&& constraint, Interface& interface) {
     const GlobalIndex node = nodes.face.nodes[i];
-    if (contact_.filler) constraint.filler.area = areas_[i];
+    if (contact_.filler && !watches_) constraint.filler.area = areas_[i];
     add_terms(nodes.structure, node, -1, nodes.face.node_normals[i], constraint);
     keep(nodes.mesh->position(node), std::move(constraint), interface);
   }
@@ -247,7 +280,7 @@ class PairFinder {
   void keep(const Vector3& x, Constraint&& constraint, Interface& interface) {
     constraint.contact = number_;
     constraint.friction = contact_.friction;
-    if (contact_.sliding > 0) constraint.facet_size = 2 * contact_.sliding;
+    if (contact_.sliding > 0 && !watches_) constraint.facet_size = 2 * contact_.sliding;
     const auto [a, b] = report_.tangent_axes;
     const Vector3& n = report_.normal;
     constraint.place = {x[a], x[b]};
@@ -260,7 +293,7 @@ class PairFinder {
     interface.constraints.push_back(std::move(constraint));
   }
 
-  void set_gaps(std::span<Constraint> constraints) {
+  void set_gaps(std::span<Constraint> constraints, std::span<Constraint> watched) {
     const GivenGap gap(contact_);
     std::array<double, 2> low{1e300, 1e300};
     std::array<double, 2> high{-1e300, -1e300};
@@ -272,14 +305,22 @@ class PairFinder {
         high[t] = std::max(high[t], value);
       }
     }
-    report_.smallest_gap = std::numeric_limits<double>::max();
-    report_.largest_gap = -report_.smallest_gap;
-    report_.geometric_gap = {report_.smallest_gap, report_.largest_gap};
-    for (Constraint& constraint : constraints) {
+    const auto share_of = [&](const Constraint& constraint) {
       std::array<double, 2> s{};
       for (std::size_t t = 0; t < 2; ++t) {
         s[t] = high[t] > low[t] ? (constraint.place[t] - low[t]) / (high[t] - low[t]) : 0;
       }
+      return s;
+    };
+    for (Constraint& row : watched) {
+      row.initial_gap = gap.of(row, share_of(row));
+      if (contact_.filler) fill_joint(contact_, row);
+    }
+    report_.smallest_gap = std::numeric_limits<double>::max();
+    report_.largest_gap = -report_.smallest_gap;
+    report_.geometric_gap = {report_.smallest_gap, report_.largest_gap};
+    for (Constraint& constraint : constraints) {
+      const std::array<double, 2> s = share_of(constraint);
       constraint.initial_gap = gap.of(constraint, s);
       if (shares_ != nullptr) shares_->push_back(s);
       if (constraint.geometric_gap == open_gap) continue;
@@ -318,6 +359,7 @@ class PairFinder {
   std::vector<GapShare>* shares_;  ///< of all constraints; null: not wanted
   const Contact& contact_;
   int number_;
+  bool watches_ = false;       ///< rows that are found are only looked at
   std::size_t first_row_ = 0;  ///< of the contact, in the interface
   ContactSides sides_;
   InterfaceReport report_;

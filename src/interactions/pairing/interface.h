@@ -103,6 +103,7 @@ constexpr double open_gap = 1e30;
 /// Report of the pairs found for one contact.
 struct InterfaceReport {
   std::string contact;
+  int passes = 1;
   int pairs = 0;
   int matched = 0;
   int unmatched_nodes = 0;  ///< secondary nodes that face nothing
@@ -132,10 +133,17 @@ struct Interface {
   SlidingFaces sliding;
   double model_size = 0;              ///< largest extent of the scene [m]
   std::vector<std::string> warnings;  ///< doubts; rank 0 only
+  /// Rows of second passes that are not taken: they never act, and a run looks how far nodes of the
+  /// primary go into the secondary.
+  std::vector<Constraint> watched;
 };
 
 /// Whether some contact has a filler, a strip that is crushed, or a spring.
 bool has_fillers(const Interface& interface);
+
+/// Leaves out rows from `first` on that are there before: of two passes over nodes that face each
+/// other. The report loses them.
+void drop_repeated(std::size_t first, Interface& interface, InterfaceReport& report);
 
 /// Facing nodes, for the partition.
 std::vector<NodeLink> facing_nodes(const Interface& interface);
@@ -143,7 +151,7 @@ std::vector<NodeLink> facing_nodes(const Interface& interface);
 /// Rows of an interface, to a byte stream or from it (common/byte_stream.h).
 template <typename Stream, typename AnyInterface>
 void pass_rows(Stream& stream, AnyInterface& interface) {
-  stream.list(interface.constraints, [&](auto& row) {
+  const auto pass_row = [&](auto& row) {
     stream(row.contact);
     stream.array(row.terms);
     stream(row.initial_gap);
@@ -154,7 +162,9 @@ void pass_rows(Stream& stream, AnyInterface& interface) {
     stream(row.matched);
     stream(row.friction);
     stream(row.filler);
-  });
+  };
+  stream.list(interface.constraints, pass_row);
+  stream.list(interface.watched, pass_row);
   auto& sliding = interface.sliding;
   stream.array(sliding.nodes);
   stream.array(sliding.facets);

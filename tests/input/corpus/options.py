@@ -39,7 +39,7 @@ NUMBERS = [
     refused("-material_concrete_poisson", "-1", "(-1, 0.5)"),
     refused("-material_concrete_density", "0", "above 0"), refused("-material_steel_density", "-7850", ">= 0"),
     refused("-joint_friction", "-0.1", "[0, 10]"), refused("-joint_friction", "30", "[0, 10]"),
-    refused("-joint_passes", "3", "[1, 2]"), refused("-joint_passes", "0", "[1, 2]"),
+    refused("-joint_passes", "3", "auto 1 2"), refused("-joint_passes", "0", "auto 1 2"),
     refused("-spectra_damping", "1", "[0, 1)"), refused("-spectra_damping", "5 %", "finite numbers"),
     refused("-spectra_frequencies", "1,2,2", "increasing"), refused("-spectra_frequencies", "10:1:5log"),
     refused("-spectra_frequencies", "0,1,2", "> 0"), refused("-spectra_frequencies", "1:10:1log"),
