@@ -40,17 +40,9 @@ constexpr auto pass_members = [](auto& other, const auto& take) {
   take(other.depth, other.facet_size, other.place[0], other.place[1], other.time);
 };
 
-/// Rows of the pairs and, after them, of the passes that are not taken.
-std::vector<interactions::Constraint> all_rows(const interactions::Interface& interface) {
-  std::vector<interactions::Constraint> rows = interface.constraints;
-  rows.insert(rows.end(), interface.watched.begin(), interface.watched.end());
-  return rows;
-}
-
-/// What the rows of slides are over: two rows along the faces for every row, one across them for
-/// those of passes that are not taken.
+/// Two rows along the faces for every pair, then one across them for those of passes not taken.
 std::vector<interactions::Constraint> looked_at(const interactions::Interface& interface) {
-  std::vector<interactions::Constraint> rows = interactions::tangential_rows(all_rows(interface));
+  std::vector<interactions::Constraint> rows = interactions::tangential_rows(interface.constraints);
   rows.insert(rows.end(), interface.watched.begin(), interface.watched.end());
   return rows;
 }
@@ -87,18 +79,10 @@ class SlideWatch final : public Observer {
   void gather(const auto& of, std::span<const double> supports);
   /// Looks at all pairs at a time [s]. Members only, collective over them.
   void look(double time);
-  /// Looks at the passes that are not taken, at a time [s].
-  void look_at_other_passes(double time);
-  /// How far the sides of a row have slid along each other [m].
-  double slide_of(int row) const {
-    return std::hypot(operator_.apply(2 * row, displacement_),
-                      operator_.apply(2 * row + 1, displacement_));
-  }
   /// By how much a row of a pass that is not taken is wider than unloaded [m].
   double opening_of(std::size_t row) const {
-    const interactions::Interface& interface = run_.model.interface;
-    const std::size_t across = 2 * (interface.constraints.size() + interface.watched.size());
-    return operator_.apply(static_cast<int>(across + row), displacement_);
+    return operator_.apply(static_cast<int>(2 * run_.model.interface.constraints.size() + row),
+                           displacement_);
   }
 
   ObservedRun run_;
@@ -248,9 +232,11 @@ StepNeeds SlideWatch::begin(const CdLagrange& stepper) {
 }
 
 void SlideWatch::look(double time) {
-  int row = 0;
+  int row = 0;  // two per pair
   for (const interactions::Constraint& constraint : run_.model.interface.constraints) {
-    const double distance = slide_of(row++);
+    const double distance =
+        std::hypot(operator_.apply(row, displacement_), operator_.apply(row + 1, displacement_));
+    row += 2;
     const double size = constraint.facet_size;
     Slide& slide = slides_[constraint.contact];
     if (size > 0 && distance > Slide::limit * size && slide.since < 0) slide.since = time;
@@ -261,19 +247,12 @@ void SlideWatch::look(double time) {
       slide.facet_size = size;
     }
   }
-  look_at_other_passes(time);
-}
-
-void SlideWatch::look_at_other_passes(double time) {
-  const interactions::Interface& interface = run_.model.interface;
-  for (std::size_t w = 0; w < interface.watched.size(); ++w) {
-    const interactions::Constraint& row = interface.watched[w];
+  for (std::size_t w = 0; w < start_gaps_.size(); ++w) {
+    const interactions::Constraint& other = run_.model.interface.watched[w];
     const double depth = -(start_gaps_[w] + opening_of(w));
-    OtherPass& deepest = passes_[row.contact];
-    if (!(depth > deepest.depth)) continue;
-    const int number = static_cast<int>(interface.constraints.size() + w);
-    if (slide_of(number) > Slide::limit * row.facet_size) continue;  // off its facet
-    deepest = {depth, row.facet_size, row.place, time};
+    OtherPass& deepest = passes_[other.contact];
+    const bool beside = slides_[other.contact].distance > Slide::limit * other.facet_size;
+    if (depth > deepest.depth && !beside) deepest = {depth, other.facet_size, other.place, time};
   }
 }
 

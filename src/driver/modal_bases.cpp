@@ -66,7 +66,6 @@ void add_contact_points(const interactions::Interface& interface, int s, PointLi
   list.add({across.begin(), smooth}, request.contact_points);
   list.add({smooth, across.end()}, request.other_points);
   list.add(interface.watched, request.other_points);
-  list.add(interactions::tangential_rows(interface.watched), request.other_points);
   for (const interactions::SlidingFaces::Node& node : interface.sliding.nodes) {
     for (int d = 0; node.structure == s && d < 3; ++d) {
       list.add({node.node, d}, request.other_points);

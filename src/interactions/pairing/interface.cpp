@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "common/matrix3.h"
 
@@ -26,28 +27,22 @@ std::vector<ConstraintTerm> weights_of(const Constraint& constraint, const Vecto
 /// A weight this close to 1 is the node itself; one this close to 0 is not there.
 constexpr double negligible = 1e-6;
 
-/// Terms of a row in an order that does not depend on its sides, but for round-off of its normal.
-std::vector<std::array<double, 4>> sorted_terms(const Constraint& row) {
-  constexpr double digits = 1e6;
-  std::vector<std::array<double, 4>> terms;
-  for (const ConstraintTerm& term : row.terms) {
-    const double rounded = std::round(digits * term.coefficient);
-    if (rounded == 0) continue;
-    terms.push_back({static_cast<double>(term.structure), static_cast<double>(term.node),
-                     static_cast<double>(term.component), rounded});
-  }
-  std::ranges::sort(terms);
-  return terms;
-}
-
 }  // namespace
 
 void drop_repeated(std::size_t first, Interface& interface, InterfaceReport& report) {
-  std::set<std::vector<std::array<double, 4>>> known;
+  constexpr double digits = 1e6;  // of a normal, from either side
+  using Terms = std::set<std::tuple<int, GlobalIndex, int, long>>;
+  std::set<Terms> known;
   const auto kept =
       std::remove_if(interface.constraints.begin() + static_cast<std::ptrdiff_t>(first),
                      interface.constraints.end(), [&](const Constraint& row) {
-                       return row.matched && !known.insert(sorted_terms(row)).second;
+                       Terms terms;
+                       for (const ConstraintTerm& term : row.terms) {
+                         const long rounded = std::lround(digits * term.coefficient);
+                         if (rounded != 0)
+                           terms.emplace(term.structure, term.node, term.component, rounded);
+                       }
+                       return row.matched && !known.insert(terms).second;
                      });
   const auto repeated = static_cast<int>(interface.constraints.end() - kept);
   report.pairs -= repeated;
