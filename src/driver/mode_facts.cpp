@@ -318,14 +318,17 @@ Facts scaling_facts(const Building& building) {
 Facts step_limit_facts(const Building& building) {
   const LinearSystem& system = *building.system;
   const LargestFrequency& largest = building.limits.largest;
+  const auto named = [](const std::string& element) {
+    return element.empty() ? Json() : Json(element);
+  };
   Facts facts{{{"omega_max", largest.omega_max},
                {"omega_max_excess", largest.excess},
                {"omega_max_location", largest.location},
                {"element_frequency_bound", system.element_frequency_bound},
-               {"stiffest_element", system.stiffest_element},
+               {"stiffest_element", named(system.stiffest_element)},
                {"stable_time_step", building.limits.stable_time_step},
                {"element_time_step_bound", system.element_time_step_bound},
-               {"limiting_element", system.limiting_element},
+               {"limiting_element", named(system.limiting_element)},
                {"stable_time_step_undamped", 2 / largest.omega_max}}};
   if (building.basis) {
     facts.say(

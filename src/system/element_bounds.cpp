@@ -212,6 +212,8 @@ void ElementBounds::add(const ElementBlock& block, std::span<const double> stiff
 void ElementBounds::finish(LinearSystem& system) {
   system.element_frequency_bound = 0;
   system.element_time_step_bound = infinity;
+  double named_frequency = 0;
+  double named_step = infinity;
   auto frequency = frequencies_.begin();
   auto factor = mass_scaling_.begin();
   std::vector<std::vector<double>>
@@ -222,13 +224,16 @@ void ElementBounds::finish(LinearSystem& system) {
       // omega^2 / (1 + c omega^2)
       const double scaled =
           *factor > 0 ? 1 / std::sqrt(1 / (*frequency * *frequency) + *factor) : *frequency;
-      if (scaled > system.element_frequency_bound) {
-        system.element_frequency_bound = scaled;
+      const bool moves = !is_in_rigid_body(mesh_, block, e);  // as its stiffness and mass say
+      system.element_frequency_bound = std::max(system.element_frequency_bound, scaled);
+      if (moves && scaled < infinity && scaled > named_frequency) {
+        named_frequency = scaled;
         system.stiffest_element = describe_element(mesh_, block, e);
       }
       const double dt = time_step(block, e, *frequency, *factor, system.lumped_mass);
-      if (dt < system.element_time_step_bound) {
-        system.element_time_step_bound = dt;
+      system.element_time_step_bound = std::min(system.element_time_step_bound, dt);
+      if (moves && dt < named_step) {
+        named_step = dt;
         system.limiting_element = describe_element(mesh_, block, e);
       }
       alone.push_back(time_step_alone(block, *frequency, *factor));
@@ -240,8 +245,10 @@ void ElementBounds::finish(LinearSystem& system) {
   if (structure_.mass_scaling == 0 && !structure_.step_target) {
     system.scaling_offer = find_offer(all);
   }
-  share_extreme(mesh_.comm, MPI_MAXLOC, system.element_frequency_bound, system.stiffest_element);
-  share_extreme(mesh_.comm, MPI_MINLOC, system.element_time_step_bound, system.limiting_element);
+  share_extreme(mesh_.comm, MPI_MAXLOC, named_frequency, system.stiffest_element);
+  share_extreme(mesh_.comm, MPI_MINLOC, named_step, system.limiting_element);
+  MPI_Allreduce(MPI_IN_PLACE, &system.element_frequency_bound, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm);
+  MPI_Allreduce(MPI_IN_PLACE, &system.element_time_step_bound, 1, MPI_DOUBLE, MPI_MIN, mesh_.comm);
 }
 
 ScalingOffer ElementBounds::find_offer(const std::vector<std::vector<double>>& alone) const {

@@ -92,7 +92,7 @@ class Opening(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.plain = cls().run_of()
+        cls.plain = cls().run_of("-time_step", 2e-5)
         cls.scaled = cls().run_of("-block_mass_scaling", cls.STEP)
 
     def run_of(self, *words):
@@ -113,10 +113,12 @@ class Opening(unittest.TestCase):
     def test_impacts_and_histories_are_those_of_small_steps(self):
         self.assertGreater(self.plain.summary["impacts"]["episodes"], 0)
         self.assertEqual(self.plain.summary["impacts"]["episodes"], self.scaled.summary["impacts"]["episodes"])
-        for probe in ("block_floor.x", "tower_roof.x", "frame_floor2.x"):
-            expected = self.plain.displacement(probe)
-            found = numpy.interp(self.plain.time, self.scaled.time, self.scaled.displacement(probe))
-            self.assertLess(abs(found - expected).max() / abs(expected).max(), 2e-3, probe)
+        # Impacts begin with a step: those of 1e-5 and 2e-5 s alone are 4e-3 apart. Of one step only mass differs.
+        for run, allowed in ((self.scaled, 2e-2), (self.run_of("-block_mass_scaling", self.STEP, "-time_step", 2e-5), 1e-5)):
+            for probe in ("block_floor.x", "tower_roof.x", "frame_floor2.x"):
+                expected = self.plain.displacement(probe)
+                found = numpy.interp(self.plain.time, run.time, run.displacement(probe))
+                self.assertLess(abs(found - expected).max() / abs(expected).max(), allowed, probe)
 
 
 def slabs(step, scaling):

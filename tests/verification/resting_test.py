@@ -124,7 +124,7 @@ class RestingColumn(unittest.TestCase):
                 *material("rigid", 1e22, 0, 5e15)]
         for name in ("corner", "edge", "centre"):
             pads += [f"-{name}_secondary", "body:z_min", f"-{name}_primary", f"pads:{name}",
-                     f"-{name}_gap", 0]
+                     f"-{name}_gap", 0, f"-{name}_passes", 1]  # under the nodes of the column alone
         standing = scene(self.BOX, self.TIME_STEP / 2, self.END, "-body_damping_alpha",
                          repr(self.ALPHA))
         at = standing.index("-contacts")
