@@ -162,7 +162,8 @@ Facts mode_facts(const Mode& mode, const Building& building, int number) {
     const double moved = uniform->moved(mode.frequency);
     facts.add("damped_frequency", moved);
     facts.say(", damped {damped_frequency:.3f} Hz ({:+.1f %}) at {:.3f %}",
-              {moved / mode.frequency - 1, uniform->ratio_at(2 * std::numbers::pi * moved)});
+              {mode.frequency > 0 ? moved / mode.frequency - 1 : 0,
+               uniform->ratio_at(2 * std::numbers::pi * moved)});
   }
   if (mode.region.region >= 0) {
     const auto region = static_cast<std::size_t>(mode.region.region);

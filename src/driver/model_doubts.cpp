@@ -16,6 +16,7 @@ namespace {
 constexpr double level_mat = 1;        ///< height over which nodes of a mat may lie [m]
 constexpr double level_part = 0.1;     ///< or this part of its longer side
 constexpr double long_spring = 5;      ///< between two nodes; a device is shorter [m]
+constexpr double skew_spring = 0.5;    ///< likewise, of one that lies along no axis [m]
 constexpr double wide_gap = 1;         ///< joints of buildings are narrower [m]
 constexpr double wide_part = 0.05;     ///< and narrower than this part of the model
 constexpr double narrow_floor = 0.15;  ///< extent in plan over that of the widest floor
@@ -45,12 +46,19 @@ void doubt_springs(const Structure& structure, const GlobalMesh& mesh,
                    std::vector<std::string>& doubts) {
   for (const ElementSet& set : mesh.regions) {
     if (traits_of(set.type).family != ElementFamily::spring) continue;
+    constexpr double along = 0.999;  // cosine
     double longest = 0;
+    bool doubted = false;
     for (std::size_t i = 0; i + 1 < set.connectivity.size(); i += 2) {
-      longest = std::max(longest, norm(minus(mesh.position(set.connectivity[i]),
-                                             mesh.position(set.connectivity[i + 1]))));
+      const Vector3 line =
+          minus(mesh.position(set.connectivity[i + 1]), mesh.position(set.connectivity[i]));
+      const double length = norm(line);
+      longest = std::max(longest, length);
+      const bool skew =
+          std::ranges::none_of(line, [&](double part) { return std::abs(part) >= along * length; });
+      doubted = doubted || length > (skew ? skew_spring : long_spring);
     }
-    if (!(longest > long_spring)) continue;
+    if (!doubted) continue;
     std::ostringstream text;
     text.precision(4);
     text << "structure " << structure.name << ", group " << set.group << ": a spring of " << longest

@@ -23,7 +23,7 @@ double length(const Vector3& v) {
 }
 
 bool is_weightless(const StructureRest& rest) {
-  return length(rest.weight) == 0 && length(rest.load) == 0;
+  return length(rest.weight) == 0 && rest.forces == 0;
 }
 
 /// Overlap that round-off may make of a joint that is just closed, over the model's longest side.

@@ -164,14 +164,20 @@ void look_at_gravity(const Structure& structure, Doubts& doubts) {
              "this die away before -spectra_start and the motion");
 }
 
-/// A region that holds by the pressure on it, where no weight does.
-void look_at_weight(const Structure& structure, const Region& region, Doubts& doubts) {
+/// A region that holds by the pressure on it, where no weight does; dashpots in series with springs
+/// whose structure starts displaced.
+void look_at_start(const Structure& structure, const Region& region, Doubts& doubts) {
   const std::string owner = "structure " + structure.name + ", group " + region.group + ": ";
   const auto across = static_cast<std::size_t>(region.nonlinear.circle[2]);
   if (region.nonlinear.friction > 0 && structure.gravity[across] == 0) {
     doubts.add(owner + "slides, but no gravity acts along " + "xyz"[across] +
                ", across its plane: it holds only by the pressure of the motion; give -gravity and "
                "-preload static");
+  }
+  if (region.nonlinear.has_series() && structure.starts_displaced()) {
+    doubts.add(owner +
+               "its dashpots in series with springs start let go, as long after the displacement "
+               "was given: these springs carry nothing of it");
   }
   if (region.compression_only && !(structure.gravity[2] < 0)) {
     doubts.add(owner +
@@ -196,7 +202,7 @@ std::vector<std::string> scene_doubts(const Scene& scene) {
   for (const Structure& structure : scene.structures) {
     for (const Region& region : structure.regions) {
       look_at_region("structure " + structure.name, region, doubts);
-      look_at_weight(structure, region, doubts);
+      look_at_start(structure, region, doubts);
     }
     if (structure.soil && structure.soil->table.empty()) {
       doubts.look_at("structure " + structure.name, soil_velocity,

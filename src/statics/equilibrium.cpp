@@ -397,6 +397,8 @@ class Search {
     for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] *= system.lumped_mass[i];
     rest.settlement = total(s, momentum);
     if (system.loads) rest.load = system.loads->total_at_rest();
+    for (const double force : weight_[s]) rest.forces += std::abs(force);
+    MPI_Allreduce(MPI_IN_PLACE, &rest.forces, 1, MPI_DOUBLE, MPI_SUM, comm_);
     for (std::size_t d = 0; d < 3; ++d) {
       rest.weight[d] = system.total_mass * system.gravity[d];
       rest.settlement[d] /= system.total_mass;
@@ -432,7 +434,7 @@ class Search {
                         (rest.contact[d] - free_contact[d]) - handed[d];
       left[d] = given + rest.contact[d] + rest.support[d];
     }
-    const double scale = std::max({largest_size(rest.weight), largest_size(rest.load),
+    const double scale = std::max({rest.forces, largest_size(rest.weight), largest_size(rest.load),
                                    largest_size(rest.contact), largest_size(rest.support)});
     rest.imbalance = scale > 0 ? largest_size(left) / scale : 0;
   }

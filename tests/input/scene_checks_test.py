@@ -127,6 +127,28 @@ class Probes(Run):
             file.write(chain.read().replace("{2, 0, 0}", "{11, 0, 0}"))
         self.doubt([*CHAIN, "-m_mesh", path, *PROBE, "1,0,0"], "group link2: a spring of 10 m", "bar")
 
+    def test_a_spring_over_a_diagonal(self):
+        path = os.path.join(self.folder, "chain.geo")
+        with open(path, "w") as file, open(os.path.join(program.SOURCE, "tests/meshes/chain.geo")) as chain:
+            file.write(chain.read().replace("{2, 0, 0}", "{4, 4, 0}"))
+        self.doubt([*CHAIN, "-m_mesh", path, *PROBE, "1,0,0"], "group link2: a spring of 5 m", "acts along the axes")
+
+    def test_dashpots_in_series_that_start_let_go(self):
+        self.doubt([*CHAIN, "-m_link2_dashpot", "10,10,10", "-m_link2_dashpot_stiffness", "1e3,1e3,1e3", "-m_initial_displacement",
+                    "0.01,0,0", *PROBE, "1,0,0"], "group link2: its dashpots in series with springs start let go")
+
+    def test_loads_whose_sum_is_zero_are_a_start(self):
+        lines = self.doubts([*CHAIN, "-preload", "static", "-loads", "left,right", "-left_on", "m:first",
+                             "-left_force", "-100,0,0", "-right_on", "m:second", "-right_force",
+                             "100,0,0", *PROBE, "1,0,0"])
+        self.assertFalse([line for line in lines if "undeformed" in line or "miss its weight" in line], lines)
+
+    def test_shift_of_a_mode_of_no_frequency(self):
+        loose = ["-modes", 3, "-m_clamp", "none", "-m_allow_loose", "true", "-m_damping_uniform", 0.02, "-m_damping_reference", 5]
+        result = program.must_end(self, [*CHAIN, *loose, "-dry_run", *PROBE, "1,0,0", "-output", self.folder])
+        self.assertIn("damped 0.000 Hz", result.stdout)
+        self.assertNotIn("nan", result.stdout)
+
     def test_far_within_five_percent_of_the_extent(self):
         self.refuse(["-structures", "m", "-m_mesh", "tests/meshes/line.geo", "-m_mesh_set", "length=100,n=100",
                      "-m_line_element", "bar", "-m_line_area", "1", "-m_line_material", "s", "-material_s_young", "1e9",
