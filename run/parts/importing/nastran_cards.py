@@ -90,6 +90,20 @@ def deck_of(path: Path) -> tuple:
     return control, cards
 
 
+# Elements of structures, those of NASTRAN-95 among them, and where cards have a density or a mass.
+STRUCTURAL = re.compile(r"C(BAR|BEAM|BEND|ROD|ONROD|TUBE|SHEAR|QUAD[124R8]|TRIA[1236R]|QDMEM\d?|TRMEM|QDPLT|TRPLT|TRBSC|HEXA[12]?|"
+                        r"PENTA|WEDGE|TETRA|PYRAM|IHEX[123]|BUSH|ELAS[12])")
+MASS_AT = {"MAT1": 4, "MAT2": 7, "MAT8": 8, "MAT9": 23, "CONM2": 3, "CMASS2": 1, "PMASS": 1, "PSHELL": 7, "PBAR": 6,
+           "PROD": 5}
+
+
+def holds_mass(path: Path) -> bool:
+    """Whether a deck has elements of a structure and mass. Throws InputFault."""
+    cards = deck_of(path)[1]
+    return any(STRUCTURAL.fullmatch(card.name) for card in cards) and any(
+        card.name == "CONM1" or card.name in MASS_AT and card.real(MASS_AT[card.name]) for card in cards)
+
+
 class Systems:
     """Coordinate systems by number; `position` finds the coordinates of a grid point."""
 
