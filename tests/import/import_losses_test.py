@@ -74,6 +74,7 @@ NASTRAN_LOST = {
     "PCOMP,9,,,,,,,,\n,1,.01,0.\n": "PCOMP 1",
     "MAT8,9,1.+11,1.+10,.3,1.+9\nMATS1,1,,PLASTIC,1.+9\n": "MAT8 1, MATS1 1",
     "MPC,1,1,1,1.,2,1,-2.\n": "MPC 1",
+    "TF,9,2,1,1.,0.,0.\n,3,1,-1.,0.,0.\n": "TF 1",
     "CBAR,9,1,1,3,0.,1.,0.,,\n,,56\n": "PINS 56 OF CBAR 1",
     "CBAR,9,8,1,3,0.,1.,0.\nPBARL,8,1,,T\n,.1,.1,.01,.01\n": "PBARL T 1",
     "CONM2,9,3,,5.,,,,,\n,1.,.5,1.\n": "I OF CONM2 1",
@@ -87,7 +88,7 @@ NASTRAN_NOTED = {
         "FORCE 1, GRAV 1", "EIGRL 1, PARAM 1"),
 }
 NASTRAN_NONE = {
-    NASTRAN + "GRID,1,,0.,0.,0.\n": "line 13: grid point 1 is there already",
+    NASTRAN + "GRID,1,,0.,0.,1.\n": "line 13: GRID 1 is given twice, in another way at model.bdf line 4",
     NASTRAN + "CBAR,9,1,1,7,1.,0.,0.\n": "line 13: node 7 is not in the file",
     NASTRAN + "GRID,9,,0.,o.,0.\n": "line 13: GRID: 'o.' is not a number",
     NASTRAN + "CBAR,9,3,1,3,0.,1.,0.\n": "line 13: element 9 has no section or property",

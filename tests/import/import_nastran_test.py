@@ -160,6 +160,86 @@ class Nastran(unittest.TestCase):
         close(self, (found,), (total * factor * mass,))
         close(self, centre, [inch * sum(w * x[k] for w, x in weights) / total for k in range(3)])
 
+    POST = {1: (0, 0, 0), 2: (0, 0, 1.5), 3: (0, 0, 3)}
+    REST = ("".join(small("GRID", n, "", *map(float, x)) for n, x in POST.items()) + small("MAT1", 1, "2.1+11", "", .3, 7850.)
+            + small("PBAR", 1, 1, .01, "8.33-6", "8.33-6", "1.4-5") + small("SPC1", 1, 123456, 1))
+
+    @staticmethod
+    def marked(number, nodes, mark):
+        return small("CBAR", number, 1, *nodes, 1., 0., 0.).rstrip().ljust(72) + mark + "\n"
+
+    def test_continuations_belong_to_the_line_that_has_their_mark(self):
+        """Element 1 is 0.5 m and element 2 0.1 m beside its grid points, in whatever order the lines are."""
+        bars = self.marked(1, (1, 2), "+C1"), self.marked(2, (2, 3), "+C2")
+        offsets = "+C1     " + " " * 16 + small("0.", .5, 0., 0., .5, 0.), "+C2     " + " " * 16 + small("0.", .1, 0., 0., .1, 0.)
+        for lines in ((bars[0], offsets[0], bars[1], offsets[1]), (*bars, *offsets), (offsets[1], offsets[0], *bars)):
+            deck = "SOL 103\nCEND\nBEGIN BULK\n" + "".join(lines) + self.REST
+            _, said = imported.imported(self, "post.bdf", deck)
+            close(self, said_mass(said)[1], (0, .3, 1.5))
+        for lines, part in (((bars[0], offsets[1]), "line 5: no line has the mark 'C2'"),
+                            ((bars[0], bars[0].replace("  1  ", "  2  ", 1), bars[1], offsets[0]), "line 7: more than one line has the mark 'C1'"),
+                            ((bars[0], offsets[0], offsets[0]), "line 6: no line has the mark 'C1'"),
+                            ((bars[0], bars[1], "+       " + offsets[0][8:], offsets[1]), "line 6: a continuation without a mark")):
+            imported.refused(self, "model.bdf", "SOL 103\nCEND\nBEGIN BULK\n" + "".join(lines) + self.REST, part)
+
+    def test_fields_past_the_eighth_of_a_free_line(self):
+        """Are refused, as nobody can tell a ninth field from a mark; a tenth field that is a mark is one."""
+        feet = "".join(small("GRID", n, "", float(n), 0., 0.) + small("GRID", n + 10, "", float(n), 0., 3.)
+                       + small("CBAR", n, 1, n, n + 10, 1., 0., 0.) for n in range(1, 9)) + small("PBAR", 1, 1, .01, "8.-6", "8.-6", "1.-5")
+        for line in ("SPC1,1,123456,1,2,3,4,5,6,7,8\n", "SPC1,1,123456,1,2,3,4,5,6,7\n", "SPC1,1,123456,1,2,3,4,5,6,,7\n"):
+            imported.refused(self, "feet.bdf", "BEGIN BULK\n" + feet + STEEL + line, "feet.bdf line 28: a line has 8 fields of data")
+        _, said = imported.imported(self, "feet.bdf", "BEGIN BULK\n" + feet + STEEL + "SPC1,1,123456,1,2,3,4,5,6,+A\n+A,7,8\n")
+        self.assertIn("supported nodes 8:", said)
+
+    def test_replication_and_numbers_with_blanks(self):
+        """A mast of five bars by replication is the one that is written out."""
+        deck = ("BEGIN BULK\nGRID,1,,0.,0.,0.\n=,*1,=,=,=,*(1.5)\n=(4)\nCBAR,1,1,1,2,1.,0.,0.\n=,*(1),=,*1,*1,==\n=3\n"
+                "PBAR,1,1,.01,8.33-6,8.33-6,1.4-5\nSPC1,1,123456,1\n" + small("MAT1", 1, "2.1 +11", "", .3, "78.5 E2"))
+        scene, said = imported.imported(self, "mast.bdf", deck)
+        plain = ("BEGIN BULK\n" + "".join(small("GRID", n, "", 0., 0., 1.5 * (n - 1)) for n in range(1, 7))
+                 + "".join(small("CBAR", n, 1, n, n + 1, 1., 0., 0.) for n in range(1, 6)) + small("PBAR", 1, 1, .01, "8.33-6", "8.33-6", "1.4-5")
+                 + STEEL + small("SPC1", 1, 123456, 1))
+        other, told = imported.imported(self, "mast.bdf", plain)
+        self.assertEqual((scene.read_text(), scene.with_suffix(".msh").read_text()), (other.read_text(), other.with_suffix(".msh").read_text()))
+        close(self, (*said_mass(said)[1], *said_mass(told)[1]), (0, 0, 3.75, 0, 0, 3.75))
+        for line, part in (("=,*1\n", "line 2: a replication of no card"), ("GRID,1,,0.,0.,0.\n=(3)\n", "line 3: =(3) repeats no replication"),
+                           ("GRID,1,,0.,0.,0.\n=x,*1\n", "line 3: '=x' is no replication"),
+                           ("GRID,1,,0.,0.,0.\n=(9999999),*1\n", "line 3: a replication of 9999999 cards")):
+            imported.refused(self, "mast.bdf", "BEGIN BULK\n" + line, part)
+
+    def test_thickness_of_a_plate_by_parts_of_its_property(self):
+        """TFLAG 1: T1 to T4 are parts of 0.2 m; the first plate has 0.2 m, the second 0.1 m of it."""
+        points = {1: (0, 0, 0), 2: (2, 0, 0), 3: (4, 0, 0), 4: (0, 1, 0), 5: (2, 1, 0), 6: (4, 1, 0)}
+        deck = ("".join(small("GRID", n, "", *map(float, x)) for n, x in points.items()) + small("CQUAD4", 1, 1, 1, 2, 5, 4)
+                + small("CQUAD4", 2, 1, 2, 3, 6, 5, "", "", "", "{flag}", .5, .5, .5, .5)
+                + small("PSHELL", 1, 1, .2, 1, "", 1) + small("MAT1", 1, "3.+10", "", .2, 2500.) + small("SPC1", 1, 123456, 1, 4))
+        for flag, mass in ((1, 1500), (0, 3500), ("", 3500)):
+            _, said = imported.imported(self, "plate.bdf", deck.replace("{flag}", f"{flag!s:6}"))
+            close(self, said_mass(said)[:1], (mass,))
+        imported.refused(self, "plate.bdf", deck.replace("{flag}", "2     "), "CQUAD4 2 has TFLAG 2; it is 0 or 1")
+
+    def test_rotary_inertia_of_bars_is_said(self):
+        bars = self.REST + small("CBAR", 1, 1, 1, 2, 1., 0., 0.) + small("CBAR", 2, 1, 2, 3, 1., 0., 0.)
+        _, said = imported.imported(self, "post.bdf", "BEGIN BULK\n" + bars)
+        self.assertIn("\nbeams have the rotary inertia of their sections here", said)
+        _, said = imported.imported(self, "post.bdf", "BEGIN BULK\nPARAM,COUPMASS,1\n" + bars)
+        self.assertNotIn("rotary inertia", said)
+
+    def test_numbers_given_twice(self):
+        """The same again counts once; another card of the number is refused with both places."""
+        bars = self.REST + small("CBAR", 1, 1, 1, 2, 1., 0., 0.) + small("CBAR", 2, 1, 2, 3, 1., 0., 0.) + small("CONM2", 3, 3, "", 10.)
+        cards = {"GRID": small("GRID", 3, "", 0., 0., 3.1), "MAT1": small("MAT1", 1, "2.1+11", "", .3, 7000.),
+                 "PBAR": small("PBAR", 1, 1, .02, "8.33-6", "8.33-6", "1.4-5"), "CBAR": small("CBAR", 2, 1, 2, 3, 0., 1., 0.),
+                 "CONM2": small("CONM2", 3, 3, "", 20.), "PBARL": small("PBARL", 1, 1, "", "ROD") + small("+", .1),
+                 "CROD": small("CROD", 2, 1, 2, 3), "PARAM": "PARAM,WTMASS,1.\nPARAM,WTMASS,2.\n"}
+        _, alone = imported.imported(self, "post.bdf", "BEGIN BULK\n" + bars)
+        for name, card in cards.items():
+            with self.subTest(name):
+                imported.refused(self, "post.bdf", "BEGIN BULK\n" + bars + card, f"{name} ", "is given twice, in another way at post.bdf "
+                                                                                     "line ")
+        _, again = imported.imported(self, "post.bdf", "BEGIN BULK\n" + bars + bars.replace("10.", "10.0"))
+        self.assertEqual(said_mass(again), said_mass(alone))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -7,8 +7,9 @@ from .cards import names_of
 from .geometry import (along_global_axes, applied, axis_between, difference, frame_about, length, normal_of,
                        permutation, scaled, sum_of, turned_z)
 from .model import BAR, AxialSpring, Element, InputFault, Model, PointMass, Property, Reading, Spring
-from .nastran_cards import GLOBAL, Card, Systems, deck_of
+from .nastran_cards import GLOBAL, Card, Systems
 from .nastran_joints import JointReader
+from .nastran_lines import deck_of
 from .nastran_properties import PropertyReader
 
 SOLIDS = {"CHEXA": ("hex8", 8, 20), "CPENTA": ("wedge6", 6, 15), "CTETRA": ("tet4", 4, 10)}
@@ -19,7 +20,7 @@ NOTED = {
     "titles, output and control": names_of("""
     PLOTEL SET1 SET3 PARAM ENDDATA SUPORT SUPORT1 EIGR EIGRL EIGB EIGC EIGP TSTEP TSTEPNL NLPARM NLPCI ASET ASET1 OMIT
     OMIT1 MONPNT1 DTI TABDMP1 FREQ FREQ1 FREQ2 FREQ3 FREQ4 FREQ5 RANDPS RANDT1 TABRND1 TABLED1 TABLED2 TABLED3 TABLED4
-    TABLEM1 DESVAR DCONSTR DRESP1 DVPREL1 DEFORM TF
+    TABLEM1 DESVAR DCONSTR DRESP1 DVPREL1 DEFORM
     """),
     "loads and steps are not part of the model": names_of("""
     FORCE FORCE1 FORCE2 MOMENT MOMENT1 MOMENT2 PLOAD PLOAD1 PLOAD2 PLOAD4 GRAV LOAD RFORCE ACCEL ACCEL1 TEMP TEMPD
@@ -39,10 +40,8 @@ class Reader(Reading):
         self.grids: dict = {}  # number -> (system, coordinates, system of displacements, place)
         self.frames: dict = {}  # grid -> axes of its displacements where they are not the global ones
         self.defaults: dict = {card.name: card for card in cards if card.name in ("GRDSET", "BAROR", "BEAMOR")}
-        self.mass_factor = 1.0
-        for card in cards:
-            if card.name == "PARAM" and card.text(0).upper() == "WTMASS":
-                self.mass_factor = card.real(1)
+        self.parameters = {card.text(0).upper(): card for card in cards if card.name == "PARAM"}
+        self.mass_factor = self.parameters["WTMASS"].real(1) if "WTMASS" in self.parameters else 1.0
         self.properties = PropertyReader(self)
         self.joints = JointReader(self, control)
         for card in cards:
@@ -69,6 +68,17 @@ class Reader(Reading):
         for card in cards:
             self._handle(card)
         self.joints.finish()
+        self._tell_rotary_inertia()
+
+    def _tell_rotary_inertia(self) -> None:
+        """Of bars, which Nastran's lumped masses have not."""
+        coupled = self.parameters.get("COUPMASS")
+        materials = {self.model.properties[element.property].material for element in self.model.elements
+                     if element.kind == "beam" and element.property in self.model.properties}
+        if self.model.cards.read["CBAR"] and not (coupled and coupled.real(1) > 0) and any(
+                self.model.materials[one].density for one in materials if one in self.model.materials):
+            self.model.said.append("beams have the rotary inertia of their sections here, also about their axis; a CBAR with "
+                                   "lumped masses has none: modes of twisting, and those of thick beams, are other ones")
 
     def _handle(self, card: Card) -> None:
         name = card.name
@@ -90,8 +100,6 @@ class Reader(Reading):
 
     def _grid(self, card: Card) -> None:
         number, default = card.int(0), self.defaults.get("GRDSET", Card("GRDSET", [], card.place))
-        if number in self.grids:
-            raise InputFault(f"{card.place}: grid point {number} is there already")
         self.grids[number] = (card.int(1, default.int(1, 0)), card.vector(2), card.int(5, default.int(5, 0)),
                               card.place)
         fixed = card.text(6) or default.text(6)
@@ -127,23 +135,32 @@ class Reader(Reading):
         count = PLATES[card.name]
         nodes = [card.int(2 + k) for k in range(count)]
         offset = card.real(3 + count)
-        thicknesses = [card.real(10 + k) for k in range(count) if card.text(10 + k)]
-        key = card.int(1, card.int(0))
-        if thicknesses:
-            if len(thicknesses) < count or max(thicknesses) - min(thicknesses) > 1e-9 * max(thicknesses):
-                self.lose(f"T1 TO T{count} OF {card.name}",
-                          "a thickness that varies within an element; allowed, the first holds", card.place)
-            own = self.model.properties.get(key)
-            if own is not None and thicknesses[0] != own.thickness:
-                fresh = f"{key} {thicknesses[0]!r}"
-                self.model.properties.setdefault(fresh, Property(f"{own.name}_t", own.material,
-                                                                 thickness=thicknesses[0],
-                                                                 added=own.added, place=card.place))
-                key = fresh
+        key = self._with_thickness(card, card.int(1, card.int(0)), count)
         arms = None
         if offset:
             arms = (scaled(normal_of([self.model.at(node, card.place) for node in nodes], card.place), offset),) * count
         self._add(card, "shell", nodes, key, arms=arms)
+
+    def _with_thickness(self, card: Card, key: int, count: int):
+        """The property, or one of its own where a plate has other thicknesses: T1 to T4, or by TFLAG parts of that of its
+        property."""
+        flag = card.text(9)
+        if flag not in ("", "0", "1"):
+            raise InputFault(f"{card.place}: {card.name} {card.text(0)} has TFLAG {flag}; it is 0 or 1")
+        thicknesses = [card.real(10 + k) for k in range(count) if card.text(10 + k)]
+        own = self.model.properties.get(key)
+        if not thicknesses or own is None:
+            return key
+        if len(thicknesses) < count or max(thicknesses) - min(thicknesses) > 1e-9 * max(thicknesses):
+            self.lose(f"T1 TO T{count} OF {card.name}",
+                      "a thickness that varies within an element; allowed, the first holds", card.place)
+        thickness = thicknesses[0] * (own.thickness if flag == "1" else 1.0)
+        if thickness == own.thickness:
+            return key
+        fresh = f"{key} {thickness!r}"
+        self.model.properties.setdefault(fresh, Property(f"{own.name}_t", own.material, thickness=thickness,
+                                                         added=own.added, place=card.place))
+        return fresh
 
     def _beam(self, card: Card) -> None:
         default = self.defaults.get("BAROR" if card.name == "CBAR" else "BEAMOR", Card("", [], card.place))

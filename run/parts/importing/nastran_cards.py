@@ -3,13 +3,13 @@
 import math
 import re
 from dataclasses import dataclass
-from pathlib import Path
 from typing import ClassVar
 
-from .cards import Fields, lines_of, whole, whole_range
+from .cards import Fields, number, whole, whole_range
 from .geometry import applied, cross, difference, length, sum_of, unit
 from .model import InputFault
 
+BLANKS = re.compile(r"\s+(?=[edED+-])|(?<=[edED+-])\s+")  # within a number
 GLOBAL = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
@@ -22,8 +22,12 @@ class Card(Fields):
     place: str
     MISSING: ClassVar = ("field", 2)
 
-    def list_from(self, at: int) -> list:
-        """Whole numbers to the end, with THRU and BY."""
+    def real(self, at: int, fallback: float = 0.0) -> float:
+        """Also with blanks before its exponent, `10.6 +6`, as cards of old have it."""
+        return number(BLANKS.sub("", self.text(at)), self.where) if self.text(at) else fallback
+
+    def ranges_from(self, at: int) -> list:
+        """Whole numbers to the end, with THRU and BY, as ranges; a number alone is a range of one."""
         words = [text for text in self.fields[at:] if text]
         found: list = []
         k = 0
@@ -34,74 +38,19 @@ class Card(Fields):
                 if k + 1 < len(words) and words[k].upper() == "BY":
                     step = whole(words[k + 1], self.place)
                     k += 2
-                found += whole_range(found[-1], last, step, self.place)[1:]
+                found[-1] = whole_range(found[-1][0], last, step, self.place)
                 continue
-            found.append(whole(words[k], f"{self.place}: {self.name}"))
+            first = whole(words[k], f"{self.place}: {self.name}")
+            found.append(range(first, first + 1))
             k += 1
         return found
 
-
-def fields_of(line: str) -> tuple:
-    """Name or mark of continuation, and 8 fields, or 4 of a large card."""
-    if "," in line:
-        words = [word.strip() for word in line.split(",")]
-        large = words[0].endswith("*")
-        count = 4 if large else 8
-        return words[0], (words[1:count + 1] + [""] * count)[:count]
-    line = line.expandtabs(8)
-    first = line[:8].strip()
-    if "*" in first:
-        return first, [line[8 + 16 * k:24 + 16 * k].strip() for k in range(4)]
-    return first, [line[8 + 8 * k:16 + 8 * k].strip() for k in range(8)]
-
-
-def included(path: Path, seen=()):
-    """Lines of a deck and of the files that it includes, without comments."""
-    for place, line in lines_of(path, seen):
-        line = line.split("$")[0].rstrip()
-        found = re.match(r"\s*INCLUDE\s+['\"]?([^'\"]+)['\"]?\s*$", line, re.IGNORECASE)
-        if found:
-            yield from included(path.parent / found[1].strip(), (*seen, path.resolve()))
-        elif line.strip():
-            yield place, line
-
-
-def deck_of(path: Path) -> tuple:
-    """Lines of the control sections as (place, text), and the cards of the bulk data, up to ENDDATA."""
-    lines = list(included(path))
-    begin = next((at for at, (_, line) in enumerate(lines) if re.match(r"\s*BEGIN\s+BULK", line, re.IGNORECASE)), None)
-    control = [] if begin is None else lines[:begin]
-    cards: list = []
-    for place, line in lines[0 if begin is None else begin + 1:]:
-        first, fields = fields_of(line)
-        if first[:1] in ("+", "*", ""):
-            if not cards:
-                raise InputFault(f"{place}: a continuation of no card")
-            if first[:1] != "*":
-                cards[-1].fields += [""] * (-len(cards[-1].fields) % 8)
-            cards[-1].fields += fields
-            continue
-        name = first.rstrip("*").upper()
-        if not re.fullmatch(r"[A-Z][A-Z0-9_]*", name):
-            raise InputFault(f"{place}: '{first}' is no card of Nastran")
-        if name == "ENDDATA":
-            break
-        cards.append(Card(name, list(fields), place))
-    return control, cards
-
-
-# Elements of structures, those of NASTRAN-95 among them, and where cards have a density or a mass.
-STRUCTURAL = re.compile(r"C(BAR|BEAM|BEND|ROD|ONROD|TUBE|SHEAR|QUAD[124R8]|TRIA[1236R]|QDMEM\d?|TRMEM|QDPLT|TRPLT|TRBSC|HEXA[12]?|"
-                        r"PENTA|WEDGE|TETRA|PYRAM|IHEX[123]|BUSH|ELAS[12])")
-MASS_AT = {"MAT1": 4, "MAT2": 7, "MAT8": 8, "MAT9": 23, "CONM2": 3, "CMASS2": 1, "PMASS": 1, "PSHELL": 7, "PBAR": 6,
-           "PROD": 5}
-
-
-def holds_mass(path: Path) -> bool:
-    """Whether a deck has elements of a structure and mass. Throws InputFault."""
-    cards = deck_of(path)[1]
-    return any(STRUCTURAL.fullmatch(card.name) for card in cards) and any(
-        card.name == "CONM1" or card.name in MASS_AT and card.real(MASS_AT[card.name]) for card in cards)
+    def list_from(self, at: int, most: int) -> list:
+        """The same as a list. Throws InputFault where it has more numbers than there can be."""
+        ranges = self.ranges_from(at)
+        if sum(map(len, ranges)) > most:
+            raise InputFault(f"{self.where}: a list of {sum(map(len, ranges))} numbers; the deck has {most}")
+        return [number_ for one in ranges for number_ in one]
 
 
 class Systems:

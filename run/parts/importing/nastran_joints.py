@@ -29,7 +29,7 @@ class JointReader(Reading):
         """Sets that case control names, and the place of the last."""
         found, where = set(), ""
         for place, line in control:
-            match = re.match(rf"\s*{word}\s*=\s*(\d+)\s*$", line, re.IGNORECASE)
+            match = re.match(rf"\s*{word}\s*=\s*(\d{{1,9}})\s*$", line, re.IGNORECASE)
             if match:
                 found.add(int(match[1]))
                 where = place
@@ -47,12 +47,14 @@ class JointReader(Reading):
 
     def _spc1(self, card: Card) -> None:
         components = components_of(card.text(1), card.place)
-        for node in card.list_from(2):
-            if node in self.reader.grids or "THRU" not in " ".join(card.fields).upper():
-                self._hold(card.int(0), node, components, card)
+        grids = self.reader.grids
+        for numbers in card.ranges_from(2):  # of a range those that are there
+            for node in numbers if len(numbers) <= len(grids) else grids:
+                if len(numbers) == 1 or node in grids and node in numbers:
+                    self._hold(card.int(0), node, components, card)
 
     def _add(self, card: Card) -> None:
-        self.sums[card.name[:3], card.int(0)] = card.list_from(1)
+        self.sums[card.name[:3], card.int(0)] = card.list_from(1, len(self.reader.cards))
 
     def _mpc(self, card: Card) -> None:
         values = card.fields[1:]
@@ -60,7 +62,7 @@ class JointReader(Reading):
         for at in range(0, len(values), 8):  # two terms of three fields, with an empty field before and after
             terms += [values[at:at + 3], values[at + 3:at + 6]]
         terms = [term for term in terms if term and term[0]]
-        nodes = {int(term[0]) for term in terms if term[0].isdigit()}
+        nodes = {int(term[0]) for term in terms if re.fullmatch(r"\d{1,9}", term[0])}
         digits = {term[1] for term in terms}
         factors = [Card("MPC", term, card.place).real(2) for term in terms]
         if len(terms) == 2 and len(nodes) == 2 and len(digits) == 1 and factors[0] == -factors[1] != 0:
@@ -75,7 +77,7 @@ class JointReader(Reading):
             fields.pop()
         if fields and "." in fields[-1]:
             fields.pop()  # ALPHA
-        self.waiting.append((f"rbe2_{card.int(0)}", card.int(1), Card("RBE2", fields, card.place).list_from(3),
+        self.waiting.append((f"rbe2_{card.int(0)}", card.int(1), Card("RBE2", fields, card.place).list_from(3, len(self.reader.grids)),
                              components_of(card.text(2), card.place), card))
         return False
 

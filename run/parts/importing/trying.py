@@ -64,7 +64,7 @@ def has_mass(path: Path, kind: str) -> str:
     """Whether a deck holds elements of a structure and a mass: `yes` or `no`, `?` where that cannot be seen."""
     try:
         if kind == "nastran":
-            from .nastran_cards import holds_mass
+            from .nastran_lines import holds_mass
             return "yes" if holds_mass(path) else "no"
         if kind in MASSES:
             text = path.read_bytes().decode("latin-1")
