@@ -1,9 +1,13 @@
 """SAP2000 texts become scenes whose modes are those of the same models written by hand."""
 import math
 import random
+import sys
+import time
 import unittest
+from pathlib import Path
 
 import imported
+import program
 from imported import by_hand, close, said_mass, same, section
 
 STEEL = '''TABLE:  "MATERIAL PROPERTIES 01 - GENERAL"
@@ -143,6 +147,75 @@ class Sap2000(unittest.TestCase):
             self.assertLess(abs(value / reference - 1), 2e-3, found)
         heights = [b - a for a, b in zip(levels, levels[1:])]
         close(self, said_mass(said)[:1], ((sum(masses) + 1e-4 * sum(a * h for a, h in zip(areas, heights))) * 4448.2216152605 / .3048,))
+
+    @staticmethod
+    def portal(section="F1", restraints=(), more=""):
+        """Two columns of 4 m and a girder of 6 m in the x-z plane, without shear areas."""
+        held = "U1=Yes   U2=Yes   U3=Yes   R1=Yes   R2=Yes   R3=Yes"
+        return (HEAD + STEEL + joints({1: (0, 0, 0), 2: (0, 0, 4), 3: (6, 0, 4), 4: (6, 0, 0)})
+                + table("CONNECTIVITY - FRAME", *(f"Frame={n}   JointI={i}   JointJ={j}" for n, i, j in ((1, 1, 2), (2, 2, 3), (3, 4, 3))))
+                + sections(own_section(section, .01, 1e-6, 1e-4, 1e-5, 0, 0))
+                + table("FRAME SECTION ASSIGNMENTS", *(f"Frame={n}   AnalSect={section}" for n in (1, 2, 3)))
+                + table("JOINT RESTRAINT ASSIGNMENTS", f"Joint=1   {held}", f"Joint=4   {held}", *restraints) + more)
+
+    def test_degrees_of_freedom_that_are_not_active(self):
+        """Are held at every joint, as by restraints there; the plane frame sways at 12.592 Hz."""
+        plane = "U1=No   U2=Yes   U3=No   R1=Yes   R2=No   R3=Yes"
+        scene, _ = imported.imported(self, "plane.s2k", self.portal("F1", (f"Joint=2   {plane}", f"Joint=3   {plane}")), "m,t,s")
+        expected = imported.frequencies(imported.structure(self, scene, modes=3))
+        for row in ("UX=Yes   UY=No   UZ=Yes   RX=No   RY=Yes   RZ=No", "UY=No   RX=No   RZ=No"):
+            scene, said = imported.imported(self, "plane.s2k", self.portal("F1", (), table("ACTIVE DEGREES OF FREEDOM", row)), "m,t,s")
+            close(self, imported.frequencies(imported.structure(self, scene, modes=3)), expected, 1e-9)
+            self.assertIn("\ndegrees of freedom that are not active are held at every joint: y, rx, rz\n", said)
+        self.assertLess(abs(expected[0] - 12.592), 1e-3)
+
+    def test_a_section_with_the_name_of_a_standard_one(self):
+        """Keeps its own numbers: without shear areas it has no flexibility in shear."""
+        found = []
+        for name in ("FSEC1", "W12X106", "HEB160", "ROUND50", "RECT600x400"):
+            scene, _ = imported.imported(self, "portal.s2k", self.portal(name), "m,t,s")
+            found.append(imported.frequencies(imported.structure(self, scene, modes=3)))
+        for other in found[1:]:
+            close(self, other, found[0], 1e-12)
+        rows = (Path(program.SOURCE) / "src/scene/standard_sections.csv").read_text().splitlines()
+        names = [row.split(",")[0] for row in rows if row and not row.startswith("#")]
+        self.assertGreater(len(names), 200)
+        sys.path.insert(0, str(imported.COMMAND.parent))
+        from parts.importing.sections import STANDARD
+        self.assertEqual([name for name in [*names, "HE160B", "SHS100x5", "HSS8x8x1"] if not STANDARD.fullmatch(name)], [])
+
+    def test_things_given_twice(self):
+        """The same again counts once; other values are refused with both places."""
+        _, said = imported.imported(self, "frame.s2k", MODEL, "m,t,s")
+        rows = {"Joint=1   ": "XorR=0", "Frame=5   JointI": "JointJ=6", "SectionName=COL": "Area=0.0149", "Frame=3   SectionType": "AnalSect=COL",
+                "Material=S355   UnitWeight": "UnitMass=7.85", "Joint=10   CoordSys=Global   Mass1": "Mass1=3", "Area=1   NumJoints": "Joint3=10",
+                "Link=1   JointI": "JointJ=14"}
+        lines = MODEL.splitlines(True)
+        for begin, part in rows.items():
+            with self.subTest(begin):
+                at = next(k for k, line in enumerate(lines) if line.strip().startswith(begin))
+                row = "".join(lines[at:at + 1 + lines[at].rstrip().endswith(" _")])
+                self.assertIn(part, row)
+                other = row.replace(part, part.split("=")[0] + "=9")
+                imported.refused(self, "frame.s2k", "".join([*lines[:at], row, other, *lines[at + row.count("\n"):]]), " twice, in another way at "
+                                 f"frame.s2k line {at + 1}", units="m,t,s")
+                _, again = imported.imported(self, "frame.s2k", "".join([*lines[:at], row, *lines[at:]]), "m,t,s")
+                self.assertEqual(said_mass(again), said_mass(said))
+
+    def test_time_grows_with_joints(self):
+        """Joints on frames are found by their places: four times as many take less than eight times as long."""
+        sys.path.insert(0, str(imported.COMMAND.parent))
+        from parts.importing.sap2000 import read
+        taken = []
+        for count in (1500, 6000):
+            text = (STEEL + joints({f"J{n}": (n % 100, n // 100, 0) for n in range(count + 1)})
+                    + table("CONNECTIVITY - FRAME", *(f"Frame={n}   JointI=J{n}   JointJ=J{n + 1}" for n in range(count)))
+                    + sections(own_section("A", .01, 1e-5, 1e-5, 1e-5, 0, 0))
+                    + table("FRAME SECTION ASSIGNMENTS", *(f"Frame={n}   AnalSect=A" for n in range(count))))
+            path, begin = imported.of_file("long.s2k", text), time.process_time()
+            self.assertGreaterEqual(len(read(path).elements), count)
+            taken.append(time.process_time() - begin)
+        self.assertLess(taken[1], 8 * taken[0], taken)
 
     def test_losses_have_names(self):
         cases = (("Frame=2   Angle=90   MirrorAbt2=No   MirrorAbt3=No   AdvanceAxes=No", "Frame=2   Angle=90   AdvanceAxes=Yes",

@@ -2,22 +2,31 @@
 holds objects, of which SAP2000 makes elements: frames are cut here at the joints on them, as there by its preset."""
 
 import math
+import re
 from pathlib import Path
 
-from .geometry import along_global_axes, axis_between, cross, difference, dot, frame_about, length, scaled, turned_z
-from .model import AxialSpring, Element, InputFault, Material, Model, PointMass, Property, Section, Spring
+import numpy as np
+from scipy.spatial import cKDTree
+
+from .geometry import along_global_axes, axis_between, cross, difference, frame_about, length, turned_z
+from .model import COMPONENTS, AxialSpring, Element, InputFault, Material, Model, PointMass, Property, Section, Spring
 from .sap2000_tables import Row, tables_of
 
 DOFS = ("U1", "U2", "U3", "R1", "R2", "R3")
 MODIFIERS = ("AMod", "A2Mod", "A3Mod", "JMod", "I2Mod", "I3Mod", "MMod")
 # Titles of tables, by their beginnings, in which there is no stiffness, mass or support.
 NOTED = ("PROGRAM CONTROL", "PROJECT INFORMATION", "PREFERENCES", "GRID LINES", "LOAD", "CASE", "COMBINATION", "FUNCTION", "AUTO",
-         "ANALYSIS OPTIONS", "ACTIVE DEGREES", "MODAL", "NAMED", "TABLES", "OPTIONS", "OVERWRITES", "STEEL DESIGN", "CONCRETE DESIGN",
+         "ANALYSIS OPTIONS", "MODAL", "NAMED", "TABLES", "OPTIONS", "OVERWRITES", "STEEL DESIGN", "CONCRETE DESIGN",
          "ALUMINUM DESIGN", "COLD FORMED", "COORDINATE SYSTEMS", "JOINT LOADS", "FRAME LOADS", "AREA LOADS", "JOINT PATTERN",
          "REBAR SIZES", "BRIDGE", "GROUPS 1", "GROUPS 3", "FRAME DESIGN", "FRAME OUTPUT STATION", "MATERIAL PROPERTIES 01",
          "MATERIAL PROPERTIES 03", "MATERIAL PROPERTIES 04", "MATERIAL PROPERTIES 05", "FRAME SECTION PROPERTIES 02",
          "FRAME SECTION PROPERTIES 03", "AREA SECTION PROPERTY DESIGN", "JOINT LOCAL AXES ASSIGNMENTS 0", "DATABASE", "VIEW",
          "PUSHOVER", "MATERIAL PROPERTIES 06", "SECTION CUTS", "RESPONSE", "TIME HISTORY", "BUCKLING")
+# Tables by their beginnings -> what a row is of: those two of which are the same thing twice.
+KEYS = (("JOINT CONSTRAINT", ()), ("JOINT", ("Joint",)), ("MATERIAL", ("Material", "Temp")), ("FRAME SECTION PROPERTIES", ("SectionName",)),
+        ("FRAME", ("Frame",)), ("AREA SECTION PROPERTIES", ("Section",)), ("AREA", ("Area",)), ("LINK PROPERTY DEFINITIONS", ("Link", "DOF")),
+        ("LINK", ("Link",)), ("CONNECTIVITY - FRAME", ("Frame",)), ("CONNECTIVITY - AREA", ("Area",)), ("CONNECTIVITY - LINK", ("Link",)),
+        ("CONSTRAINT DEFINITIONS", ("Name",)), ("ACTIVE DEGREES", ("",)))
 
 
 class Reader:
@@ -34,6 +43,8 @@ class Reader:
         self.of_frame: dict = {}  # table -> label -> row
         self.constraints: dict = {}  # name -> kind
         self.links: dict = {}  # property -> DOF -> row
+        self.bodies: dict = {}  # constraint -> nodes
+        self.next, self.tree = 1, None
         tables: dict = {}
         for table in tables_of(path):
             if table.name in tables:
@@ -52,9 +63,9 @@ class Reader:
                  "JOINT RESTRAINT ASSIGNMENTS": self._restraint, "JOINT SPRING ASSIGNMENTS 1 - UNCOUPLED": self._spring,
                  "JOINT ADDED MASS ASSIGNMENTS": self._mass, "CONSTRAINT DEFINITIONS - BODY": self._constraint,
                  "JOINT CONSTRAINT ASSIGNMENTS": self._constrained, "GROUPS 2 - ASSIGNMENTS": self._group,
-                 "MASS SOURCE": self._source, "MASSES 1 - MASS SOURCE": self._source}
+                 "MASS SOURCE": self._source, "MASSES 1 - MASS SOURCE": self._source, "ACTIVE DEGREES OF FREEDOM": self._active}
         for name, handle in steps.items():
-            for row in tables[name].rows if name in tables else ():
+            for row in self._once(tables[name]) if name in tables else ():
                 self.table = name
                 handle(row)
                 self.model.cards.use(name)
@@ -63,6 +74,20 @@ class Reader:
                 self._noted(table)
             elif name not in steps and table.rows:
                 self.model.cards.lose(name, "not known", table.place, len(table.rows))
+
+    @staticmethod
+    def _once(table) -> list:
+        """Rows without those that say the same again. Throws InputFault where two say other things of the same."""
+        columns = next((columns for begin, columns in KEYS if table.name.startswith(begin)), ())
+        if not columns:
+            return table.rows
+        seen: dict = {}
+        for row in table.rows:
+            label = tuple(row.values.get(column, "") for column in columns)
+            first = seen.setdefault(label, row)
+            if first.values != row.values:
+                raise InputFault(f"{row.place}: {columns[0]} {label[0]} is in {table.name} twice, in another way at {first.place}")
+        return list(seen.values())
 
     def _noted(self, table) -> None:
         self.model.cards.note(table.name, "loads, design and output", max(1, len(table.rows)))
@@ -81,12 +106,10 @@ class Reader:
 
     def _joint(self, row: Row) -> None:
         label = row.text("Joint")
-        if label in self.numbers:
-            raise InputFault(f"{row.place}: joint {label} is there already")
-        used = self.model.nodes
-        own = int(label) if label.isdigit() and int(label) > 0 and int(label) not in used else max(used, default=0) + 1
-        while own in used:
-            own += 1
+        own = int(label) if re.fullmatch("[0-9]{1,9}", label) else 0
+        if own == 0 or own in self.model.nodes:
+            own = self.next
+        self.next = max(self.next, own + 1)
         self.numbers[label] = own
         if "GlobalX" in row.values:
             place = tuple(row.real(name) for name in ("GlobalX", "GlobalY", "GlobalZ"))
@@ -110,8 +133,8 @@ class Reader:
     def _material(self, row: Row) -> None:
         young = row.real("E1")
         shear = row.real("G12", 0.0)
-        self.model.materials[row.text("Material")] = Material(young, row.real("U12", 0.0), row.real("UnitMass", 0.0),
-                                                              shear or None, place=row.place)
+        self.model.materials.setdefault(row.text("Material"), Material(
+            young, row.real("U12", 0.0), row.real("UnitMass", 0.0), shear or None, place=row.place))
 
     def _section(self, row: Row) -> None:
         self.sections[row.text("SectionName")] = row
@@ -217,15 +240,18 @@ class Reader:
         row = self.own("FRAME AUTO MESH ASSIGNMENTS", label)
         if row is not None and not (row.says("AutoMesh") and row.says("AtJoints")):
             return []
-        first = self.model.nodes[ends[0]]
-        way = difference(self.model.nodes[ends[1]], first)
-        size, found = length(way), []
-        for node, place in self.model.nodes.items():
-            off = difference(place, first)
-            share = dot(off, way) / size**2
-            if 1e-9 < share < 1 - 1e-9 and node not in ends and length(difference(off, scaled(way, share))) < 1e-6 * size:
-                found.append((share, node))
-        return [node for _, node in sorted(found)]
+        if self.tree is None:
+            self.order = np.array(list(self.model.nodes))
+            self.places = np.array(list(self.model.nodes.values()), dtype=float)
+            self.tree = cKDTree(self.places)
+        first, last = (np.array(self.model.nodes[end]) for end in ends)
+        way = last - first
+        size = float(np.linalg.norm(way))
+        near = np.array(self.tree.query_ball_point((first + last) / 2, size / 2 * (1 + 1e-6)), dtype=int)
+        off = self.places[near] - first
+        share = off @ way / size**2
+        on = (share > 1e-9) & (share < 1 - 1e-9) & (np.linalg.norm(off - share[:, None] * way, axis=1) < 1e-6 * size)
+        return [node for _, node in sorted(zip(share[on].tolist(), self.order[near[on]].tolist())) if node not in ends]
 
     # Areas.
 
@@ -299,6 +325,15 @@ class Reader:
     def _restraint(self, row: Row) -> None:
         self.model.hold(self.node(row, "Joint"), sum(1 << k for k, dof in enumerate(DOFS) if row.says(dof)))
 
+    def _active(self, row: Row) -> None:
+        """Degrees of freedom that the analysis has not are held at every joint."""
+        held = sum(1 << k for k, dof in enumerate(("UX", "UY", "UZ", "RX", "RY", "RZ")) if row.values.get(dof, "Yes").lower() == "no")
+        if held:
+            for node in self.model.nodes:
+                self.model.hold(node, held)
+            names = ", ".join(COMPONENTS[k] for k in range(6) if held >> k & 1)
+            self.model.said.append(f"degrees of freedom that are not active are held at every joint: {names}")
+
     def _spring(self, row: Row) -> bool | None:
         if row.values.get("CoordSys", "Local").upper() not in ("LOCAL", "GLOBAL"):
             return self.lose(row, "SPRING IN ANOTHER SYSTEM", "springs act along and about the global axes")
@@ -323,11 +358,10 @@ class Reader:
         if name not in self.constraints:
             return self.lose(row, f"CONSTRAINT OF TYPE {row.values.get('Type', 'UNKNOWN').upper()}",
                              "body constraints alone are known; give a diaphragm in the scene")
-        body = next((one for one in self.model.rigid if one[0] == name), None)
-        if body is None:
-            body = (name, [], row.place)
-            self.model.rigid.append(body)
-        body[1].append(self.node(row, "Joint"))
+        if name not in self.bodies:
+            self.bodies[name] = []
+            self.model.rigid.append((name, self.bodies[name], row.place))
+        self.bodies[name].append(self.node(row, "Joint"))
 
     def _group(self, row: Row) -> None:
         name, kind, label = row.text("GroupName"), row.text("ObjectType"), row.text("ObjectLabel")

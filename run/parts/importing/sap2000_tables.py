@@ -7,7 +7,7 @@ from pathlib import Path
 from .cards import lines_of, number
 from .model import InputFault
 
-ENTRY = re.compile(r'([A-Za-z0-9_/%.\-]+)\s*=\s*("[^"]*"|[^\s"]+)')
+ENTRY = re.compile(r'(?<![A-Za-z0-9_/%.\-])([A-Za-z0-9_/%.\-]+)\s*=\s*("[^"]*"|[^\s"]+)')
 TITLE = re.compile(r'TABLE:\s*"([^"]+)"', re.IGNORECASE)
 
 

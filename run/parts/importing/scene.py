@@ -4,6 +4,7 @@ from .geometry import difference, length, unit
 from .joints import Joints, turning_nodes
 from .mesh_file import MeshFile, Names, plain
 from .model import ALL, BAR, BEAMS, COMPONENTS, ROTATIONS, SHELL, SOLIDS, InputFault, Material, Model
+from .sections import own_name
 
 # First words of the options of a structure: no group has their names.
 WORDS = ("absorbing", "allow", "clamp", "damping", "diaphragm", "gravity", "ignore", "initial", "join", "levels",
@@ -156,7 +157,7 @@ class Scene:
             stiff = 1e6 * section.area  # along one axis only
             values["shear_area"] = numbers((section.shear_y * factor or stiff, section.shear_z * factor or stiff))
         values["z_axis"] = numbers(axis)
-        own = self.section_names.free(name)
+        own = self.section_names.free(own_name(name))
         self.sections[own] = values
         return own
 

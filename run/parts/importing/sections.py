@@ -3,9 +3,18 @@ along axis z, a width along y. Shear areas are given as factors of the area by f
 where they have none those of the program's own sections are taken (docs/scene.md)."""
 
 import math
+import re
 from dataclasses import replace
 
 from .model import Section
+
+# Names by which the program knows standard sections, and takes their numbers where a scene gives none.
+STANDARD = re.compile(r"(ipe|he[abm]?|upn|w|shs|rhs|chs|hss|rect|round)\d[\dx]*[abm]?", re.IGNORECASE)
+
+
+def own_name(name: str) -> str:
+    """A name for a section of a file that no standard one has: without shear areas it is one without."""
+    return f"{name}_of_file" if STANDARD.fullmatch(name) else name
 
 
 def rectangle(width: float, height: float) -> Section:
