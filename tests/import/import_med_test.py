@@ -98,7 +98,7 @@ class Med(unittest.TestCase):
         quadratic = med_file({**CELLS, "H20": ([list(range(1, 17)) + [1, 2, 3, 4]], [-1])})
         done = imported.command(quadratic, "mm,t,s")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("CELLS H20 1 would be lost", done.stderr)
+        self.assertIn("CELLS H20 1, MID-SIDE NODES THAT OTHERS USE 8 would be lost", done.stderr)
         done = imported.command(med_file(CELLS, meshes=2), "mm,t,s")
         self.assertEqual((done.returncode, len(done.stderr.splitlines())), (1, 1))
         self.assertIn("2 meshes (Mesh_1, Mesh_2)", done.stderr)

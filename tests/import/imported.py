@@ -1,4 +1,5 @@
 """Imports decks that tests write, and compares the scenes with the same models written by hand."""
+import importlib
 import json
 import os
 import re
@@ -14,6 +15,9 @@ import scipy.spatial  # noqa: F401
 
 sys.dont_write_bytecode = True
 COMMAND = Path(program.SOURCE) / "run" / "import"
+sys.path[:0] = [str(COMMAND.parent), str(COMMAND.parents[1] / "python")]
+for module in sorted((COMMAND.parent / "parts" / "importing").glob("[a-z]*.py")):  # once, and not in each fork
+    importlib.import_module(f"parts.importing.{module.stem}")
 TYPES = {"point": 15, "line": 1, "triangle": 2, "quadrangle": 3, "tetrahedron": 4, "brick": 5, "wedge": 6}
 DIMENSIONS = {"point": 0, "line": 1, "triangle": 2, "quadrangle": 2, "tetrahedron": 3, "brick": 3, "wedge": 3}
 

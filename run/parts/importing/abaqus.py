@@ -8,7 +8,8 @@ from .abaqus_joints import JointReader
 from .abaqus_sections import SectionReader
 from .cards import names_of, numbers, whole, whole_range
 from .geometry import cross, difference, permutation, unit
-from .model import BAR, AxialSpring, Element, InputFault, Material, Model, PointMass, Reading
+from .model import BAR, BEAMS, AxialSpring, Element, InputFault, Material, Model, PointMass, Reading
+from .second_order import by_corners
 
 ELEMENTS = {"C3D8": ("hex8_full", 8), "C3D8I": ("hex8", 8), "C3D8R": ("hex8", 8), "C3D6": ("wedge6", 6),
             "C3D4": ("tet4", 4), "S4": ("shell", 4), "S4R": ("shell", 4), "S4RS": ("shell", 4), "S4RSW": ("shell", 4),
@@ -16,9 +17,14 @@ ELEMENTS = {"C3D8": ("hex8_full", 8), "C3D8I": ("hex8", 8), "C3D8R": ("hex8", 8)
             "B33": ("euler_beam", 2), "T3D2": (BAR, 2)}
 POINTS = {"MASS": 1, "ROTARYI": 1, "SPRING1": 1, "DASHPOT1": 1, "SPRING2": 2, "DASHPOT2": 2, "SPRINGA": 2,
           "DASHPOTA": 2}
+# Those of second order: the element of their corners, all their nodes, and where the corners are among them.
+SECOND = {**dict.fromkeys(("C3D20", "C3D20R", "C3D20H", "C3D20RH"), ("hex8", 20, 8)),
+          **dict.fromkeys(("C3D10", "C3D10M", "C3D10H", "C3D10MH", "C3D10HS", "C3D10T"), ("tet4", 10, 4)),
+          **dict.fromkeys(("C3D15", "C3D15H"), ("wedge6", 15, 6)),
+          **dict.fromkeys(("S8", "S8R", "S8R5"), ("shell", 8, 4)), **dict.fromkeys(("S6", "STRI65"), ("shell", 6, 3)),
+          **dict.fromkeys(("B32", "B32R", "B32H"), ("beam", 3, (0, 2))), "T3D3": (BAR, 3, (0, 2))}
 # Nodes of elements that are counted and lost, so that their data are not taken for more elements.
-LOST = {"C3D20": 20, "C3D20R": 20, "C3D20H": 20, "C3D10": 10, "C3D10M": 10, "C3D15": 15, "C3D8H": 8, "C3D8RH": 8,
-        "S8": 8, "S8R": 8, "S6": 6, "STRI65": 6, "B32": 3, "B32R": 3, "B32H": 3, "B31OS": 2, "B31H": 2, "T3D3": 3,
+LOST = {"C3D8H": 8, "C3D8RH": 8, "B31OS": 2, "B31H": 2,
         "M3D4": 4, "M3D4R": 4, "M3D3": 3, "SC8R": 8, "SC6R": 6, "CONN3D2": 2, "GAPUNI": 2, "CPS4": 4, "CPE4": 4,
         "CPS3": 3, "CAX4": 4, "R3D4": 4, "R3D3": 3, "SFM3D4": 4, "C3D5": 5}
 FACES = {8: ((0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)),
@@ -175,7 +181,8 @@ class Reader(Reading):
 
     def _read_element(self, block: Block, scope: Scope, _motion: Motion) -> None:
         kind = block.name("TYPE")
-        width = (ELEMENTS.get(kind) or (None, POINTS.get(kind) or LOST.get(kind)))[1]
+        shape = ELEMENTS.get(kind) or SECOND.get(kind)
+        width = shape[1] if shape else POINTS.get(kind) or LOST.get(kind)
         rows, open_row = [], None
         for place, fields in block.data:
             values = [text for text in fields if text]
@@ -189,7 +196,7 @@ class Reader(Reading):
         members = []
         for place, values in rows:
             ids = [whole(text, place) if not at or text.isdigit() else text.upper() for at, text in enumerate(values)]
-            if kind == "B31" and len(ids) == 4:
+            if shape and shape[0] in BEAMS and len(ids) == width + 2:
                 towards = self.node(ids.pop(), scope, place)
             else:
                 towards = None
@@ -201,15 +208,16 @@ class Reader(Reading):
             if raw.number in scope.elements:
                 raise InputFault(f"{place}: element {raw.number} is there already")
             scope.elements[raw.number] = raw
-            if kind in ELEMENTS:
-                raw.element = Element(ELEMENTS[kind][0], raw.number, raw.nodes, None, place=place)
+            if shape:
+                own = raw.nodes if kind in ELEMENTS else by_corners(self.model, f"ELEMENT TYPE={kind}", shape[0],
+                                                                    raw.nodes, shape[2], place)
+                raw.element = Element(shape[0], raw.number, own, None, place=place)
                 if towards is not None:
                     raw.element.z_axis = difference(self.model.nodes[towards], self.model.nodes[raw.nodes[0]])
                 raw.at = len(self.model.elements)
                 self.model.elements.append(raw.element)
             elif kind not in POINTS:
-                why = "elements of second order are not known" if width and width > 8 else "this type is not known"
-                self.lose(f"ELEMENT TYPE={kind}", why, place)
+                self.lose(f"ELEMENT TYPE={kind}", "this type is not known", place)
         if kind in ELEMENTS or kind in POINTS:
             self.use(f"ELEMENT TYPE={kind}", len(rows))
         if "ELSET" in block.parameters:
@@ -304,11 +312,12 @@ class Reader(Reading):
             for raw in self.elements_of(fields[0], scope, place):
                 if raw.element is None:
                     continue
+                own = raw.element.nodes
                 if raw.element.kind == "shell":
-                    facets.append(raw.nodes)
-                elif len(raw.nodes) in FACES and face[:1] == "S" and face[1:].isdigit() and 1 <= int(face[1:]) <= len(
-                        FACES[len(raw.nodes)]):
-                    facets.append(tuple(raw.nodes[k] for k in FACES[len(raw.nodes)][int(face[1:]) - 1]))
+                    facets.append(own)
+                elif len(own) in FACES and face[:1] == "S" and face[1:].isdigit() and 1 <= int(face[1:]) <= len(
+                        FACES[len(own)]):
+                    facets.append(tuple(own[k] for k in FACES[len(own)][int(face[1:]) - 1]))
                 else:
                     raise InputFault(f"{place}: a surface of '{fields[0]}' needs the faces of its elements, as in S1")
         scope.surfaces[name] = nodes or sorted({node for facet in facets for node in facet})

@@ -9,6 +9,7 @@ from .cards import names_of, number, whole, whole_range
 from .geometry import applied, axis_between, cross, difference, dot, frame_about, normal_of, scaled, shape_of, turned_z
 from .joints import Shared, hold_turned
 from .model import ALL, BAR, AxialSpring, Element, InputFault, Model, PointMass, Property, Reading, Section
+from .second_order import by_corners
 
 # Reason to pass over cards -> their names.
 NOTED = {
@@ -24,8 +25,9 @@ NOTED = {
     """)}
 # Nodes that an element of a type cannot do without.
 NEEDED = {185: 8, 45: 8, 181: 3, 63: 3, 43: 3, 188: 2, 4: 2, 180: 2, 8: 2, 184: 2}
-SECOND_ORDER = {186: "SOLID186", 187: "SOLID187", 95: "SOLID95", 92: "SOLID92", 281: "SHELL281", 93: "SHELL93",
-                189: "BEAM189"}
+# Those of second order: name, type that they become by their corners, nodes at corners and behind them.
+SECOND_ORDER = {186: ("SOLID186", 185, 8), 187: ("SOLID187", 185, 4), 95: ("SOLID95", 45, 8), 92: ("SOLID92", 45, 4),
+                281: ("SHELL281", 181, 4), 93: ("SHELL93", 181, 4), 189: ("BEAM189", 188, 2)}
 
 LABELS = {label: 1 << k for k, label in enumerate(("UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"))} | {"ALL": ALL}
 OTHER_LABELS = {"TEMP", "VOLT", "MAG", "PRES", "AX", "AY", "AZ", "CURR", "EMF", "CONC", "ENKE", "ENDS"}
@@ -126,6 +128,12 @@ class Reader(Reading):
         reals = self.properties.reals.get(real, [])
         name = f"type_{type_number}_mat_{material}"
         key = (type_number, material, real, section)
+        second = SECOND_ORDER.get(type_)
+        if second:
+            if len(nodes) < second[2]:
+                raise InputFault(f"{place}: element {own} of type {type_} has {len(nodes)} nodes")
+            section = 0 if type_ == 93 else section  # it has real constants alone
+            type_, keys, nodes = self._by_corners(second, keys, nodes, place)
         common = key, name, material, real, section, reals, own, place
         for at, node in enumerate(nodes):
             if node or at < min(NEEDED.get(type_, 1), len(nodes)):
@@ -149,10 +157,22 @@ class Reader(Reading):
         elif type_ == 200:
             return self.note("ELEMENT MESH200", "it has no stiffness")
         else:
-            card = f"ELEMENT {SECOND_ORDER.get(type_, type_)}"
-            return self.lose(card, "elements of second order are not known" if type_ in SECOND_ORDER else
-                                  "this type is not known", place)
-        self.use(f"ELEMENT {type_}")
+            return self.lose(f"ELEMENT {type_}", "this type is not known", place)
+        if not second:
+            self.use(f"ELEMENT {type_}")
+        return None
+
+    def _by_corners(self, second: tuple, keys: dict, nodes: list, place: str) -> tuple:
+        """Type, options and nodes of the element of first order that one of second order becomes."""
+        card, type_, count = second
+        kind = {181: "shell", 188: "beam"}.get(type_, "tet4" if count == 4 else "hex8")
+        ends, towards = (nodes[:3], nodes[3:4]) if type_ == 188 else (nodes, [])  # the fourth shows a beam's direction
+        found = by_corners(self.model, f"ELEMENT {card}", kind, ends, count, place)
+        if type_ == 185:  # reduced integration does not lock, nor do incompatible modes
+            keys = {2: 1, 3: keys.get(3, 0)}
+        if kind == "tet4":
+            found = (*found[:3], found[2], *found[3:] * 4)
+        return type_, keys if type_ in (181, 185) else {}, [*found, *towards]
 
     def _add(self, kind: str, nodes, common, **more) -> None:
         key, own, place = common[0], common[6], common[7]

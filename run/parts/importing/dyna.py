@@ -8,6 +8,7 @@ from .dyna_cards import EIGHT, Card, Keyword, keywords_of
 from .dyna_joints import JointReader
 from .geometry import applied, axis_between, difference, frame_about, length, normal_of, scaled, shape_of, unit
 from .model import BAR, AxialSpring, Element, InputFault, Material, Model, PointMass, Property, Reading, Section, Spring
+from .second_order import by_corners
 
 NODE = (8, 16, 16, 16, 8, 8)
 MASS = (8, 8, 16, 8)
@@ -18,7 +19,8 @@ TITLES = ("DATABASE_", "CONTROL_", "DEFINE_CURVE", "DEFINE_TABLE", "DEFINE_FUNCT
 LOADS = ("LOAD_", "INITIAL_", "EOS_")
 DAMPING = ("DAMPING_",)
 SOLID_FORMS = {2: "hex8_full", 18: "hex8_full"}
-SECOND_ORDER = (16, 17, 23, 24)
+MORE = {"ELEMENT_SOLID_H20": 20, "ELEMENT_SOLID_H27": 27, "ELEMENT_SOLID_TET4TOTET10": 0}  # nodes on cards behind
+SECOND_ORDER = {16: 4, 17: 4, 23: 8, 24: 8}  # corners of these forms of solids
 
 
 class Reader(Reading):
@@ -42,7 +44,7 @@ class Reader(Reading):
                 self.materials[keyword.card(0).int(0)] = keyword
             elif keyword.name.startswith("SECTION_"):
                 self._section(keyword)
-        self.handlers = {"ELEMENT_SOLID": self._solids, "ELEMENT_SHELL": self._shells,
+        self.handlers = {**dict.fromkeys(("ELEMENT_SOLID", *MORE), self._solids), "ELEMENT_SHELL": self._shells,
                          "ELEMENT_SHELL_THICKNESS": self._shells, "ELEMENT_SHELL_OFFSET": self._shells,
                          "ELEMENT_BEAM": self._beams, "ELEMENT_BEAM_ORIENTATION": self._beams,
                          "ELEMENT_BEAM_OFFSET": self._beams, "ELEMENT_DISCRETE": self._discrete,
@@ -139,18 +141,23 @@ class Reader(Reading):
         for card in rows:
             nodes = [card.int(k) for k in range(2, 10)]
             if not any(nodes):
-                second = next(rows, None)
-                if second is None:
-                    raise InputFault(f"{card.place}: element {card.int(0)} has no card of nodes")
-                nodes = [second.int(k) for k in range(8)]
-                if second.int(8) or second.int(9):
-                    self.lose("ELEMENT_SOLID of second order", "elements of second order are not known", card.place)
-                    continue
+                nodes, count = [], MORE.get(keyword.name) or 10
+                while len(nodes) < count:
+                    second = next(rows, None)
+                    if second is None:
+                        raise InputFault(f"{card.place}: element {card.int(0)} has no card of nodes")
+                    nodes += [second.int(k) for k in range(10)]
             title, (form, _), material, part = self.part_of(card, 1, "SOLID")
-            if form.int(1, 1) in SECOND_ORDER:
-                self.lose(f"SECTION_SOLID ELFORM {form.int(1)}", "elements of second order are not known", card.place)
-                continue
+            corners = 8 if MORE.get(keyword.name) else SECOND_ORDER.get(form.int(1, 1), 4 if any(nodes[8:]) else 0)
+            second_order = corners or keyword.name in MORE
+            if second_order:
+                corners = corners or 4
+                kind = "tet4" if corners == 4 else "hex8"
+                card_name = keyword.name if keyword.name in MORE else "ELEMENT_SOLID of second order"
+                nodes = list(by_corners(self.model, card_name, kind, nodes, corners, card.place))
             nodes = [node for node in nodes if node]
+            if not nodes:
+                raise InputFault(f"{card.place}: element {card.int(0)} has no nodes")
             nodes += nodes[-1:] * (8 - len(nodes))
             shape, nodes = shape_of(nodes)
             if shape is None:
@@ -160,7 +167,8 @@ class Reader(Reading):
             self.model.properties.setdefault(part, Property(title, material, place=card.place))
             kind = SOLID_FORMS.get(form.int(1, 1), "hex8") if shape == "brick" else shape
             self._add(kind, card.int(0), nodes, part, card.place, part)
-            self.use(keyword.name)
+            if not second_order:
+                self.use(keyword.name)
 
     def _shells(self, keyword: Keyword) -> None:
         rows = iter(keyword.cards(*EIGHT))
@@ -174,6 +182,9 @@ class Reader(Reading):
                 if more is None:
                     raise InputFault(f"{card.place}: element {card.int(0)} has no second card")
             nodes = [card.int(k) for k in range(2, 6)]
+            if any(card.int(k) for k in range(6, 10)):
+                by_corners(self.model, "ELEMENT_SHELL of second order", "shell", [card.int(k) for k in range(2, 10)], 4,
+                           card.place)
             nodes = nodes[:3] if nodes[3] in (0, nodes[2]) else nodes
             title, (_, second), material, part = self.part_of(card, 1, "SHELL")
             thicknesses = [second.real(k) for k in range(4)]

@@ -4,6 +4,7 @@ import importlib
 from pathlib import Path
 
 from .model import InputFault, Model
+from .second_order import settle
 
 # Name -> module, endings.
 FORMATS = {"abaqus": ("abaqus", (".inp",)), "nastran": ("nastran", (".bdf", ".nas", ".dat")),
@@ -25,6 +26,7 @@ def read(path: Path, wanted: str | None) -> Model:
         model = module.read(path)
     except RecursionError as error:
         raise InputFault(f"{path}: files that include each other too deeply") from error
+    settle(model)
     if not (model.elements or model.masses or model.springs or model.cards.lost):
         raise InputFault(f"{path}: no element in it")
     return model

@@ -6,12 +6,16 @@ import h5py
 import numpy as np
 
 from .model import BAR, Element, InputFault, Model
+from .second_order import by_corners
 from .weighing import AS_BRICK, bricks, tetrahedra
 
 # Type of cells -> kind of element, nodes, and the places of its nodes in the mirrored cell.
 CELLS = {"HE8": ("hex8", 8, (0, 3, 2, 1, 4, 7, 6, 5)), "PE6": ("wedge6", 6, (0, 2, 1, 3, 5, 4)), "TE4": ("tet4", 4,
                                                                                                          (0, 2, 1, 3)),
          "QU4": ("shell", 4, None), "TR3": ("shell", 3, None), "SE2": (BAR, 2, None), "PO1": ("point", 1, None)}
+# Those of second order: of first order by their corners, which come first, and all their nodes.
+SECOND = {"H20": ("HE8", 20), "H27": ("HE8", 27), "P15": ("PE6", 15), "P18": ("PE6", 18), "T10": ("TE4", 10),
+          "QU8": ("QU4", 8), "QU9": ("QU4", 9), "TR6": ("TR3", 6), "TR7": ("TR3", 7), "SE3": ("SE2", 3)}
 
 
 def _names(families) -> dict:
@@ -61,25 +65,30 @@ def _read(file, path: Path) -> Model:
 
 
 def _cells(model: Model, path: Path, type_: str, cells, places, names) -> None:
-    if type_ not in CELLS:
+    first, width = SECOND.get(type_, (type_, 0))
+    if first not in CELLS:
         count = int(cells["NOD"].attrs.get("NBR", 0)) if "NOD" in cells else 0
-        model.cards.lose(f"CELLS {type_}", "cells of first order are known: HE8, PE6, TE4, QU4, TR3, SE2, PO1",
+        model.cards.lose(f"CELLS {type_}", f"cells are known of {', '.join([*CELLS, *SECOND])}",
                          path.name, count)
         return
-    kind, width, mirrored = CELLS[type_]
-    nodes = np.asarray(cells["NOD"][()], dtype=int).reshape((width, -1)).T
+    kind, count, mirrored = CELLS[first]
+    nodes = np.asarray(cells["NOD"][()], dtype=int).reshape((width or count, -1)).T
     if nodes.size and (nodes.min() < 1 or nodes.max() > len(places)):
         raise InputFault(f"{path}: cells {type_} have nodes that are not there")
+    for own in nodes.tolist() if width else ():
+        by_corners(model, f"CELLS {type_}", kind, own, count, path.name)
+    nodes = nodes[:, :count]
     if mirrored is not None and len(nodes):
         x = places[nodes - 1]
-        volumes = tetrahedra(x)[0] if width == 4 else bricks(x[:, list(AS_BRICK[width])])[0]
+        volumes = tetrahedra(x)[0] if count == 4 else bricks(x[:, list(AS_BRICK[count])])[0]
         nodes[volumes < 0] = nodes[volumes < 0][:, list(mirrored)]  # the order of MED
     families = np.asarray(cells["FAM"][()]) if "FAM" in cells else np.zeros(len(nodes), dtype=int)
     for own, family in zip(nodes.tolist(), families.tolist()):
         for name in names.get(family, ()):
             model.element_sets.setdefault(name, []).append(len(model.elements))
         model.elements.append(Element(kind, 0, tuple(own), None, place=path.name))
-    model.cards.use(f"CELLS {type_}", len(nodes))
+    if not width:
+        model.cards.use(f"CELLS {type_}", len(nodes))
 
 
 def read(path: Path) -> Model:

@@ -157,6 +157,7 @@ class Model:
     node_sets: dict = field(default_factory=dict)  # name -> nodes
     element_sets: dict = field(default_factory=dict)  # name -> places in `elements`
     facet_sets: dict = field(default_factory=dict)  # name -> tuples of nodes
+    midside: dict = field(default_factory=dict)  # node between corners -> corners of its cell, and their place
     ties: list = field(default_factory=list)  # (name of a set that follows, name of a set of facets)
     alpha: float = 0.0
     beta: float = 0.0

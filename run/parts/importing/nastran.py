@@ -11,6 +11,7 @@ from .nastran_cards import GLOBAL, Card, Systems
 from .nastran_joints import JointReader
 from .nastran_lines import deck_of
 from .nastran_properties import PropertyReader
+from .second_order import by_corners
 
 SOLIDS = {"CHEXA": ("hex8", 8, 20), "CPENTA": ("wedge6", 6, 15), "CTETRA": ("tet4", 4, 10)}
 PLATES = {"CQUAD4": 4, "CQUADR": 4, "CTRIA3": 3, "CTRIAR": 3}
@@ -119,17 +120,20 @@ class Reader(Reading):
 
     # Elements.
 
-    def _add(self, card: Card, kind: str, nodes, key, **more) -> None:
+    def _add(self, card: Card, kind: str, nodes, key, counted: bool = True, **more) -> None:
         for node in nodes:
             self.model.at(node, card.place)
         self.model.elements.append(Element(kind, card.int(0), tuple(nodes), key, place=card.place, **more))
-        self.use(card.name)
+        if counted:
+            self.use(card.name)
 
-    def _solid(self, card: Card) -> bool | None:
+    def _solid(self, card: Card) -> None:
         kind, count, more = SOLIDS[card.name]
-        if any(card.text(2 + k) for k in range(count, more)):
-            return self.lose(f"{card.name} of second order", "elements of second order are not known", card.place)
-        return self._add(card, kind, [card.int(2 + k) for k in range(count)], card.int(1))
+        nodes = [card.int(2 + k) for k in range(count)]
+        middle = [card.int(2 + k) for k in range(count, more) if card.text(2 + k)]
+        self._add(card, kind, nodes, card.int(1), counted=not middle)
+        if middle:
+            by_corners(self.model, f"{card.name} of second order", kind, [*nodes, *middle], count, card.place)
 
     def _plate(self, card: Card) -> None:
         count = PLATES[card.name]

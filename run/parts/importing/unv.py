@@ -5,11 +5,16 @@ from pathlib import Path
 
 from .cards import lines_of, number, whole
 from .model import BAR, Element, InputFault, Model
+from .second_order import by_corners
 
 # Kind of element and nodes by "FE descriptor id".
 CELLS = {**dict.fromkeys((11, 21, 22, 136), (BAR, 2)), **dict.fromkeys((41, 51, 61, 81, 91), ("shell", 3)),
          **dict.fromkeys((44, 54, 64, 84, 94), ("shell", 4)), 111: ("tet4", 4), 112: ("wedge6", 6), 115: ("hex8", 8),
          137: ("point", 1), 161: ("point", 1)}
+# Of second order: nodes along the edges in turn, of solids floor by floor; where the corners are among them.
+SECOND = {**dict.fromkeys((22, 24), (BAR, 3, (0, 2))), **dict.fromkeys((42, 52, 62, 72, 82, 92), ("shell", 6, (0, 2, 4))),
+          **dict.fromkeys((45, 55, 65, 75, 85, 95), ("shell", 8, (0, 2, 4, 6))), 118: ("tet4", 10, (0, 2, 4, 9)),
+          113: ("wedge6", 15, (0, 2, 4, 9, 11, 13)), 116: ("hex8", 20, (0, 2, 4, 6, 12, 14, 16, 18))}
 GROUPS = (2435, 2452, 2467, 2477)
 UNREAD = {15: "nodes", 781: "nodes", 71: "elements", 780: "elements",
           **dict.fromkeys((752, 2400, 2417, 2429, 2430, 2432), "groups")}
@@ -104,13 +109,17 @@ def _cells(model: Model, records: Records, places: dict) -> None:
         while len(nodes) < count:
             nodes += records.integers(1)
         known, width = CELLS.get(kind, ("", 0))
-        if width != len(nodes):
+        if width != len(nodes) and SECOND.get(kind, ("", 0))[1] == len(nodes):
+            known, _, corners = SECOND[kind]
+            nodes = by_corners(model, f"ELEMENTS {kind} OF {len(nodes)}", known, nodes, corners, place)
+        elif width != len(nodes):
             places[label] = None
             model.cards.lose(f"ELEMENTS {kind} OF {len(nodes)}", "elements of first order are known", place)
             continue
         places[label] = len(model.elements)
         model.elements.append(Element(known, label, tuple(nodes), property_, place=place))
-        model.cards.use(f"ELEMENTS {kind}")
+        if width == len(nodes):
+            model.cards.use(f"ELEMENTS {kind}")
 
 
 def _groups(model: Model, records: Records, places: dict) -> None:
