@@ -90,6 +90,31 @@ class Abaqus(unittest.TestCase):
         self.assertIn("supported nodes 3: x 2, y 3, z 3, rx 1, ry 1, rz 1", said)
         self.assertIn("passed over (titles and output): HEADING 1", said)
 
+    def test_a_stick_of_beams_without_mass(self):
+        """Its mass is that of points, and the scaled mass for it moves no mode below 33 Hz by more than .1 %: in the
+        first, by the axial mode just below, in the second only by the bending modes, up to where the axial one above 33 Hz
+        would come below it."""
+        inertia, area, length, mass = 6.75e-4, 0.09, 4.0, 20000.0
+        deck = (nodes({1: (0, 0, 0), 2: (0, 0, length)}) + elements("B33", "STICK", {1: (1, 2)})
+                + elements("MASS", "TOP", {2: (2,)}) + "*MATERIAL, NAME=C\n*ELASTIC\n{young}, .2\n*BEAM GENERAL "
+                f"SECTION, ELSET=STICK, SECTION=GENERAL, DENSITY=0.\n{area}, {inertia}, 0., {inertia}, 1.14e-3\n"
+                "1., 0., 0.\n{young}, {shear}\n*MASS, ELSET=TOP\n20000.\n*BOUNDARY\n1, ENCASTRE\n")
+        for young, below, least in ((3e10, 3, 4.8e-4), (5e10, 2, 4.8e-4)):
+            with self.subTest(young):
+                scene, said = imported.imported(self, "stick.inp", deck.format(young=young, shear=young / 2.4))
+                bending = math.sqrt(3 * young * inertia / mass / length**3) / 2 / math.pi
+                axial = math.sqrt(young * area / length / mass) / 2 / math.pi
+                found = frequencies(structure(self, scene))
+                for value, reference in zip(found[:below], (bending, bending, axial)):
+                    self.assertLess(abs(value / reference - 1), 1e-3)
+                self.assertEqual(sum(value < 33 for value in found), below)
+                self.assertIn("its beams and bars weigh nothing", said)
+                step = float(re.search(r'mass_scaling: "(.*)"', scene.read_text())[1])
+                self.assertGreater(step, least)
+                self.assertIn(f"({below} modes, the highest {(bending, axial)[below > 2]:.4g} Hz", said)
+        refused(self, "stick.inp", deck.format(young=3e10, shear=1e10).replace("\n20000.", "\n0."),
+                "--density STICK material=2500")
+
     @staticmethod
     def flip(words):
         """The section has 0.2 along its first direction, so its inertia about that one is the smaller: I about z."""

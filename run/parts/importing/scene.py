@@ -36,6 +36,8 @@ class Scene:
         self.sections: dict = {}
         self.written: dict = {}  # material of the model -> name in the scene
         self.mesh = MeshFile()
+        self.massless: set = set()  # materials of beams and bars that have no density
+        self.heavy = any(mass.mass > 0 for mass in model.masses) or any(one.added for one in model.properties.values())
         self.regions: dict = {}  # name of a region -> places of its elements
         self._check()
         self.joints = Joints(model)
@@ -132,7 +134,9 @@ class Scene:
             factor = 1.0
         if kind not in BEAMS and kind != BAR and abs(factor - 1) > 5e-3:
             self.model.cards.lose(f"G OF MATERIAL {key}", "shells and solids have G = E / (2 (1 + nu))", material.place)
-        if not material.density > 0:
+        if material.density == 0 and kind in (*BEAMS, BAR) and self.heavy:
+            self.massless.add(key)
+        elif not material.density > 0:
             raise InputFault(f"{material.place}: material {key} has no density, and elements without mass cannot be "
                              f"stepped; say one in kg/m3 with --density {key}=2500")
         if not (material.young > 0 and -1 < poisson < 0.5):
