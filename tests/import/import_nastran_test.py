@@ -183,13 +183,17 @@ class Nastran(unittest.TestCase):
             imported.refused(self, "model.bdf", "SOL 103\nCEND\nBEGIN BULK\n" + "".join(lines) + self.REST, part)
 
     def test_fields_past_the_eighth_of_a_free_line(self):
-        """Are refused, as nobody can tell a ninth field from a mark; a tenth field that is a mark is one."""
+        """Go on as if in a next line; a tenth field that is a mark is one, and one that could be either is refused."""
         feet = "".join(small("GRID", n, "", float(n), 0., 0.) + small("GRID", n + 10, "", float(n), 0., 3.)
                        + small("CBAR", n, 1, n, n + 10, 1., 0., 0.) for n in range(1, 9)) + small("PBAR", 1, 1, .01, "8.-6", "8.-6", "1.-5")
-        for line in ("SPC1,1,123456,1,2,3,4,5,6,7,8\n", "SPC1,1,123456,1,2,3,4,5,6,7\n", "SPC1,1,123456,1,2,3,4,5,6,,7\n"):
-            imported.refused(self, "feet.bdf", "BEGIN BULK\n" + feet + STEEL + line, "feet.bdf line 28: a line has 8 fields of data")
-        _, said = imported.imported(self, "feet.bdf", "BEGIN BULK\n" + feet + STEEL + "SPC1,1,123456,1,2,3,4,5,6,+A\n+A,7,8\n")
-        self.assertIn("supported nodes 8:", said)
+        for line in ("SPC1,1,123456,1,2,3,4,5,6,7,8\n", "SPC1,1,123456,1,2,3,4,5,6,+A\n+A,7,8\n", "SPC1,1,123456,1,THRU,8\n",
+                     "SPC1,1,123456,1,2,3,4,5,6,THRU,8\n", "SPC1,1,123456,1,2,3,4,5,6,7\nSPC1,1,123456,8\n"):
+            _, said = imported.imported(self, "feet.bdf", "BEGIN BULK\n" + feet + STEEL + line)
+            self.assertIn("supported nodes 8:", said)
+        for line, part in (("SPC1,1,123456,1,2,3,4,5,6,,7\n", "behind a tenth field that is a mark or empty"),
+                           ("SPC1,1,123456,1,2,3,4,5,6,+A,7\n", "behind a tenth field that is a mark or empty"),
+                           ("SPC1,1,123456,1,2,3,4,5,6,17\n+7,7,8\n", "the ninth field of data, 17, could be the mark")):
+            imported.refused(self, "feet.bdf", "BEGIN BULK\n" + feet + STEEL + line, f"feet.bdf line 28: ", part)
 
     def test_replication_and_numbers_with_blanks(self):
         """A mast of five bars by replication is the one that is written out."""

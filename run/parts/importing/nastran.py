@@ -10,22 +10,45 @@ from .model import BAR, AxialSpring, Element, InputFault, Model, PointMass, Prop
 from .nastran_cards import GLOBAL, Card, Systems
 from .nastran_joints import JointReader
 from .nastran_lines import deck_of
-from .nastran_properties import PropertyReader
+from .nastran_properties import PropertyReader, family_of
 from .second_order import by_corners
 
-SOLIDS = {"CHEXA": ("hex8", 8, 20), "CPENTA": ("wedge6", 6, 15), "CTETRA": ("tet4", 4, 10)}
-PLATES = {"CQUAD4": 4, "CQUADR": 4, "CTRIA3": 3, "CTRIAR": 3}
-BEAMS = ("CBAR", "CBEAM")
+# Card -> kind of element, nodes at corners, all nodes.
+SOLIDS = {"CHEXA": ("hex8", 8, 20), "CPENTA": ("wedge6", 6, 15), "CTETRA": ("tet4", 4, 10), "CIHEX1": ("hex8", 8, 8),
+          "CIHEX2": ("hex8", 8, 20), "CHEXA1": ("hex8", 8, 8), "CHEXA2": ("hex8", 8, 8), "CWEDGE": ("wedge6", 6, 6)}
+FIRST = ("CHEXA1", "CHEXA2", "CWEDGE", "CTETRA")  # of NASTRAN-95, with a material in place of a property
+# Card -> nodes at corners, all nodes, places of the offset, the first thickness and TFLAG, kind of property.
+PLATES = {**dict.fromkeys(("CQUAD4", "CQUADR"), (4, 4, 7, 10, 9, "PSHELL")),
+          **dict.fromkeys(("CTRIA3", "CTRIAR"), (3, 3, 6, 10, 9, "PSHELL")), "CQUAD8": (4, 8, 15, 10, 16, "PSHELL"),
+          "CTRIA6": (3, 6, 9, 10, 13, "PSHELL"), **{name: (3 if "TR" in name else 4,) * 2 + (99, 99, 99, name.replace("C", "P", 1))
+                                                   for name in ("CQUAD1", "CQUAD2", "CTRIA1", "CTRIA2", "CQDMEM", "CQDMEM1", "CQDMEM2",
+                                                                "CTRMEM", "CSHEAR")}}
+BEAMS = {"CBAR": "PBAR", "CBEAM": "PBEAM"}
+MEMBRANES = {**dict.fromkeys(("PQDMEM", "PQDMEM1", "PQDMEM2", "PTRMEM"), "membranes are not known; allowed, they are shells, which bend as "
+                                                                         "well"),
+             "PSHEAR": "panels that carry shear alone are not known; allowed, they are shells, which carry all forces"}
 # Reason to pass over cards -> their names.
 NOTED = {
     "titles, output and control": names_of("""
-    PLOTEL SET1 SET3 PARAM ENDDATA SUPORT SUPORT1 EIGR EIGRL EIGB EIGC EIGP TSTEP TSTEPNL NLPARM NLPCI ASET ASET1 OMIT
-    OMIT1 MONPNT1 DTI TABDMP1 FREQ FREQ1 FREQ2 FREQ3 FREQ4 FREQ5 RANDPS RANDT1 TABRND1 TABLED1 TABLED2 TABLED3 TABLED4
-    TABLEM1 DESVAR DCONSTR DRESP1 DVPREL1 DEFORM
+    PLOTEL PLOTEL3 PLOTEL4 PLOTEL6 PLOTEL8 CBARAO SET1 SET3 PARAM MDLPRM ENDDATA SUPORT SUPORT1 EIGR EIGRL EIGB EIGC EIGP TSTEP
+    TSTEPNL TSTEP1 NLPARM NLPCI NLSTEP NLCNTLG NLCNTL ASET ASET1 OMIT OMIT1 BSET BSET1 CSET CSET1 QSET QSET1 USET USET1 SPOINT EPOINT
+    MONPNT1 MONPNT2 MONPNT3 MONDSP1 DTI TABDMP1 FREQ FREQ1 FREQ2 FREQ3 FREQ4 FREQ5 RANDPS RANDT1 TABRND1 TABRNDG TABLED1 TABLED2
+    TABLED3 TABLED4 TABLEM1 TABLEM2 TABLEM3 TABLEM4 TABLES1 TABLEST DEFORM CNGRNT SEQGP ITER POINTAX GROUP
     """),
     "loads and steps are not part of the model": names_of("""
     FORCE FORCE1 FORCE2 MOMENT MOMENT1 MOMENT2 PLOAD PLOAD1 PLOAD2 PLOAD4 GRAV LOAD RFORCE ACCEL ACCEL1 TEMP TEMPD
-    TEMPP1 TEMPRB DLOAD TLOAD1 TLOAD2 RLOAD1 RLOAD2 DAREA DELAY DPHASE LSEQ SPCD SLOAD TIC NOLIN1 SPCR
+    TEMPP1 TEMPP2 TEMPRB DLOAD TLOAD1 TLOAD2 RLOAD1 RLOAD2 DAREA DELAY DPHASE LSEQ SPCD SLOAD TIC NOLIN1 NOLIN2 NOLIN3 NOLIN4 SPCR
+    LOADCYN DLOADS PLOAD3 LOADCYH LOADCYT TLOAD3
+    """),
+    "optimisation is not part of the model": names_of("""
+    DESVAR DCONSTR DCONADD DRESP1 DRESP2 DRESP3 DVPREL1 DVPREL2 DVMREL1 DVMREL2 DVCREL1 DVCREL2 DVTREL1 DVGRID DVBSHAP DEQATN DLINK
+    DOPTPRM DSCREEN DTABLE DVSET TOPVAR MAT1DSN POPT PLIMIT
+    """),
+    "forces of air are not part of the model": names_of("""
+    AERO AEROS AEROZ AECOMP AECOMPL AEFACT AELINK AELIST AEPARM AEPRESS AEFORCE AESTAT AESURF AESURFS CAERO1 CAERO2 CAERO3 CAERO4
+    CAERO5 CAERO7 PAERO1 PAERO2 PAERO3 PAERO4 PAERO5 PAERO7 SPLINE1 SPLINE2 SPLINE3 SPLINE4 SPLINE5 SPLINE6 SPLINE7 FLFACT
+    FLUTTER FLUTPRM MKAERO1 MKAERO2 MKAEROZ GUST TRIM TRIM2 CSSCHD DIVERG UXVEC BODY7 SEGMESH AESURFZ ACOORD TRIMVAR TRIMLNK TRIMOBJ
+    TRIMCON FLUTMOD AEROP WKK
     """)}
 
 
@@ -59,15 +82,28 @@ class Reader(Reading):
                 axes = self.systems.axes_at(system, self.model.nodes[number], place)
                 if axes != GLOBAL:
                     self.frames[number] = axes
+        self.scalar_masses: dict = {}  # grid -> six masses and a card
+        self.points = {number for card in cards if card.name in ("SPOINT", "EPOINT") for number in card.list_from(0, 10**6)}
+        # Kind of property and number -> card that is lost.
+        self.strange = {(family_of(card.name), card.text(0)): card.name for card in cards
+                        if card.name[0] == "P" and card.name not in self.properties.handlers}
+        self.other_materials = {int(card.text(0)): card.name for card in cards if card.name[:3] == "MAT"
+                                and card.text(0).isdecimal() and card.name not in ("MAT1", "MAT4", "MAT5")}
         self.handlers = {"CROD": self._rod, "CTUBE": self._rod, "CONROD": self._rod, "CELAS1": self._scalar,
                          "CELAS2": self._scalar, "CDAMP1": self._scalar, "CDAMP2": self._scalar, "CBUSH": self._bush,
-                         "CONM2": self._mass, **self.joints.handlers}
-        for card in cards:  # properties first, since offsets and axes hang on them
-            if card.name in self.properties.handlers:
-                self.properties.handlers[card.name](card)
-                self.use(card.name)
+                         "CBUSH1D": self._along, "CVISC": self._along, "CONM2": self._mass, "CONM1": self._matrix_mass,
+                         "CMASS1": self._scalar_mass, "CMASS2": self._scalar_mass, **self.joints.handlers}
+        for handlers in (self.properties.materials, self.properties.handlers):  # offsets and axes of elements hang on them
+            for card in cards:
+                if card.name in handlers:
+                    lost = self.model.cards.lost[card.name]
+                    handlers[card.name](card)
+                    if self.model.cards.lost[card.name] == lost:
+                        self.use(card.name)
         for card in cards:
             self._handle(card)
+        self._put_scalar_masses()
+        self._leave_strange()
         self.joints.finish()
         self._tell_rotary_inertia()
 
@@ -94,7 +130,7 @@ class Reader(Reading):
                 self.use(name)
         elif name in ("GRID", "GRDSET", "BAROR", "BEAMOR") or name.startswith("CORD"):
             self.use(name)
-        elif name not in self.properties.handlers:
+        elif name not in self.properties.handlers and name not in self.properties.materials:
             self.pass_over(name, card.place, NOTED)
 
     # Grid points.
@@ -103,6 +139,9 @@ class Reader(Reading):
         number, default = card.int(0), self.defaults.get("GRDSET", Card("GRDSET", [], card.place))
         self.grids[number] = (card.int(1, default.int(1, 0)), card.vector(2), card.int(5, default.int(5, 0)),
                               card.place)
+        if self.grids[number][2] == -1:
+            self.lose("GRID OF A FLUID", "fluids are not known; allowed, its grid points are left to what hangs on them", card.place)
+            self.grids[number] = (*self.grids[number][:2], 0, card.place)
         fixed = card.text(6) or default.text(6)
         if fixed.strip("0"):
             self.joints.permanent.append((number, fixed, card.place))
@@ -131,44 +170,54 @@ class Reader(Reading):
         kind, count, more = SOLIDS[card.name]
         nodes = [card.int(2 + k) for k in range(count)]
         middle = [card.int(2 + k) for k in range(count, more) if card.text(2 + k)]
-        self._add(card, kind, nodes, card.int(1), counted=not middle)
+        key = "PSOLID", card.int(1)
+        if card.name in FIRST and key not in self.properties.solids:
+            key = "MAT1", card.int(1)
+            self.model.properties.setdefault(key, Property(f"MAT1_{key[1]}", key[1], place=card.place))
+        self._add(card, kind, nodes, key, counted=not middle)
         if middle:
             by_corners(self.model, f"{card.name} of second order", kind, [*nodes, *middle], count, card.place)
 
     def _plate(self, card: Card) -> None:
-        count = PLATES[card.name]
+        count, more, at_offset, at_thickness, at_flag, family = PLATES[card.name]
         nodes = [card.int(2 + k) for k in range(count)]
-        offset = card.real(3 + count)
-        key = self._with_thickness(card, card.int(1, card.int(0)), count)
+        middle = [card.int(2 + k) for k in range(count, more) if card.text(2 + k)]
+        number = family, card.int(1, card.int(0))
+        offset = card.real(at_offset) + self.properties.offsets.get(number, 0.0)
+        key = self._with_thickness(card, number, count, at_thickness, at_flag)
+        if family in MEMBRANES:
+            self.lose(card.name, MEMBRANES[family], card.place)
         arms = None
         if offset:
             arms = (scaled(normal_of([self.model.at(node, card.place) for node in nodes], card.place), offset),) * count
-        self._add(card, "shell", nodes, key, arms=arms)
+        self._add(card, "shell", nodes, key, counted=more == count and family not in MEMBRANES, arms=arms)
+        if more > count:
+            by_corners(self.model, card.name, "shell", [*nodes, *middle], count, card.place)
 
-    def _with_thickness(self, card: Card, key: int, count: int):
+    def _with_thickness(self, card: Card, key: tuple, count: int, at: int, at_flag: int):
         """The property, or one of its own where a plate has other thicknesses: T1 to T4, or by TFLAG parts of that of its
         property."""
-        flag = card.text(9)
+        flag = card.text(at_flag)
         if flag not in ("", "0", "1"):
             raise InputFault(f"{card.place}: {card.name} {card.text(0)} has TFLAG {flag}; it is 0 or 1")
-        thicknesses = [card.real(10 + k) for k in range(count) if card.text(10 + k)]
+        thicknesses = [card.real(at + k) for k in range(count) if card.text(at + k)]
         own = self.model.properties.get(key)
         if not thicknesses or own is None:
             return key
         if len(thicknesses) < count or max(thicknesses) - min(thicknesses) > 1e-9 * max(thicknesses):
             self.lose(f"T1 TO T{count} OF {card.name}",
-                      "a thickness that varies within an element; allowed, the first holds", card.place)
-        thickness = thicknesses[0] * (own.thickness if flag == "1" else 1.0)
+                      "a thickness that varies within an element; allowed, the mean holds", card.place)
+        thickness = sum(thicknesses) / len(thicknesses) * (own.thickness if flag == "1" else 1.0)
         if thickness == own.thickness:
             return key
-        fresh = f"{key} {thickness!r}"
+        fresh = (*key, thickness)
         self.model.properties.setdefault(fresh, Property(f"{own.name}_t", own.material, thickness=thickness,
                                                          added=own.added, place=card.place))
         return fresh
 
     def _beam(self, card: Card) -> None:
         default = self.defaults.get("BAROR" if card.name == "CBAR" else "BEAMOR", Card("", [], card.place))
-        key = card.int(1, default.int(1, card.int(0)))
+        key = BEAMS[card.name], card.int(1, default.int(1, card.int(0)))
         nodes = (card.int(2), card.int(3))
         ends = [self.model.at(node, card.place) for node in nodes]
         source = card if any(card.text(k) for k in (4, 5, 6)) else default
@@ -196,6 +245,11 @@ class Reader(Reading):
                 if digits != "456":
                     self.lose(f"PINS {digits} OF {card.name}", "a hinge lets all three rotations go; allowed, it does "
                                                                "here, where it has one of them", card.place)
+        own = self.model.properties.get(key)
+        if own and own.section and own.section.inertia_y == own.section.inertia_z == 0:  # carries along its axis alone
+            hinged = [True, True]
+            if own.section.torsion:
+                self.lose(f"J OF {card.name}", "bars do not twist", card.place)
         long = [arm if length(arm) > 0 else None for arm in arms]
         self._add(card, "beam", nodes, key, z_axis=tuple(towards), arms=tuple(long) if any(long) else None,
                   hinged=tuple(hinged))
@@ -209,7 +263,8 @@ class Reader(Reading):
                                                            added=card.real(7) * self.mass_factor, place=card.place))
             self._add(card, BAR, (card.int(1), card.int(2)), key)
         else:
-            self._add(card, BAR, (card.int(2), card.int(3)), card.int(1, card.int(0)))
+            family = "PROD" if card.name == "CROD" else "PTUBE"
+            self._add(card, BAR, (card.int(2), card.int(3)), (family, card.int(1, card.int(0))))
         return False
 
     # Springs and masses.
@@ -227,6 +282,8 @@ class Reader(Reading):
         if not ends or any(not 1 <= component <= 6 for _, component in ends):
             return self.lose(card.name, "springs act on components of grid points", card.place)
         found = []
+        if any(node in self.points for node, _ in ends):
+            return self.lose(card.name, "springs act on components of grid points", card.place)
         for node, component in ends:
             self.model.at(node, card.place)
             places = permutation(self.frame(node))
@@ -275,6 +332,68 @@ class Reader(Reading):
                                   card.place)
         self.model.springs.append(Spring(nodes, *six, name, card.place))
         return None
+
+    def _along(self, card: Card) -> bool | None:
+        """A spring or a dashpot along the line of two grid points."""
+        family = "PVISC" if card.name == "CVISC" else "PBUSH1D"
+        key = family, card.int(1, card.int(0))
+        if key not in self.properties.springs:
+            raise InputFault(f"{card.place}: {family} {key[1]} is not in the deck")
+        nodes = tuple(card.int(at) for at in (2, 3) if card.text(at))
+        if len(nodes) < 2 or self.model.at(nodes[0], card.place) == self.model.at(nodes[1], card.place):
+            return self.lose(card.name, "springs along a line have two grid points that are apart", card.place)
+        self.model.axial_springs.append(AxialSpring(nodes, *self.properties.springs[key], f"{family.lower()}_{key[1]}", card.name,
+                                                    card.place))
+        return None
+
+    def _scalar_mass(self, card: Card) -> bool | None:
+        """Masses along one component, which are gathered by grid points."""
+        value = card.real(1) if card.name == "CMASS2" else self.properties.springs.get(("PMASS", card.int(1, card.int(0))))
+        if value is None:
+            raise InputFault(f"{card.place}: PMASS {card.text(1)} is not in the deck")
+        ends = [(card.int(at), card.int(at + 1, 0)) for at in (2, 4) if card.text(at)]
+        places = permutation(self.frame(ends[0][0])) if len(ends) == 1 and 1 <= ends[0][1] <= 6 else None
+        if places is None or ends[0][0] in self.points:
+            return self.lose(card.name, "a mass acts on one component, along a global axis, of one grid point", card.place)
+        node, component = ends[0]
+        self.model.at(node, card.place)
+        six, _ = self.scalar_masses.setdefault(node, ([0.0] * 6, card))
+        six[places[(component - 1) % 3] + (component - 1) // 3 * 3] += value * self.mass_factor
+        return None
+
+    def _put_scalar_masses(self) -> None:
+        for node, (six, card) in self.scalar_masses.items():
+            if max(six[:3]) - min(six[:3]) > 1e-9 * max(map(abs, six[:3])):
+                self.lose("MASS THAT DIFFERS BY DIRECTION", "a mass is the same along all axes; allowed, the largest holds", card.place)
+            self.model.masses.append(PointMass(node, max(six[:3]), tuple(six[3:]), name="cmass", place=card.place))
+
+    def _matrix_mass(self, card: Card) -> None:
+        """Of the six by six numbers of CONM1 a mass that is the same along all axes, and inertia about them."""
+        rows = [[card.real(3 + i * (i + 1) // 2 + k) * self.mass_factor for k in range(i + 1)] for i in range(6)]
+        diagonal = [row[-1] for row in rows]
+        scale = max(map(abs, diagonal)) or 1.0
+        if card.int(2, 0) or any(abs(value) > 1e-9 * scale for row in rows for value in row[:-1]):
+            self.lose("PRODUCTS OF CONM1", "masses have no products and no axes of their own; allowed, its diagonal holds", card.place)
+        if max(diagonal[:3]) - min(diagonal[:3]) > 1e-9 * scale:
+            self.lose("MASS THAT DIFFERS BY DIRECTION", "a mass is the same along all axes; allowed, the largest holds", card.place)
+        self.model.masses.append(PointMass(card.int(1), max(diagonal[:3]), tuple(diagonal[3:]), name="conm1", place=card.place))
+
+    def _leave_strange(self) -> None:
+        """Elements whose property is of a card that is lost, or whose material is, are lost with it."""
+        kept = []
+        for element in self.model.elements:
+            own = self.model.properties.get(element.property)
+            if own is None:
+                number = str(element.property[1])
+                card = self.properties.unknown.get((element.property[0], number)) or next(
+                    (name for (_, text), name in self.strange.items() if text == number), None)
+            else:
+                card = None if own.material in self.model.materials else self.other_materials.get(own.material)
+            if card:
+                self.lose(f"ELEMENTS OF {card}", f"{card} is not known, nor elements with it; allowed, they are left out", element.place)
+            else:
+                kept.append(element)
+        self.model.elements = kept
 
     def _mass(self, card: Card) -> bool | None:
         node, system = card.int(1), card.int(2, 0)

@@ -27,11 +27,12 @@ class JointReader(Reading):
     @staticmethod
     def _named(control, word: str) -> tuple:
         """Sets that case control names, and the place of the last."""
-        found, where = set(), ""
+        found, where = [], ""
         for place, line in control:
             match = re.match(rf"\s*{word}\s*=\s*(\d{{1,9}})\s*$", line, re.IGNORECASE)
             if match:
-                found.add(int(match[1]))
+                if int(match[1]) not in found:
+                    found.append(int(match[1]))
                 where = place
         return found, where
 
@@ -95,8 +96,9 @@ class JointReader(Reading):
         """Sets in force: those of case control with their sums, or the only one."""
         named, place = self.wanted[word]
         if len(named) > 1:
-            raise InputFault(f"{place}: case control names the sets {', '.join(map(str, sorted(named)))} of {word}; a "
-                             "scene has one: leave one")
+            self.lose(f"{word} OF OTHER SUBCASES", f"case control names the sets {', '.join(map(str, named))} of {word}, and a scene has "
+                      "one; allowed, the first holds", place, len(named) - 1)
+            named = named[:1]
         if not named:
             free = set(there) - {one for (kind, _), sets in self.sums.items() if kind == word for one in sets}
             named = {key for kind, key in self.sums if kind == word} or free
@@ -108,7 +110,7 @@ class JointReader(Reading):
             found |= set(self.sums.get((word, one), [one]))
         for one in sorted(found - set(there)):
             if place:
-                raise InputFault(f"{place}: set {one} of {word} is not in the deck")
+                self.lose(f"SET {one} OF {word}", "case control, or a sum of sets, names it, and it is not in the deck", place)
         return found
 
     def finish(self) -> None:
@@ -117,7 +119,7 @@ class JointReader(Reading):
         chosen = self._chosen("SPC", self.sets)
         for key, rows in self.sets.items():
             for node, components, card in rows:
-                if key in chosen:
+                if key in chosen and node not in self.reader.points:
                     self.model.at(node, card.place)
                     self._apply(node, components, card.name, card.place)
         unused = set(self.sets) - chosen

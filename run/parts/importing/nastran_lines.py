@@ -24,10 +24,13 @@ class Line:
     mark: str | None = None
     after: object = None
     taken: bool = field(default=False)
+    doubtful: str = ""  # a ninth field of data that could be a mark
 
 
-def included(path: Path, seen=()):
-    """Lines of a deck and of the files that it includes, without comments."""
+def included(path: Path, seen=(), top: Path | None = None):
+    """Lines of a deck and of the files that it includes, without comments. Names are those beside the file, or else beside
+    the deck."""
+    top = top or path.parent
     name = ""  # of an include over several lines
     for place, line in lines_of(path, seen):
         line = line.split("$")[0].rstrip()
@@ -38,7 +41,9 @@ def included(path: Path, seen=()):
         elif line.strip():
             yield place, line
         if name and (name[0] not in "'\"" or name.count(name[0]) > 1):
-            yield from included(path.parent / name.strip("'\"").strip(), (*seen, path.resolve()))
+            file = name.strip("'\"").strip()
+            yield from included(next((one / file for one in (path.parent, top) if (one / file).exists()), path.parent / file),
+                                (*seen, path.resolve()), top)
             name = ""
     if name:
         raise InputFault(f"{path}: an INCLUDE whose name does not end")
@@ -53,17 +58,21 @@ def fields_of(line: str, place: str) -> Line:
     if FREE.match(line):
         words = [word.strip() for word in line.split(",")]
         count = 4 if is_large(words[0]) else 8
-        more, tail = words[count + 2:], words[count + 1] if len(words) > count + 1 else ""
-        if any(more) or re.fullmatch(r"[\d.+-]*\d[\d.+-]*|THRU|BY", tail, re.IGNORECASE) and tail[0] != "+":
-            raise InputFault(f"{place}: a line has {count} fields of data, and this one has "
-                             f"{len([word for word in words[1:] if word])}; go on in a next line that begins with +")
-        head, fields = words[0], (words[1:count + 1] + [""] * count)[:count]
+        head, fields, tail = words[0], words[1:count + 1], words[count + 1] if len(words) > count + 1 else ""
+        doubtful = ""
+        if any(words[count + 2:]) or re.fullmatch(r"[\d.+-]*\d[\d.+-]*|THRU|BY", tail, re.IGNORECASE) and tail[0] != "+":
+            if not tail or tail[0] == "+":
+                raise InputFault(f"{place}: fields of data go on behind a tenth field that is a mark or empty; go on in a next "
+                                 "line that begins with +")
+            fields, doubtful, tail = words[1:], tail, ""  # goes on in the same line
+        fields = fields + [""] * (-len(fields) % count or (0 if fields else count))
     else:
         line = line.expandtabs(8)
         head, tail = line[:8].strip(), line[72:80].rstrip()
         width = 16 if is_large(head) else 8
         fields = [line[at:at + width].strip() for at in range(8, 72, width)]
-    found = Line(head, fields, tail[1:].strip() if tail else None, place)
+        doubtful = ""
+    found = Line(head, fields, tail[1:].strip() if tail else None, place, doubtful=doubtful)
     if head[:1] in ("+", "*", ""):
         found.mark = head[1:].strip()
     return found
@@ -77,6 +86,9 @@ def _join(lines: list) -> None:
             tails.setdefault(line.tail.upper(), []).append(line)
     marks = {line.mark.upper() for line in lines if line.mark}
     for before, line in zip([None, *lines], lines):
+        if line.doubtful and line.doubtful[1:].upper() in marks:
+            raise InputFault(f"{line.place}: the ninth field of data, {line.doubtful}, could be the mark of a continuation; write + "
+                             "before marks, and no more than eight fields on a line")
         if line.mark is None:
             continue
         mark = line.mark.upper()
@@ -200,7 +212,7 @@ NUMBERED = {"grid point": r"GRID", "element": STRUCTURAL.pattern, "one of its ki
             "material": r"MAT([12389]|10|11)", "coordinate system": r"CORD[12][RCS]", "property of bars": r"PBARL?",
             "property of beams": r"PBEAML?", "property of shells": r"PSHELL|PCOMPG?", "property": r"PSOLID|PROD|PTUBE|PBUSH|PELAS|PDAMP",
             "sum of sets": r"SPCADD|MPCADD", "default": r"GRDSET|BAROR|BEAMOR", "parameter": r"PARAM"}
-SEVERAL = {"PELAS": 4, "PDAMP": 2, "CORD1R": 4, "CORD1C": 4, "CORD1S": 4}  # fields of each of the things on a card
+SEVERAL = {"PELAS": 4, "PDAMP": 2, "PVISC": 4, "CORD1R": 4, "CORD1C": 4, "CORD1S": 4}  # fields of each of the things on a card
 
 
 def _contents(fields) -> list:
