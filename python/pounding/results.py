@@ -275,7 +275,7 @@ def _text(value) -> str:
 def _read_table(path: Path) -> dict:
     """Columns of a CSV file: numbers where every value is one, else text. Lines of comments ('#') are passed over,
     which the files of earlier versions begin with."""
-    lines = [line for line in path.read_text(encoding="utf-8").splitlines() if line and not line.startswith("#")]
+    lines = [line for line in path.read_text(encoding="utf-8").split("\n") if line and not line.startswith("#")]
     if not lines:
         raise ValueError("no header line")
     header, *rows = csv.reader(lines)

@@ -80,7 +80,7 @@ def command(words: list, ranks: int) -> list:
 
 def complaint(text: str) -> str:
     """The first line in which the program itself said why it gave up, or ''."""
-    said = [line for line in text.replace("\r", "\n").splitlines() if line.startswith("pounding: ")]
+    said = [line for line in text.replace("\r", "\n").split("\n") if line.startswith("pounding: ")]
     return said[0] if said else ""
 
 

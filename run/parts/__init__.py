@@ -1,16 +1,27 @@
 """The parts of the commands beside: one package per command, and what a command calls itself. What they share with
 other people's scripts is the package `pounding` of the folder python."""
 
-import argparse
-import atexit
-import io
 import os
-import re
 import signal
 import sys
-import traceback
-from pathlib import Path
-from typing import Callable, NoReturn
+
+FOLDER, COMMAND = os.path.split(os.path.realpath(sys.argv[0]))
+if FOLDER == os.path.dirname(os.path.dirname(os.path.realpath(__file__))) and signal.getsignal(
+        signal.SIGINT) is signal.default_int_handler:  # of a command, until it calls `begin`: one line, no traceback
+
+    def _leave(*_) -> None:
+        os.write(2, f"run/{COMMAND}: interrupted\n".encode())
+        os._exit(1)
+
+    signal.signal(signal.SIGINT, _leave)
+
+import argparse  # noqa: E402
+import atexit  # noqa: E402
+import io  # noqa: E402
+import re  # noqa: E402
+import traceback  # noqa: E402
+from pathlib import Path  # noqa: E402
+from typing import Callable, NoReturn  # noqa: E402
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))
 

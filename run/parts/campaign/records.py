@@ -43,7 +43,7 @@ class Record:
 def read_at2(path: Path) -> tuple[float, np.ndarray]:
     """Time step [s] and accelerations [m/s2] of a PEER file of four header lines, in g."""
     try:
-        lines = path.read_text(errors="replace").splitlines()
+        lines = path.read_text(errors="replace").split("\n")
         fields = lines[3].replace("=", " ").replace(",", " ").split()
         count, step = int(fields[fields.index("NPTS") + 1]), float(fields[fields.index("DT") + 1])
         values = np.array(" ".join(lines[4:]).split(), dtype=float)[:count]

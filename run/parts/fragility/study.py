@@ -348,6 +348,11 @@ class _Loader(yaml.SafeLoader):
             raise yaml.constructor.ConstructorError(None, None, f"{twice} stands twice", node.start_mark)
         return super().construct_mapping(node, deep)
 
+    def flatten_mapping(self, node):
+        super().flatten_mapping(node)
+        if len(node.value) > 10000:  # merges of merges, which double at each level
+            raise yaml.constructor.ConstructorError(None, None, "more than 10000 merged keys", node.start_mark)
+
 
 def _load(path: Path):
     if path.exists() and not path.is_file():  # a pipe would be waited for

@@ -6,7 +6,7 @@ from pathlib import Path
 from .abaqus_cards import Block, Motion, Scope, blocks_of, motion_of
 from .abaqus_joints import JointReader
 from .abaqus_sections import SectionReader
-from .cards import names_of, numbers, whole, whole_range
+from .cards import is_whole_number, names_of, numbers, whole, whole_range
 from .geometry import cross, difference, permutation, unit
 from .model import BAR, BEAMS, AxialSpring, Element, InputFault, Material, Model, PointMass, Reading
 from .second_order import by_corners
@@ -195,7 +195,7 @@ class Reader(Reading):
             open_row = rows[-1] if more and short else None
         members = []
         for place, values in rows:
-            ids = [whole(text, place) if not at or text.isdigit() else text.upper() for at, text in enumerate(values)]
+            ids = [whole(text, place) if not at or is_whole_number(text) else text.upper() for at, text in enumerate(values)]
             if shape and shape[0] in BEAMS and len(ids) == width + 2:
                 towards = self.node(ids.pop(), scope, place)
             else:
@@ -243,12 +243,13 @@ class Reader(Reading):
                 first, last, step = (given + [1])[:3]
                 span = whole_range(first, last, step, place)
                 wanted = getattr(inner, "nodes" if table == "node_sets" else "elements")
-                members += [wanted[n] for n in sorted(wanted) if n in span]
+                members += [wanted[n] for n in (span if len(span) < len(wanted) else sorted(wanted))
+                            if n in wanted and n in span]
                 continue
             for text in fields:
                 if not text:
                     continue
-                found = None if text.isdigit() else inner.find(table, text.upper()) or self.deck.find(table,
+                found = None if is_whole_number(text) else inner.find(table, text.upper()) or self.deck.find(table,
                                                                                                       text.upper())
                 members += found if found is not None else [one(text, inner, place)]
         self._store(scope, table, block.name(key), members)
@@ -266,7 +267,7 @@ class Reader(Reading):
 
     def node(self, text, scope: Scope, place: str) -> int:
         """Number in the model of a node by its number, or INSTANCE.number. Throws InputFault."""
-        key = int(text) if str(text).isdigit() else str(text).upper()
+        key = int(text) if is_whole_number(str(text)) else str(text).upper()
         found = scope.find("nodes", key)
         found = found if found is not None else self.deck.find("nodes", key)
         if found is None:
@@ -274,7 +275,7 @@ class Reader(Reading):
         return found
 
     def _element(self, text, scope: Scope, place: str) -> Raw:
-        found = scope.find("elements", int(text) if str(text).isdigit() else str(text).upper())
+        found = scope.find("elements", int(text) if is_whole_number(str(text)) else str(text).upper())
         if found is None:
             raise InputFault(f"{place}: element or set {text} is not in the deck")
         return found
@@ -283,20 +284,20 @@ class Reader(Reading):
         """Nodes of a set, or the one of that number."""
         name = str(text).strip('"').upper()
         for one in (scope, self.deck):
-            found = None if name.isdigit() else one.find("node_sets", name)
+            found = None if is_whole_number(name) else one.find("node_sets", name)
             if found is not None:
                 return found
-        if name.isdigit() or name.rpartition(".")[2].isdigit():
+        if is_whole_number(name) or is_whole_number(name.rpartition(".")[2]):
             return [self.node(name, scope, place)]
         raise InputFault(f"{place}: node set {text} is not in the deck")
 
     def elements_of(self, text: str, scope: Scope, place: str) -> list:
         name = str(text).strip('"').upper()
         for one in (scope, self.deck):
-            found = None if name.isdigit() else one.find("element_sets", name)
+            found = None if is_whole_number(name) else one.find("element_sets", name)
             if found is not None:
                 return found
-        if name.isdigit():
+        if is_whole_number(name):
             return [self._element(name, scope, place)]
         raise InputFault(f"{place}: element set {text} is not in the deck")
 
@@ -315,7 +316,7 @@ class Reader(Reading):
                 own = raw.element.nodes
                 if raw.element.kind == "shell":
                     facets.append(own)
-                elif len(own) in FACES and face[:1] == "S" and face[1:].isdigit() and 1 <= int(face[1:]) <= len(
+                elif len(own) in FACES and face[:1] == "S" and is_whole_number(face[1:]) and 1 <= int(face[1:]) <= len(
                         FACES[len(own)]):
                     facets.append(tuple(own[k] for k in FACES[len(own)][int(face[1:]) - 1]))
                 else:

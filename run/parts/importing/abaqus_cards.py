@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from .cards import lines_of, number, numbers
+from .cards import is_whole_number, lines_of, number, numbers
 from .geometry import cross, difference, dot, sum_of, unit
 from .model import InputFault
 
@@ -105,8 +105,8 @@ class Scope:
         if isinstance(key, str):
             first, dot_, rest = key.partition(".")
             if dot_ and first in self.inner:
-                return self.inner[first].find(what, int(rest) if rest.isdigit() else rest)
-            if key.isdigit() and int(key) in table:
+                return self.inner[first].find(what, int(rest) if is_whole_number(rest) else rest)
+            if is_whole_number(key) and int(key) in table:
                 return table[int(key)]
         if self.outer is None and len(self.inner) == 1 and "." not in str(key):
             return next(iter(self.inner.values())).find(what, key)

@@ -335,19 +335,24 @@ class JointReader(Reading):
     def _component(self, command: Command) -> None:
         """Numbers, and last ones of ranges with a minus sign."""
         name, kind = command.text(0).upper(), command.text(1).upper()
-        members: list = []
+        known = self.model.nodes if kind.startswith("NODE") else self.reader.elements_
+        members: dict = {}  # in their order, each once
+        before = None
         for value in command.rows:
             if value < 0:
-                if not members:
+                if before is None:
                     raise InputFault(f"{command.place}: a component begins with the end of a range")
-                members += whole_range(members[-1], -value, 1, command.place)[1:]
-            else:
-                members.append(value)
+                span = whole_range(before, -value, 1, command.place)
+                members.update(dict.fromkeys(n for n in (span if len(span) < len(known) else sorted(known)) if n in known
+                                             and n in span))
+            elif value in known:
+                members[value] = None
+            before = abs(value)
         if kind.startswith("NODE"):
-            self.components[name] = [node for node in members if node in self.model.nodes]
+            self.components[name] = list(members)
             self.model.node_sets[name] = self.components[name]
         else:
-            self.model.element_sets[name] = [self.reader.elements_[n] for n in members if n in self.reader.elements_]
+            self.model.element_sets[name] = [self.reader.elements_[n] for n in members]
 
     def _couple(self, command: Command) -> bool:
         label = command.text(1).upper()

@@ -29,7 +29,7 @@ class Command(Fields):
 def widths_of(line: str, place: str) -> list:
     """Widths of the fields of a format of Fortran: (3i9,6e21.13e3). Throws InputFault."""
     found: list = []
-    for count, width in re.findall(r"(\d*)[ieagf](\d+)(?:\.\d+(?:e\d+)?)?", line.lower()):
+    for count, width in re.findall(r"(\d{0,6})[ieagf](\d{1,6})(?:\.\d{1,6}(?:e\d{1,6})?)?", line.lower()):
         found += [int(width)] * min(int(count or 1), 1001)
     if len(found) > 1000:
         raise InputFault(f"{place}: '{line.strip()}' is a format of {len(found)} fields")

@@ -3,6 +3,7 @@ the program."""
 
 from . import sections
 from .ansys_cards import Command
+from .cards import is_whole_number
 from .model import InputFault, Material, Reading, Section
 
 # Name -> what becomes of it; solids of KEYOPT are in `solid_kind`.
@@ -40,13 +41,13 @@ class Properties(Reading):
 
     def _type(self, command: Command) -> None:
         text = command.text(1).upper()
-        digits = "".join(letter for letter in text if letter.isdigit())
-        if not digits:
+        digits = "".join(letter for letter in text if is_whole_number(letter))
+        if not digits or not is_whole_number(digits):
             raise InputFault(f"{command.place}: ET {command.text(0)} names no element")
         self.types[command.int(0)] = int(digits)
         for at, value in enumerate(command.words[2:], 1):
             if value:
-                self.keys.setdefault(command.int(0), {})[at] = int(float(value)) if value.lstrip("-").isdigit() else 0
+                self.keys.setdefault(command.int(0), {})[at] = int(value) if is_whole_number(value.lstrip("-")) else 0
 
     def _types(self, command: Command) -> None:
         for place, words in command.rows:
@@ -178,6 +179,8 @@ class Properties(Reading):
             raise InputFault(f"{place}: section {number_} is no SHELL of SECTYPE")
         _, _, _, layers, (where, _), own = self.sections[number_]
         materials = {int(layer[1]) if len(layer) > 1 and layer[1] else material for layer in layers}
+        if not all(layer and layer[0] > 0 for layer in layers):
+            raise InputFault(f"{own}: a section SHELL has a layer without thickness")
         if not layers or len(materials) != 1:
             self.lose("SECTYPE SHELL", "layers of one material", own)
             materials.add(material)

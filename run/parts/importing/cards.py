@@ -8,16 +8,26 @@ from .model import InputFault
 
 SHORT = re.compile(r"^([+-]?(?:\d+\.?\d*|\.\d+))([+-]\d+)$")  # 2.1+11, as Nastran has it
 MOST = 10**8  # numbers of a range
+LISTED = 10**6  # of one that becomes a list
+LETTERS, DIGITS = 64, 18  # of a number
+LINE = 10**4  # letters
+FILES, BYTES = 1000, 2**31  # of a model with all that it includes
+
+
+def shown(text) -> str:
+    """A text as a message repeats it."""
+    return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 def number(text: str, place: str) -> float:
     """A number; throws InputFault."""
     try:
-        value = float(SHORT.sub(r"\1e\2", text.strip().lower().replace("d", "e")))
+        value = math.nan if len(text) > LETTERS or "_" in text or not text.isascii() else float(
+            SHORT.sub(r"\1e\2", text.strip().lower().replace("d", "e")))
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise InputFault(f"{place}: '{text}' is not a number")
+        raise InputFault(f"{place}: '{shown(text)}' is not a number")
     return value
 
 
@@ -26,11 +36,17 @@ def numbers(fields, place: str) -> list:
     return [number(text, place) if text else 0.0 for text in fields]
 
 
+def is_whole_number(text: str) -> bool:
+    """Digits alone: no sign, and none of other alphabets."""
+    return text.isascii() and text.isdigit() and len(text) <= DIGITS
+
+
 def whole(text: str, place: str) -> int:
-    try:
-        return int(text)
-    except ValueError as error:
-        raise InputFault(f"{place}: '{text}' is not a whole number") from error
+    """With or without a sign; throws InputFault."""
+    digits = text.strip()
+    if not is_whole_number(digits[1:] if digits[:1] in ("+", "-") else digits):
+        raise InputFault(f"{place}: '{shown(text)}' is not a whole number")
+    return int(digits)
 
 
 def whole_range(first: int, last: int, step: int, place: str) -> range:
@@ -40,17 +56,54 @@ def whole_range(first: int, last: int, step: int, place: str) -> range:
     return range(first, last + 1, step)
 
 
+def listed(numbers_: range, place: str) -> range:
+    """A range that becomes a list; throws InputFault where that is too long."""
+    if len(numbers_) > LISTED:
+        raise InputFault(f"{place}: a list of {len(numbers_)} numbers, more than {LISTED}")
+    return numbers_
+
+
+class Guard:
+    """What all files of a model have read so far; `begin` before the first. Files are regular, and neither too many nor
+    too large together."""
+
+    count = size = 0
+
+    def begin(self) -> None:
+        self.count = self.size = 0
+
+    def content(self, path: Path) -> bytes:
+        """Of the next file. Throws InputFault."""
+        try:
+            if not path.is_file():
+                raise InputFault(f"{path}: {'no file with contents' if path.exists() else 'no such file'}")
+            self.count, self.size = self.count + 1, self.size + path.stat().st_size
+            if self.count > FILES:
+                raise InputFault(f"{path}: more than {FILES} files are included, again and again perhaps")
+            if self.size > BYTES:
+                raise InputFault(f"{path}: more than {BYTES / 2**30:g} GB of text, with all files that are included")
+            return path.read_bytes()
+        except (OSError, ValueError) as error:
+            reason = (error.strerror or "").lower() if isinstance(error, OSError) else str(error)
+            raise InputFault(f"{path}: {reason or 'cannot be read'}") from error
+
+
+GUARD = Guard()
+
+
 def lines_of(path: Path, seen=()):
-    """Lines of a text as (place, line). Throws InputFault where it is none."""
+    """Lines of a text as (place, line), which end with \\n, \\r or both alone. Throws InputFault where it is none."""
+    text = GUARD.content(path).decode("latin-1")
     if path.resolve() in seen:
         raise InputFault(f"{path}: includes itself")
-    try:
-        text = path.read_bytes().decode("latin-1")
-    except OSError as error:
-        raise InputFault(f"{path}: {(error.strerror or 'cannot be read').lower()}") from error
     if "\0" in text[:4096]:
         raise InputFault(f"{path} line 1: not a text")
-    return [(f"{path.name} line {count}", line.rstrip()) for count, line in enumerate(text.splitlines(), 1)]
+    lines = re.split("\r\n|\n|\r", text)
+    found = [(f"{path.name} line {count}", line.rstrip()) for count, line in enumerate(lines, 1)]
+    for place, line in found:
+        if len(line) > LINE:
+            raise InputFault(f"{place}: {len(line)} letters in a line, more than {LINE}")
+    return found[:-1] if not lines[-1] else found
 
 
 class Fields:

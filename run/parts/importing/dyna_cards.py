@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import ClassVar
 
-from .cards import Fields, cut, lines_of, number, whole
+from .cards import Fields, cut, is_whole_number, lines_of, number, whole
 from .model import InputFault
 
 TEN = (10,) * 8
@@ -23,10 +23,10 @@ class Card(Fields):
         text = self.text(at)
         if not text:
             return fallback
-        if text.lstrip("+-").isdigit():
-            return int(text)
+        if is_whole_number(text.lstrip("+-")):
+            return whole(text, self.place)
         value = number(text, self.place)  # 1.0 where a whole number is meant
-        return int(value) if value == int(value) else whole(text, self.place)
+        return int(value) if value == int(value) and abs(value) < 1e15 else whole(text, self.place)
 
 
 @dataclass(slots=True)

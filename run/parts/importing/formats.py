@@ -3,6 +3,7 @@
 import importlib
 from pathlib import Path
 
+from .cards import GUARD
 from .model import InputFault, Model
 from .second_order import settle
 
@@ -21,6 +22,7 @@ def read(path: Path, wanted: str | None) -> Model:
         raise InputFault(f"{path}: files with the ending '{ending}' are not known ({known}); say --format")
     if not path.is_file():
         raise InputFault(f"{path}: no such file")
+    GUARD.begin()
     module = importlib.import_module(f".{FORMATS[name][0]}", __package__)
     try:
         model = module.read(path)

@@ -2,6 +2,7 @@
 
 import re
 
+from .cards import is_whole_number
 from .joints import Shared, hold_turned, is_whole, turning_nodes
 from .model import ALL, TRANSLATIONS, InputFault, Reading, components_of
 from .nastran_cards import Card
@@ -63,7 +64,7 @@ class JointReader(Reading):
         for at in range(0, len(values), 8):  # two terms of three fields, with an empty field before and after
             terms += [values[at:at + 3], values[at + 3:at + 6]]
         terms = [term for term in terms if term and term[0]]
-        nodes = {int(term[0]) for term in terms if re.fullmatch(r"\d{1,9}", term[0])}
+        nodes = {int(term[0]) for term in terms if is_whole_number(term[0])}
         digits = {term[1] for term in terms}
         factors = [Card("MPC", term, card.place).real(2) for term in terms]
         if len(terms) == 2 and len(nodes) == 2 and len(digits) == 1 and factors[0] == -factors[1] != 0:

@@ -2,12 +2,12 @@
 holds objects, of which SAP2000 makes elements: frames are cut here at the joints on them, as there by its preset."""
 
 import math
-import re
 from pathlib import Path
 
 import numpy as np
 from scipy.spatial import cKDTree
 
+from .cards import is_whole_number
 from .geometry import along_global_axes, axis_between, cross, difference, frame_about, length, turned_z
 from .model import COMPONENTS, AxialSpring, Element, InputFault, Material, Model, PointMass, Property, Section, Spring
 from .sap2000_tables import Row, tables_of
@@ -106,7 +106,7 @@ class Reader:
 
     def _joint(self, row: Row) -> None:
         label = row.text("Joint")
-        own = int(label) if re.fullmatch("[0-9]{1,9}", label) else 0
+        own = int(label) if is_whole_number(label) else 0
         if own == 0 or own in self.model.nodes:
             own = self.next
         self.next = max(self.next, own + 1)

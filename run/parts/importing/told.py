@@ -66,7 +66,7 @@ def modes_told(scene: Path, structure: str, modes: int) -> tuple:
     if done.returncode:
         return [], complaint(done.stderr) or f"the program ended with status {done.returncode}"
     lines = []
-    for line in done.stdout.splitlines():
+    for line in done.stdout.split("\n"):
         if line.startswith(f"structure {structure}:") or line.startswith("warning:"):
             lines.append(line)
         elif re.match(r"  mode  frequency|  +\d+ +[\d.e+-]+  ", line):

@@ -36,7 +36,7 @@ def read(path: Path) -> Impedances:
     number, a matrix that is not symmetric, soil without stiffness at the lowest frequency, or that gives energy."""
     columns, frequencies, matrices = [], [], []
     try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
+        lines = path.read_text(encoding="utf-8-sig").split("\n")
     except UnicodeDecodeError as error:
         raise TableError(f"{path}: is no text") from error
     for number, text in enumerate(lines, 1):
