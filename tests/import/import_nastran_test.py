@@ -1,5 +1,7 @@
 """Nastran bulk data become scenes whose modes are those of the same models written by hand."""
 import math
+import os
+import time
 import unittest
 
 import imported
@@ -243,6 +245,33 @@ class Nastran(unittest.TestCase):
                                                                                      "line ")
         _, again = imported.imported(self, "post.bdf", "BEGIN BULK\n" + bars + bars.replace("10.", "10.0"))
         self.assertEqual(said_mass(again), said_mass(alone))
+
+    def test_texts_that_no_deck_has(self):
+        """One line in no time: files that are none or include each other again and again, ranges of a hundred million, long
+        words, digits of other alphabets, numbers of thousands of digits."""
+        bars = self.REST + small("CBAR", 1, 1, 1, 2, 1., 0., 0.)
+        many, letters = "9" * 5000, "A" * 9000
+        cases = {"INCLUDE '/dev/zero'": "no file with contents", "INCLUDE 'pipe'": "no file with contents", "INCLUDE 'c0'": "more than 1000 files",
+                 "INCLUDE 'x": "an INCLUDE whose name does not end", "RBE2,9,1,123456,2,THRU,99999999": "a list of 99999998 numbers",
+                 "SPOINT,5,THRU,99999999": "a list of 99999995 numbers", f"GRID,{letters}": "is not a whole number",
+                 f"GRID,9,,{many},0.,0.": "is not a number", f"SPC1,1,{many},2": "are not components", f"=({many}),*1": "is no replication",
+                 "SPC1,1,\xb2,2": "are not components", "GRID,\xb2,,0.,0.,0.": "is not a whole number", "CBAR,7,1,1,2,\xb2": "is not a whole number",
+                 "PCOMP,5\n,1,1.+200": "'1.+200' is beyond 1e+60", "MPC,1,\xb2,1,1.,2,1,-1.": "MPC 1 would be lost"}
+        for line, part in cases.items():
+            path = imported.of_file("deck.bdf", ("BEGIN BULK\n" + bars + line + "\n").encode("latin-1"))
+            if "pipe" in line:
+                os.mkfifo(path.with_name("pipe"))
+            for k in range(22 if "c0" in line else 0):
+                path.with_name(f"c{k}").write_text(f"INCLUDE 'c{k + 1}'\n" * 2 if k < 21 else "$\n")
+            begin = time.monotonic()
+            done = imported.command(path, "m,kg,s")
+            self.assertLess(time.monotonic() - begin, 5, line[:40])
+            self.assertEqual((done.returncode, len(done.stderr.splitlines())), (1, 1), done.stderr)
+            self.assertIn(part, done.stderr)
+            self.assertLess(len(done.stderr), 300)
+        imported.refused(self, "deck.bdf", f"CEND\nSPC = {many}\nBEGIN BULK\n" + bars, "line 2: SPC: '999", "is not a whole number")
+        _, said = imported.imported(self, "deck.bdf", "BEGIN BULK\n" + bars + "SPC1,1,3,1,THRU,99999999\n")
+        self.assertIn("supported nodes 2:", said)
 
 
 if __name__ == "__main__":

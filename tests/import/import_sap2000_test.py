@@ -246,6 +246,15 @@ class Sap2000(unittest.TestCase):
                 imported.refused(self, "frame.s2k", MODEL.replace(before, after, 1), part, units="m,t,s")
         imported.refused(self, "empty.s2k", "File\n", "no table in it", units="m,t,s")
 
+    def test_texts_that_no_model_has(self):
+        begin = 'TABLE:  "JOINT COORDINATES"\n'
+        for row, part in (("   " + "A" * 9000 + "\n", "no row of NAME=VALUE"), ("   " + "a=" * 4000 + "\n", "Joint is not given"),
+                          ("a" * 90 + " _\n" + ("b" * 90 + " _\n") * 20000, "a row of more than 100000 letters"),
+                          ("   Joint=\xb2   XorR=0   Y=0   Z=1e308\n", "Z: '1e308' is beyond 1e+60")):
+            at = time.monotonic()
+            imported.refused(self, "frame.s2k", (MODEL.replace(begin, begin + row, 1)).encode("latin-1"), part, units="m,t,s")
+            self.assertLess(time.monotonic() - at, 5, part)
+
     def test_damaged_texts(self):
         rng = random.Random(4)
         self.assertEqual(imported.survives("frame.s2k", [imported.damaged(MODEL, rng) for _ in range(150)]), [])

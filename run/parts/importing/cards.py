@@ -10,6 +10,7 @@ SHORT = re.compile(r"^([+-]?(?:\d+\.?\d*|\.\d+))([+-]\d+)$")  # 2.1+11, as Nastr
 MOST = 10**8  # numbers of a range
 LISTED = 10**6  # of one that becomes a list
 LETTERS, DIGITS = 64, 18  # of a number
+LARGEST = 1e60  # number; its fourth power is one as well
 LINE = 10**4  # letters
 FILES, BYTES = 1000, 2**31  # of a model with all that it includes
 
@@ -26,6 +27,8 @@ def number(text: str, place: str) -> float:
             SHORT.sub(r"\1e\2", text.strip().lower().replace("d", "e")))
     except ValueError:
         value = math.nan
+    if abs(value) > LARGEST and math.isfinite(value):
+        raise InputFault(f"{place}: '{shown(text)}' is beyond {LARGEST:g}")
     if not math.isfinite(value):
         raise InputFault(f"{place}: '{shown(text)}' is not a number")
     return value

@@ -198,7 +198,7 @@ def components_of(digits: str, place: str) -> int:
     found = 0
     for digit in digits.strip():
         if digit not in "0123456":
-            raise InputFault(f"{place}: '{digits.strip()}' are not components from 1 to 6")
+            raise InputFault(f"{place}: '{digits.strip()[:60]}' are not components from 1 to 6")
         if digit != "0":
             found |= 1 << (int(digit) - 1)
     return found

@@ -4,13 +4,13 @@ import re
 from pathlib import Path
 
 from .cards import names_of
-from .geometry import (along_global_axes, applied, axis_between, difference, frame_about, length, normal_of,
-                       permutation, scaled, sum_of, turned_z)
-from .model import BAR, AxialSpring, Element, InputFault, Model, PointMass, Property, Reading, Spring
+from .geometry import applied, axis_between, difference, frame_about, length, normal_of, scaled, sum_of, turned_z
+from .model import BAR, Element, InputFault, Model, Property, Reading
 from .nastran_cards import GLOBAL, Card, Systems
 from .nastran_joints import JointReader
 from .nastran_lines import deck_of
 from .nastran_properties import PropertyReader, family_of
+from .nastran_springs import SpringReader
 from .second_order import by_corners
 
 # Card -> kind of element, nodes at corners, all nodes.
@@ -68,6 +68,7 @@ class Reader(Reading):
         self.mass_factor = self.parameters["WTMASS"].real(1) if "WTMASS" in self.parameters else 1.0
         self.properties = PropertyReader(self)
         self.joints = JointReader(self, control)
+        self.springs = SpringReader(self)
         for card in cards:
             if card.name.startswith("CORD"):
                 if card.name not in ("CORD2R", "CORD2C", "CORD2S", "CORD1R", "CORD1C", "CORD1S"):
@@ -75,6 +76,7 @@ class Reader(Reading):
                 self.systems.add(card)
             elif card.name == "GRID":
                 self._grid(card)
+        self.in_order = sorted(self.grids)
         for number in self.grids:
             self.model.nodes[number] = self.position(number, "")
         for number, (_, x, system, place) in self.grids.items():
@@ -82,17 +84,13 @@ class Reader(Reading):
                 axes = self.systems.axes_at(system, self.model.nodes[number], place)
                 if axes != GLOBAL:
                     self.frames[number] = axes
-        self.scalar_masses: dict = {}  # grid -> six masses and a card
         self.points = {number for card in cards if card.name in ("SPOINT", "EPOINT") for number in card.list_from(0, 10**6)}
         # Kind of property and number -> card that is lost.
         self.strange = {(family_of(card.name), card.text(0)): card.name for card in cards
                         if card.name[0] == "P" and card.name not in self.properties.handlers}
         self.other_materials = {int(card.text(0)): card.name for card in cards if card.name[:3] == "MAT"
                                 and card.text(0).isdecimal() and card.name not in ("MAT1", "MAT4", "MAT5")}
-        self.handlers = {"CROD": self._rod, "CTUBE": self._rod, "CONROD": self._rod, "CELAS1": self._scalar,
-                         "CELAS2": self._scalar, "CDAMP1": self._scalar, "CDAMP2": self._scalar, "CBUSH": self._bush,
-                         "CBUSH1D": self._along, "CVISC": self._along, "CONM2": self._mass, "CONM1": self._matrix_mass,
-                         "CMASS1": self._scalar_mass, "CMASS2": self._scalar_mass, **self.joints.handlers}
+        self.handlers = {"CROD": self._rod, "CTUBE": self._rod, "CONROD": self._rod, **self.springs.handlers, **self.joints.handlers}
         for handlers in (self.properties.materials, self.properties.handlers):  # offsets and axes of elements hang on them
             for card in cards:
                 if card.name in handlers:
@@ -102,7 +100,7 @@ class Reader(Reading):
                         self.use(card.name)
         for card in cards:
             self._handle(card)
-        self._put_scalar_masses()
+        self.springs.finish()
         self._leave_strange()
         self.joints.finish()
         self._tell_rotary_inertia()
@@ -267,117 +265,6 @@ class Reader(Reading):
             self._add(card, BAR, (card.int(2), card.int(3)), (family, card.int(1, card.int(0))))
         return False
 
-    # Springs and masses.
-
-    def _scalar(self, card: Card) -> bool | None:
-        family = "PELAS" if card.name.startswith("CELAS") else "PDAMP"
-        if card.name.endswith("1"):
-            key = family, card.int(1, card.int(0))
-            if key not in self.properties.springs:
-                raise InputFault(f"{card.place}: {family} {key[1]} is not in the deck")
-            value = self.properties.springs[key]
-        else:
-            value = card.real(1)
-        ends = [(card.int(at), card.int(at + 1, 0)) for at in (2, 4) if card.text(at)]
-        if not ends or any(not 1 <= component <= 6 for _, component in ends):
-            return self.lose(card.name, "springs act on components of grid points", card.place)
-        found = []
-        if any(node in self.points for node, _ in ends):
-            return self.lose(card.name, "springs act on components of grid points", card.place)
-        for node, component in ends:
-            self.model.at(node, card.place)
-            places = permutation(self.frame(node))
-            found.append(None if places is None else places[(component - 1) % 3] + (component - 1) // 3 * 3)
-        if None in found or len(set(found)) > 1:
-            return self.lose(card.name, "springs act along the global axes, on the same component of both nodes",
-                                  card.place)
-        both = (value, 0.0) if family == "PELAS" else (0.0, value)
-        self.model.add_spring(tuple(node for node, _ in ends), found[0], *both, card.name.lower(), card.place)
-        return None
-
-    def _bush(self, card: Card) -> bool | None:
-        key = "PBUSH", card.int(1, card.int(0))
-        if key not in self.properties.springs:
-            raise InputFault(f"{card.place}: PBUSH {key[1]} is not in the deck")
-        stiffness, dashpot = self.properties.springs[key]
-        nodes = tuple(card.int(at) for at in (2, 3) if card.text(at))
-        if not nodes:
-            raise InputFault(f"{card.place}: CBUSH {card.int(0)} has no grid point")
-        places = [self.model.at(node, card.place) for node in nodes]
-        way = difference(places[-1], places[0])
-        apart = length(way) > 0
-        who = f"{card.place}: element {card.int(0)}"
-        name = f"pbush_{key[1]}"
-        if card.text(7):
-            axes = self.systems.axes_at(card.int(7), places[0], card.place)
-        elif not apart:
-            axes = GLOBAL
-        elif not any((*stiffness[1:], *dashpot[1:])):
-            self.model.axial_springs.append(AxialSpring(nodes, stiffness[0], dashpot[0], name, "CBUSH", card.place))
-            return None
-        else:
-            if card.text(4) and not card.text(5) and "." not in card.text(4):
-                towards = difference(self.model.at(card.int(4), card.place), places[0])
-            else:
-                towards = applied(self.frame(nodes[0]), card.vector(4))
-            x, y, z = frame_about(axis_between(places, who), towards, who)
-            axes = (x, z, scaled(y, -1.0))  # y of the bushing lies in the plane of the vector
-        six = [along_global_axes(values, axes) for values in (stiffness, dashpot)]
-        if None in six:
-            return self.lose("CBUSH", "bushings act along and about the global axes", card.place)
-        across = [k for k in range(3) if apart and abs(way[k]) < (1 - 1e-9) * length(way) and (six[0][k] or six[1][k])]
-        if across:
-            return self.lose("CBUSH", "a force across the length of a bushing makes moments; its nodes have to "
-                                           "coincide",
-                                  card.place)
-        self.model.springs.append(Spring(nodes, *six, name, card.place))
-        return None
-
-    def _along(self, card: Card) -> bool | None:
-        """A spring or a dashpot along the line of two grid points."""
-        family = "PVISC" if card.name == "CVISC" else "PBUSH1D"
-        key = family, card.int(1, card.int(0))
-        if key not in self.properties.springs:
-            raise InputFault(f"{card.place}: {family} {key[1]} is not in the deck")
-        nodes = tuple(card.int(at) for at in (2, 3) if card.text(at))
-        if len(nodes) < 2 or self.model.at(nodes[0], card.place) == self.model.at(nodes[1], card.place):
-            return self.lose(card.name, "springs along a line have two grid points that are apart", card.place)
-        self.model.axial_springs.append(AxialSpring(nodes, *self.properties.springs[key], f"{family.lower()}_{key[1]}", card.name,
-                                                    card.place))
-        return None
-
-    def _scalar_mass(self, card: Card) -> bool | None:
-        """Masses along one component, which are gathered by grid points."""
-        value = card.real(1) if card.name == "CMASS2" else self.properties.springs.get(("PMASS", card.int(1, card.int(0))))
-        if value is None:
-            raise InputFault(f"{card.place}: PMASS {card.text(1)} is not in the deck")
-        ends = [(card.int(at), card.int(at + 1, 0)) for at in (2, 4) if card.text(at)]
-        places = permutation(self.frame(ends[0][0])) if len(ends) == 1 and 1 <= ends[0][1] <= 6 else None
-        if places is None or ends[0][0] in self.points:
-            return self.lose(card.name, "a mass acts on one component, along a global axis, of one grid point", card.place)
-        node, component = ends[0]
-        self.model.at(node, card.place)
-        six, _ = self.scalar_masses.setdefault(node, ([0.0] * 6, card))
-        six[places[(component - 1) % 3] + (component - 1) // 3 * 3] += value * self.mass_factor
-        return None
-
-    def _put_scalar_masses(self) -> None:
-        for node, (six, card) in self.scalar_masses.items():
-            if max(six[:3]) - min(six[:3]) > 1e-9 * max(map(abs, six[:3])):
-                self.lose("MASS THAT DIFFERS BY DIRECTION", "a mass is the same along all axes; allowed, the largest holds", card.place)
-            self.model.masses.append(PointMass(node, max(six[:3]), tuple(six[3:]), name="cmass", place=card.place))
-
-    def _matrix_mass(self, card: Card) -> None:
-        """Of the six by six numbers of CONM1 a mass that is the same along all axes, and inertia about them."""
-        rows = [[card.real(3 + i * (i + 1) // 2 + k) * self.mass_factor for k in range(i + 1)] for i in range(6)]
-        diagonal = [row[-1] for row in rows]
-        scale = max(map(abs, diagonal)) or 1.0
-        if card.int(2, 0) or any(abs(value) > 1e-9 * scale for row in rows for value in row[:-1]):
-            self.lose("PRODUCTS OF CONM1", "masses have no products and no axes of their own; allowed, its diagonal holds", card.place)
-        if max(diagonal[:3]) - min(diagonal[:3]) > 1e-9 * scale:
-            self.lose("MASS THAT DIFFERS BY DIRECTION", "a mass is the same along all axes; allowed, the largest holds", card.place)
-        self.model.masses.append(PointMass(card.int(1), max(diagonal[:3]), tuple(diagonal[3:]), name="conm1", place=card.place))
-
     def _leave_strange(self) -> None:
         """Elements whose property is of a card that is lost, or whose material is, are lost with it."""
         kept = []
@@ -394,20 +281,6 @@ class Reader(Reading):
             else:
                 kept.append(element)
         self.model.elements = kept
-
-    def _mass(self, card: Card) -> bool | None:
-        node, system = card.int(1), card.int(2, 0)
-        place = self.model.at(node, card.place)
-        axes = GLOBAL if system == -1 else self.systems.axes_at(system, place, card.place) if system else GLOBAL
-        arm = difference(card.vector(4), place) if system == -1 else applied(axes, card.vector(4))
-        inertia = [card.real(k) for k in (8, 10, 13)]
-        about = along_global_axes((*inertia, 0.0, 0.0, 0.0), axes)
-        if any(card.real(k) for k in (9, 11, 12)) or about is None:
-            self.lose("I OF CONM2", "rotary inertia is about the global axes, without products", card.place)
-            about = (0.0,) * 3
-        self.model.masses.append(PointMass(node, card.real(3) * self.mass_factor, scaled(about[:3], self.mass_factor),
-                                           arm if length(arm) > 0 else None, "conm2", card.place))
-        return None
 
 
 def read(path: Path) -> Model:

@@ -1,8 +1,9 @@
 """Supports and constraints of Nastran decks."""
 
 import re
+from bisect import bisect_left, bisect_right
 
-from .cards import is_whole_number
+from .cards import is_whole_number, whole
 from .joints import Shared, hold_turned, is_whole, turning_nodes
 from .model import ALL, TRANSLATIONS, InputFault, Reading, components_of
 from .nastran_cards import Card
@@ -30,10 +31,11 @@ class JointReader(Reading):
         """Sets that case control names, and the place of the last."""
         found, where = [], ""
         for place, line in control:
-            match = re.match(rf"\s*{word}\s*=\s*(\d{{1,9}})\s*$", line, re.IGNORECASE)
+            match = re.match(rf"\s*{word}\s*=(.*)$", line, re.IGNORECASE)
             if match:
-                if int(match[1]) not in found:
-                    found.append(int(match[1]))
+                number = whole(match[1].strip(), f"{place}: {word}")
+                if number not in found:
+                    found.append(number)
                 where = place
         return found, where
 
@@ -49,10 +51,10 @@ class JointReader(Reading):
 
     def _spc1(self, card: Card) -> None:
         components = components_of(card.text(1), card.place)
-        grids = self.reader.grids
         for numbers in card.ranges_from(2):  # of a range those that are there
-            for node in numbers if len(numbers) <= len(grids) else grids:
-                if len(numbers) == 1 or node in grids and node in numbers:
+            there = self.reader.in_order[bisect_left(self.reader.in_order, numbers[0]):bisect_right(self.reader.in_order, numbers[-1])]
+            for node in numbers if len(numbers) == 1 else there:
+                if node in numbers:
                     self._hold(card.int(0), node, components, card)
 
     def _add(self, card: Card) -> None:

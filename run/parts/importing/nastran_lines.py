@@ -4,10 +4,11 @@ import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from .cards import lines_of, number
+from .cards import lines_of, number, shown
 from .model import InputFault
 from .nastran_cards import Card
 
+LONGEST = 4096  # letters of a name of a file
 MOST = 10**6  # cards that a replication makes
 FREE = re.compile(r"[^,]{0,9},|\s*=[^,]*,")  # a comma within the first ten columns, or beyond a replication
 
@@ -40,6 +41,8 @@ def included(path: Path, seen=(), top: Path | None = None):
             name = line.strip()[7:].strip()
         elif line.strip():
             yield place, line
+        if len(name) > LONGEST:
+            raise InputFault(f"{place}: an INCLUDE with a name of more than {LONGEST} letters")
         if name and (name[0] not in "'\"" or name.count(name[0]) > 1):
             file = name.strip("'\"").strip()
             yield from included(next((one / file for one in (path.parent, top) if (one / file).exists()), path.parent / file),
@@ -135,7 +138,7 @@ def _repeat(lines: list, line: Line) -> list:
         if steps is None:
             raise InputFault(f"{line.place}: {line.head} repeats no replication")
     elif line.head != "=" and not count:
-        raise InputFault(f"{line.place}: '{line.head}' is no replication: =, or = and a number")
+        raise InputFault(f"{line.place}: '{shown(line.head)}' is no replication: =, or = and a number")
     times = int(count[1]) if count else 1
     if times > MOST:
         raise InputFault(f"{line.place}: a replication of {times} cards")
@@ -191,7 +194,7 @@ def deck_of(path: Path) -> tuple:
             continue
         name = line.head.rstrip("* ").upper()
         if not re.fullmatch(r"[A-Z][A-Z0-9_]*", name):
-            raise InputFault(f"{line.place}: '{line.head}' is no card of Nastran")
+            raise InputFault(f"{line.place}: '{shown(line.head)}' is no card of Nastran")
         card, after = Card(name, list(line.fields), line.place), line.after
         while after is not None:
             if after.head[:1] != "*":

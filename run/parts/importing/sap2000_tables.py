@@ -9,6 +9,7 @@ from .model import InputFault
 
 ENTRY = re.compile(r'(?<![A-Za-z0-9_/%.\-])([A-Za-z0-9_/%.\-]+)\s*=\s*("[^"]*"|[^\s"]+)')
 TITLE = re.compile(r'TABLE:\s*"([^"]+)"', re.IGNORECASE)
+ROW = 10**5  # letters of a row with the lines on which it goes on
 
 
 @dataclass(slots=True)
@@ -49,6 +50,8 @@ def tables_of(path: Path) -> list:
             text, where = f"{begun} {text}", place
         if text.endswith(" _") or text == "_":
             begun, place = text[:-1].strip(), where
+            if len(begun) > ROW:
+                raise InputFault(f"{place}: a row of more than {ROW} letters")
             continue
         begun = ""
         title = TITLE.match(text)

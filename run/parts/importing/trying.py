@@ -15,12 +15,13 @@ from parts.tables import write_rows
 
 from .formats import FORMATS, read
 from .model import InputFault
+from .nastran_lines import holds_mass
 from .scene import Scene
 from .units import in_si
 from .weighing import weigh
 
 MEMORY = 4 << 30  # bytes of a process
-HEAD = 1 << 18  # bytes at the begin of a file that tell what it is
+HEAD = 1 << 18  # bytes at the beginning of a file that tell what it is
 COLUMNS = ("file", "format", "mass", "outcome", "nodes", "elements", "kilograms", "losses", "reason")
 # First cards of a deck. Endings are shared: .inp and .dat are those of several programs.
 BEGINNINGS = (
@@ -64,12 +65,11 @@ def has_mass(path: Path, kind: str) -> str:
     """Whether a deck holds elements of a structure and a mass: `yes` or `no`, `?` where that cannot be seen."""
     try:
         if kind == "nastran":
-            from .nastran_lines import holds_mass
             return "yes" if holds_mass(path) else "no"
         if kind in MASSES:
             text = path.read_bytes().decode("latin-1")
             return "yes" if any(re.match(MASSES[kind], line, re.IGNORECASE) for line in text.splitlines()) else "no"
-    except (InputFault, OSError):
+    except Exception:  # noqa: BLE001: what is wrong with the deck the reader says
         pass
     return "?"
 
@@ -170,6 +170,7 @@ def try_folder(folder: Path, table: Path, units, seconds: float = 60.0) -> None:
         kind = format_of(path)
         if kind:
             name = os.fsencode(path.relative_to(folder)).decode("utf-8", "backslashreplace")
+            name = "".join(letter if letter.isprintable() else ascii(letter)[1:-1] for letter in name)
             row = {"file": name, "format": kind, **_in_child(path, kind, units, seconds)}
             rows.append(row)
             print(f"{row['file']}: {row['outcome']}" + (f": {row['reason']}" if row.get("reason") else ""), flush=True)
