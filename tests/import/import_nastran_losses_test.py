@@ -135,6 +135,14 @@ class Losses(unittest.TestCase):
                                     "SPC OF OTHER SUBCASES")
         self.assertIn("supported nodes 1:", said)
 
+    def test_axes_of_vectors_and_offsets(self):
+        """In axes that are turned about z by 90 degrees a vector along x is along y; by BGG it stays along x."""
+        deck = (MAST.replace("GRID,1,,0.,0.,0.", "CORD2R,4,,0.,0.,0.,0.,0.,1.,\n,0.,1.,0.\nGRID,1,,0.,0.,0.,4") + "PBAR,1,1,.01,1.-5,2.-5,2.-5\n")
+        for kind, axis in (("", "0,1,0"), (",GGG", "0,1,0"), (",BGG", "1,0,0"), (",BOO", "1,0,0")):
+            options, _ = self.read(deck.replace("1.,0.,0.\nMAT1", f"1.,0.,0.{kind}\nMAT1"))
+            self.assertEqual(next(iter(options["section"].values()))["z_axis"], axis)
+        self.read(deck.replace("1.,0.,0.\nMAT1", "1.,0.,0.,BOG,,\n,,,.1,.2\nMAT1"), "OFFT BOG OF CBAR")
+
     def test_elements_of_cards_that_are_lost_go_with_them(self):
         _, said = self.read(MAST + "PBAR,1,1,.01,1.-5,1.-5,2.-5\nGRID,3,,1.,0.,3.\nCBAR,2,2,2,3,0.,0.,1.\nPBARL,2,1,,T2\n,.1,.1,.01,.01\n",
                             "PBARL T2", "ELEMENTS OF PBARL T2")

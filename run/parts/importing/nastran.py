@@ -9,7 +9,7 @@ from .model import BAR, Element, InputFault, Model, Property, Reading
 from .nastran_cards import GLOBAL, Card, Systems
 from .nastran_joints import JointReader
 from .nastran_lines import deck_of
-from .nastran_properties import PropertyReader, family_of
+from .nastran_properties import PropertyReader
 from .nastran_springs import SpringReader
 from .second_order import by_corners
 
@@ -39,6 +39,10 @@ NOTED = {
     FORCE FORCE1 FORCE2 MOMENT MOMENT1 MOMENT2 PLOAD PLOAD1 PLOAD2 PLOAD4 GRAV LOAD RFORCE ACCEL ACCEL1 TEMP TEMPD
     TEMPP1 TEMPP2 TEMPRB DLOAD TLOAD1 TLOAD2 RLOAD1 RLOAD2 DAREA DELAY DPHASE LSEQ SPCD SLOAD TIC NOLIN1 NOLIN2 NOLIN3 NOLIN4 SPCR
     LOADCYN DLOADS PLOAD3 LOADCYH LOADCYT TLOAD3
+    """),
+    "heat is not part of the model": names_of("""
+    MAT4 MAT5 MATT4 MATT5 PHBDY CHBDY CHBDYE CHBDYG CHBDYP CONV CONVM PCONV PCONVM QVOL QVECT QBDY1 QBDY2 QBDY3 QHBDY RADBC RADBND RADCAV
+    RADLST RADM RADMTX RADSET TEMPBC VIEW VIEW3D THPAD BDYOR
     """),
     "optimisation is not part of the model": names_of("""
     DESVAR DCONSTR DCONADD DRESP1 DRESP2 DRESP3 DVPREL1 DVPREL2 DVMREL1 DVMREL2 DVCREL1 DVCREL2 DVTREL1 DVGRID DVBSHAP DEQATN DLINK
@@ -85,9 +89,8 @@ class Reader(Reading):
                 if axes != GLOBAL:
                     self.frames[number] = axes
         self.points = {number for card in cards if card.name in ("SPOINT", "EPOINT") for number in card.list_from(0, 10**6)}
-        # Kind of property and number -> card that is lost.
-        self.strange = {(family_of(card.name), card.text(0)): card.name for card in cards
-                        if card.name[0] == "P" and card.name not in self.properties.handlers}
+        # Number of a property -> card that is lost.
+        self.strange = {card.text(0): card.name for card in cards if card.name[0] == "P" and card.name not in self.properties.handlers}
         self.other_materials = {int(card.text(0)): card.name for card in cards if card.name[:3] == "MAT"
                                 and card.text(0).isdecimal() and card.name not in ("MAT1", "MAT4", "MAT5")}
         self.handlers = {"CROD": self._rod, "CTUBE": self._rod, "CONROD": self._rod, **self.springs.handlers, **self.joints.handlers}
@@ -220,14 +223,14 @@ class Reader(Reading):
         ends = [self.model.at(node, card.place) for node in nodes]
         source = card if any(card.text(k) for k in (4, 5, 6)) else default
         kind = (card.text(7) or default.text(7) or "GGG").upper()
-        if kind[:3] != "GGG" and not re.fullmatch(r"[\d.]+|1", kind):
-            self.lose(f"OFFT {kind} OF {card.name}", "vectors are in the axes of displacements, GGG", card.place)
+        if not re.fullmatch(r"[GB]GG|[\d.]+", kind) and (any(card.text(k) for k in range(10, 16)) or not re.fullmatch(r"[GB][GO][GO]", kind)):
+            self.lose(f"OFFT {kind} OF {card.name}", "offsets are in the axes of displacements; allowed, they are", card.place)
         arms = [applied(self.frame(node), card.vector(at)) for node, at in zip(nodes, (10, 13))]
         start = [sum_of(x, arm) for x, arm in zip(ends, arms)]
         if source.text(4) and "." not in source.text(4) and not source.text(5) and not source.text(6):
             towards = difference(self.model.at(source.int(4), card.place), start[0])
         else:
-            towards = applied(self.frame(nodes[0]), source.vector(4))
+            towards = source.vector(4) if kind[0] == "B" else applied(self.frame(nodes[0]), source.vector(4))
         who = f"{card.place}: element {card.int(0)}"
         frame = frame_about(axis_between(start, who), towards, who)
         angle = self.properties.angles.get(key, 0.0)
@@ -272,8 +275,7 @@ class Reader(Reading):
             own = self.model.properties.get(element.property)
             if own is None:
                 number = str(element.property[1])
-                card = self.properties.unknown.get((element.property[0], number)) or next(
-                    (name for (_, text), name in self.strange.items() if text == number), None)
+                card = self.properties.unknown.get((element.property[0], number)) or self.strange.get(number)
             else:
                 card = None if own.material in self.model.materials else self.other_materials.get(own.material)
             if card:
