@@ -135,6 +135,23 @@ class Losses(unittest.TestCase):
                                     "SPC OF OTHER SUBCASES")
         self.assertIn("supported nodes 1:", said)
 
+    def test_numbers_beyond_those_of_a_mesh(self):
+        """Nodes and elements of ten digits and more get new numbers; Gmsh ends on theirs."""
+        text = HEAD + "PBAR,1,1,.01,1.-5,1.-5,2.-5\n"
+        scene, _ = imported.imported(self, "deck.bdf", text + MAST)
+        other, _ = imported.imported(self, "deck.bdf", text + MAST.replace("GRID,2", "GRID,80000000001").replace("CBAR,1,1,1,2", "CBAR,80000000001,1,1,80000000001"))
+        one, two = (imported.structure(self, path, modes=3) for path in (scene, other))
+        self.assertEqual((one["mass"], imported.frequencies(one)), (two["mass"], imported.frequencies(two)))
+
+    def test_bricks_whose_nodes_go_round(self):
+        """CIHEX2 names corners and mid-side nodes in turn."""
+        round_ = ((0, 0), (1, 0), (2, 0), (2, 1), (2, 2), (1, 2), (0, 2), (0, 1))
+        places = [(x, y, 0) for x, y in round_] + [(x, y, 1) for x, y in round_[::2]] + [(x, y, 2) for x, y in round_]
+        grids = "".join(f"GRID,{k},,{x}.,{y}.,{z}.\n" for k, (x, y, z) in enumerate(places, 1))
+        card = "CIHEX2,1,7,1,2,3,4,5,6\n,7,8,9,10,11,12,13,14\n,15,16,17,18,19,20\nPIHEX,7,1\n"
+        _, said = self.read(grids + card + "MAT1,1,3.+10,,0.2,2500.\nSPC1,1,123,1,3,5,7\n", "CIHEX2 of second order")
+        imported.close(self, imported.said_mass(said)[:1], (20000,))
+
     def test_axes_of_vectors_and_offsets(self):
         """In axes that are turned about z by 90 degrees a vector along x is along y; by BGG it stays along x."""
         deck = (MAST.replace("GRID,1,,0.,0.,0.", "CORD2R,4,,0.,0.,0.,0.,0.,1.,\n,0.,1.,0.\nGRID,1,,0.,0.,0.,4") + "PBAR,1,1,.01,1.-5,2.-5,2.-5\n")

@@ -34,7 +34,7 @@ def _moved(true: list, found: list) -> float:
     """The largest change of a mode up to HIGHEST, as a part of it; infinite where there are more of them."""
     if len(found) < len(true) or sum(f <= HIGHEST for f in found) > len(true):
         return math.inf
-    return max((abs(a / b - 1) for a, b in zip(found, true)), default=0.0)
+    return max((abs(a / b - 1) for a, b in zip(found, true) if b > 0), default=0.0)
 
 
 def scaling_of(options: dict, name: str, mesh: str) -> tuple:
@@ -52,7 +52,7 @@ def scaling_of(options: dict, name: str, mesh: str) -> tuple:
     except RunError:
         all_ = []
     true = [f for f in all_ if f <= HIGHEST]
-    if not true or len(all_) == TRIED == len(true):
+    if not any(true) or len(all_) == TRIED == len(true):
         return sure, told.format(f"{sure:g}")
     best, moved = sure, _moved(true, _frequencies(options, name, mesh, sure))
     long = shortened(SURE * HIGHEST / true[-1])

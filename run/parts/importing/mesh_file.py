@@ -4,6 +4,7 @@ import re
 
 TYPES = {("point", 1): (0, 15), ("line", 2): (1, 1), ("face", 3): (2, 2), ("face", 4): (2, 3), ("solid", 4): (3, 4),
          ("solid", 6): (3, 6), ("solid", 8): (3, 5)}
+LARGEST = 2**31 - 1  # number of a node or an element that a mesh has; files with larger ones get new numbers from 1
 
 
 def plain(text) -> str:
@@ -53,6 +54,7 @@ class MeshFile:
     def text(self, nodes: dict) -> str:
         """The file, with the nodes that its cells use."""
         used = sorted({node for _, cell, _, _ in self.cells for node in cell})
+        tag = {node: node if used[-1] <= LARGEST else k for k, node in enumerate(used, 1)}
         numbers = self._numbers()
         groups, entities, blocks = self._sort()
         lines = ["$MeshFormat", "4.1 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(groups))]
@@ -66,18 +68,20 @@ class MeshFile:
                     lines.append(" ".join([str(entity), box, str(len(tags)), *map(str, tags)])
                                  + ("" if dimension == 0 else " 0"))
         first = next(iter(entities)) if entities else (0, ())
-        lines += ["$EndEntities", "$Nodes", f"1 {len(used)} {used[0]} {used[-1]}",
-                  f"{first[0]} {entities[first]} 0 {len(used)}", *map(str, used)]
+        lines += ["$EndEntities", "$Nodes", f"1 {len(used)} {tag[used[0]]} {tag[used[-1]]}",
+                  f"{first[0]} {entities[first]} 0 {len(used)}", *(str(tag[node]) for node in used)]
         lines += [" ".join(map(repr, nodes[node])) for node in used]
         lines += ["$EndNodes", "$Elements", f"{len(blocks)} {len(self.cells)} {min(numbers)} {max(numbers)}"]
         for (dimension, entity, kind), cells in blocks.items():
             lines.append(f"{dimension} {entity} {kind} {len(cells)}")
-            lines += [" ".join(map(str, (numbers[at], *self.cells[at][1]))) for at in cells]
+            lines += [" ".join(map(str, (numbers[at], *(tag[node] for node in self.cells[at][1])))) for at in cells]
         return "\n".join([*lines, "$EndElements", ""])
 
     def _numbers(self) -> list:
         """Those of the file where each stands once, and new ones above for all else."""
         given, numbers = set(), []
+        if max([number for _, _, number, _ in self.cells if number] or [0]) > LARGEST:
+            return list(range(1, len(self.cells) + 1))
         following = max([number for _, _, number, _ in self.cells if number] or [0]) + 1
         for _, _, number, _ in self.cells:
             if number is None or number < 1 or number in given:

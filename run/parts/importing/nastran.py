@@ -13,9 +13,10 @@ from .nastran_properties import PropertyReader
 from .nastran_springs import SpringReader
 from .second_order import by_corners
 
-# Card -> kind of element, nodes at corners, all nodes.
+# Card -> kind of element, nodes at corners, all nodes; CIHEX2 goes round its faces, corners and mid-side nodes in turn.
 SOLIDS = {"CHEXA": ("hex8", 8, 20), "CPENTA": ("wedge6", 6, 15), "CTETRA": ("tet4", 4, 10), "CIHEX1": ("hex8", 8, 8),
           "CIHEX2": ("hex8", 8, 20), "CHEXA1": ("hex8", 8, 8), "CHEXA2": ("hex8", 8, 8), "CWEDGE": ("wedge6", 6, 6)}
+IN_TURN = (0, 2, 4, 6, 12, 14, 16, 18)
 FIRST = ("CHEXA1", "CHEXA2", "CWEDGE", "CTETRA")  # of NASTRAN-95, with a material in place of a property
 # Card -> nodes at corners, all nodes, places of the offset, the first thickness and TFLAG, kind of property.
 PLATES = {**dict.fromkeys(("CQUAD4", "CQUADR"), (4, 4, 7, 10, 9, "PSHELL")),
@@ -169,8 +170,9 @@ class Reader(Reading):
 
     def _solid(self, card: Card) -> None:
         kind, count, more = SOLIDS[card.name]
-        nodes = [card.int(2 + k) for k in range(count)]
-        middle = [card.int(2 + k) for k in range(count, more) if card.text(2 + k)]
+        order = [*IN_TURN, *(k for k in range(20) if k not in IN_TURN)] if card.name == "CIHEX2" else range(more)
+        nodes = [card.int(2 + k) for k in order[:count]]
+        middle = [card.int(2 + k) for k in order[count:] if card.text(2 + k)]
         key = "PSOLID", card.int(1)
         if card.name in FIRST and key not in self.properties.solids:
             key = "MAT1", card.int(1)
