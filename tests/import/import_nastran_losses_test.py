@@ -135,6 +135,17 @@ class Losses(unittest.TestCase):
                                     "SPC OF OTHER SUBCASES")
         self.assertIn("supported nodes 1:", said)
 
+    def test_scalar_points_that_elements_make(self):
+        _, said = self.read(MAST + "PBAR,1,1,.01,1.-5,1.-5,2.-5\nCELAS4,5,1.+3,70,71\nSPC1,1,0,71\nSPC,1,70,0,0.\n", "CELAS4")
+        self.assertIn("supported nodes 1:", said)
+
+    def test_a_ratio_of_poisson_that_bars_do_not_need(self):
+        """With E and G a bar has both: its torsion is that of G."""
+        options, _ = self.read(MAST.replace(",,.3,7850.", ",8.+10,17.,7850.") + "PBAR,1,1,.01,1.-5,1.-5,2.-5\n")
+        material, own = (next(iter(options[kind].values())) for kind in ("material", "section"))
+        shear = float(material["young"]) / 2 / (1 + float(material["poisson"]))
+        imported.close(self, (float(material["young"]) / 2.1e11, float(own["torsion"]) * shear / (2e-5 * 8e10)), (1, 1), 1e-9)
+
     def test_numbers_beyond_those_of_a_mesh(self):
         """Nodes and elements of ten digits and more get new numbers; Gmsh ends on theirs."""
         text = HEAD + "PBAR,1,1,.01,1.-5,1.-5,2.-5\n"

@@ -192,6 +192,9 @@ class Nastran(unittest.TestCase):
                      "SPC1,1,123456,1,2,3,4,5,6,THRU,8\n", "SPC1,1,123456,1,2,3,4,5,6,7\nSPC1,1,123456,8\n"):
             _, said = imported.imported(self, "feet.bdf", "BEGIN BULK\n" + feet + STEEL + line)
             self.assertIn("supported nodes 8:", said)
+        _, said = imported.imported(self, "feet.bdf", "BEGIN BULK\n" + feet + STEEL + "SPC1, 1  123456,1 THRU 8\n")  # blanks as commas
+        self.assertIn("supported nodes 8:", said)
+        imported.refused(self, "feet.bdf", "BEGIN BULK\n" + feet + STEEL + "GRID,30,,10.6 +6,0.,0.\n", "'10.6 +6' could be one number or two")
         for line, part in (("SPC1,1,123456,1,2,3,4,5,6,,7\n", "behind a tenth field that is a mark or empty"),
                            ("SPC1,1,123456,1,2,3,4,5,6,+A,7\n", "behind a tenth field that is a mark or empty"),
                            ("SPC1,1,123456,1,2,3,4,5,6,17\n+7,7,8\n", "the ninth field of data, 17, could be the mark")):

@@ -24,6 +24,7 @@ PLATES = {**dict.fromkeys(("CQUAD4", "CQUADR"), (4, 4, 7, 10, 9, "PSHELL")),
           "CTRIA6": (3, 6, 9, 10, 13, "PSHELL"), **{name: (3 if "TR" in name else 4,) * 2 + (99, 99, 99, name.replace("C", "P", 1))
                                                    for name in ("CQUAD1", "CQUAD2", "CTRIA1", "CTRIA2", "CQDMEM", "CQDMEM1", "CQDMEM2",
                                                                 "CTRMEM", "CSHEAR")}}
+SCALAR = ("CELAS3", "CELAS4", "CDAMP3", "CDAMP4", "CMASS3", "CMASS4")  # make their own scalar points
 BEAMS = {"CBAR": "PBAR", "CBEAM": "PBEAM"}
 MEMBRANES = {**dict.fromkeys(("PQDMEM", "PQDMEM1", "PQDMEM2", "PTRMEM"), "membranes are not known; allowed, they are shells, which bend as "
                                                                          "well"),
@@ -90,6 +91,7 @@ class Reader(Reading):
                 if axes != GLOBAL:
                     self.frames[number] = axes
         self.points = {number for card in cards if card.name in ("SPOINT", "EPOINT") for number in card.list_from(0, 10**6)}
+        self.points |= {card.int(at) for card in cards if card.name in SCALAR for at in (2, 3) if card.text(at)}
         # Number of a property -> card that is lost.
         self.strange = {card.text(0): card.name for card in cards if card.name[0] == "P" and card.name not in self.properties.handlers}
         self.other_materials = {int(card.text(0)): card.name for card in cards if card.name[:3] == "MAT"

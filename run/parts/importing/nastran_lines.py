@@ -56,10 +56,22 @@ def is_large(head: str) -> bool:
     return head[:1] == "*" or head[:1] != "+" and head[-1:] == "*"
 
 
+def words_of(line: str, place: str) -> list:
+    """Words between commas, or between blanks. Throws InputFault where blanks may be within a number."""
+    found: list = []
+    for part in line.split(","):
+        words = part.split()
+        for one, other in zip(words, words[1:]):
+            if re.fullmatch(r"[+-]?(\d+\.\d*|\.\d+)", one) and re.fullmatch(r"[+-]\d+|[ED][+-]?\d*", other, re.IGNORECASE):
+                raise InputFault(f"{place}: '{one} {other}' could be one number or two; put a comma between, or no blank")
+        found += words or [""]
+    return found
+
+
 def fields_of(line: str, place: str) -> Line:
     """Name or mark of continuation, 8 fields, or 4 of a large card, and the tenth one. Throws InputFault."""
     if FREE.match(line):
-        words = [word.strip() for word in line.split(",")]
+        words = words_of(line, place)
         count = 4 if is_large(words[0]) else 8
         head, fields, tail = words[0], words[1:count + 1], words[count + 1] if len(words) > count + 1 else ""
         doubtful = ""

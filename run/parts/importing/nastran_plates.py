@@ -33,8 +33,9 @@ def stiffness_of(card: Card) -> tuple:
             young = 2 * shear * (1 + poisson)
         elif not card.text(3):
             poisson = young / (2 * shear) - 1 if shear else 0.0
-        rest = 1 - poisson**2
-        q11 = q22 = young / rest if rest > 0 else 0.0
+        if not -1 < poisson < 0.5:
+            poisson = 0.3
+        q11 = q22 = young / (1 - poisson**2)
         q12, q66 = poisson * q11, (1 - poisson) * q11 / 2
     return (3 * q11 + 3 * q22 + 2 * q12 + 4 * q66) / 8, (q11 + q22 + 6 * q12 - 4 * q66) / 8
 

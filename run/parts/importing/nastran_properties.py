@@ -64,6 +64,8 @@ class PropertyReader(Reading):
             young = 2 * shear * (1 + poisson)
         if young is None:
             raise InputFault(f"{card.place}: MAT1 {card.text(0)} has no Young's modulus")
+        if young and shear and poisson is not None and not -1 < poisson < 0.5:
+            poisson = None  # bars have no need of it
         if card.real(8):
             self.model.said.append(f"{card.place}: structural damping GE is not read; damping is told in the scene")
         density = card.real(4) * self.reader.mass_factor
