@@ -135,6 +135,27 @@ class Losses(unittest.TestCase):
                                     "SPC OF OTHER SUBCASES")
         self.assertIn("supported nodes 1:", said)
 
+    def test_a_bushing_between_nodes_apart(self):
+        """Lies at one place between them, at the ends of rigid arms: as one between nodes there would with RBE2 as arms."""
+        two = (MAST + "PBAR,1,1,.01,1.-5,1.-5,2.-5\nGRID,3,,2.,0.,0.\nGRID,4,,2.,0.,3.\nCBAR,2,1,3,4,1.,0.,0.\nSPC1,1,123456,3\n"
+               "PBUSH,9,K,3.+5,4.+5,5.+5,6.+4\n")
+        for more, at in (("", 1.), (",\n,.25", .5), (",\n,,0,1.5,0.,3.", 1.5)):
+            scene, _ = imported.imported(self, "deck.bdf", HEAD + two + f"CBUSH,5,9,2,4,,,,0{more}\n")
+            arms = f"GRID,5,,{at},0.,3.\nGRID,6,,{at},0.,3.\nRBE2,7,2,123456,5\nRBE2,8,4,123456,6\nCBUSH,5,9,5,6,,,,0\n"
+            other, _ = imported.imported(self, "deck.bdf", HEAD + two + arms)
+            imported.close(self, *(imported.frequencies(imported.structure(self, path, modes=6)) for path in (scene, other)), 1e-9)
+
+    def test_shells_on_each_other_are_one(self):
+        """Of both stiffnesses and masses: two of 0.1 m are one of the same bending as both, which is no plate of 0.2 m."""
+        twice = QUADS + "CQUAD4,3,8,1,2,5,4\nCQUAD4,4,8,6,5,2,3\nPSHELL,8,1,.1,1\n"
+        for thickness in (.1, .3):
+            young, poisson, own, mass = self.plate(twice + f"PSHELL,9,1,{thickness},1,,,,5.\n")
+            plane, bending = .1 + thickness, .1**3 + thickness**3
+            imported.close(self, (young * own / plane / 3e10, young * own**3 / bending / 3e10, poisson, mass), (1, 1, .2, 4 * (2500 * plane + 5)), 1e-9)
+        _, said = self.read(PLATE + twice + "PSHELL,9,1,.1,1\n")
+        self.assertIn("\nshells on the nodes of others 2: one each has", said)
+        self.plate("MAT1,2,3.+10,,0.3,2500.\n" + twice + "PSHELL,9,2,.1,2\n", "SHELLS OF DIFFERENT MATERIALS ON EACH OTHER")
+
     def test_scalar_points_that_elements_make(self):
         _, said = self.read(MAST + "PBAR,1,1,.01,1.-5,1.-5,2.-5\nCELAS4,5,1.+3,70,71\nSPC1,1,0,71\nSPC,1,70,0,0.\n", "CELAS4")
         self.assertIn("supported nodes 1:", said)

@@ -6,6 +6,7 @@ from pathlib import Path
 from .cards import GUARD
 from .model import InputFault, Model
 from .second_order import settle
+from .stacks import unstack
 
 # Name -> module, endings.
 FORMATS = {"abaqus": ("abaqus", (".inp",)), "nastran": ("nastran", (".bdf", ".nas", ".dat")),
@@ -29,6 +30,7 @@ def read(path: Path, wanted: str | None) -> Model:
     except RecursionError as error:
         raise InputFault(f"{path}: files that include each other too deeply") from error
     settle(model)
+    unstack(model)
     if not (model.elements or model.masses or model.springs or model.cards.lost):
         raise InputFault(f"{path}: no element in it")
     return model

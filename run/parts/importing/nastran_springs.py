@@ -1,6 +1,7 @@
 """Springs, dashpots and masses of Nastran decks."""
 
-from .geometry import (along_global_axes, applied, axis_between, difference, frame_about, length, permutation, scaled)
+from .geometry import (along_global_axes, applied, axis_between, difference, frame_about, length, permutation, scaled,
+                       sum_of)
 from .model import AxialSpring, InputFault, PointMass, Reading, Spring
 from .nastran_cards import GLOBAL, Card
 
@@ -10,6 +11,7 @@ class SpringReader(Reading):
 
     def __init__(self, reader):
         super().__init__(reader.model, reader)
+        self.following = 0  # number of the last node at the end of an arm
         self.scalar_masses: dict = {}  # grid -> six masses and a card
         self.handlers = {"CELAS1": self._scalar, "CELAS2": self._scalar, "CDAMP1": self._scalar, "CDAMP2": self._scalar,
                          "CBUSH": self._bush, "CBUSH1D": self._along, "CVISC": self._along, "CONM2": self._mass,
@@ -72,12 +74,22 @@ class SpringReader(Reading):
         if None in six:
             return self.lose("CBUSH", "bushings act along and about the global axes", card.place)
         across = [k for k in range(3) if apart and abs(way[k]) < (1 - 1e-9) * length(way) and (six[0][k] or six[1][k])]
-        if across:
-            return self.lose("CBUSH", "a force across the length of a bushing makes moments; its nodes have to "
-                                           "coincide",
-                                  card.place)
+        if across:  # the bushing lies at one place, and arms go from there to both nodes
+            share = card.real(8, 0.5)
+            own = card.int(9, -1)
+            place = self.reader.systems.point(own, card.vector(10), card.place) if own >= 0 else sum_of(places[0], way, share)
+            nodes = tuple(self._arm(node, place, f"{name}_arm", card.place) for node in nodes)
         self.model.springs.append(Spring(nodes, *six, name, card.place))
         return None
+
+    def _arm(self, node: int, place: tuple, name: str, where: str) -> int:
+        """A node at a place that moves with another one as one body; that one where it is there."""
+        if self.model.nodes[node] == place:
+            return node
+        self.following = (self.following or max(self.model.nodes)) + 1
+        self.model.nodes[self.following] = place
+        self.model.rigid.append((name, [node, self.following], where))
+        return self.following
 
     def _along(self, card: Card) -> bool | None:
         """A spring or a dashpot along the line of two grid points."""
