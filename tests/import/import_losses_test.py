@@ -97,6 +97,7 @@ NASTRAN_NONE = {
     NASTRAN.replace("CEND", "CEND\nSPC = 4"): "SET 4 OF SPC 1 would be lost",
     NASTRAN.replace("1.,0.,0.", "0.,0.,1."): "lies along its axis",
     NASTRAN.replace("7850.", ""): "--density 1=2500",
+    NASTRAN.replace("2.1+11,", "0.,8.+10"): "material 1 has Young's modulus 0 Pa",
     "+,1,2\n": "line 1: a continuation of no card",
     "*NODE\n1, 0., 0., 0.\n": "line 1: a continuation of no card",
     "12,1,2\n": "line 1: '12' is no card",

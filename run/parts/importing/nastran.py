@@ -56,6 +56,11 @@ NOTED = {
     FLUTTER FLUTPRM MKAERO1 MKAERO2 MKAEROZ GUST TRIM TRIM2 CSSCHD DIVERG UXVEC BODY7 SEGMESH AESURFZ ACOORD TRIMVAR TRIMLNK TRIMOBJ
     TRIMCON FLUTMOD AEROP WKK
     """)}
+# Cards that are lost -> the reason.
+WHY = {"TF": "equations between displacements, as transfer functions are, are not known",
+       "RBE3": "means of displacements of several nodes are not known", "CPYRAM": "pyramids are not known", "CBEND": "bent beams are not known",
+       "DMIG": "matrices are given in the scene (matrices)", "MATT1": "moduli depend on no temperature; allowed, those of MAT1 hold",
+       "MATS1": "materials are elastic here; allowed, those of MAT1 hold; give laws in the scene"}
 
 
 class Reader(Reading):
@@ -134,6 +139,8 @@ class Reader(Reading):
                 self.use(name)
         elif name in ("GRID", "GRDSET", "BAROR", "BEAMOR") or name.startswith("CORD"):
             self.use(name)
+        elif name in WHY:
+            self.lose(name, WHY[name], card.place)
         elif name not in self.properties.handlers and name not in self.properties.materials:
             self.pass_over(name, card.place, NOTED)
 

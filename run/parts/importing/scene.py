@@ -129,7 +129,7 @@ class Scene:
         if poisson is None:
             poisson = material.young / (2 * material.shear) - 1 if material.shear else 0.0
             poisson = poisson if -1 < poisson < 0.5 else 0.3
-        factor = material.shear * 2 * (1 + poisson) / material.young if material.shear else 1.0
+        factor = material.shear * 2 * (1 + poisson) / material.young if material.shear and material.young > 0 else 1.0
         if abs(factor - 1) < 1e-12:
             factor = 1.0
         if kind not in BEAMS and kind != BAR and abs(factor - 1) > 5e-3:
