@@ -210,7 +210,8 @@ DYNA_NOTED = {
         "LOAD_BODY_Z 1", "CONTROL_TERMINATION 1, DATABASE_GLSTAT 1, END 1, KEYWORD 1"),
 }
 DYNA_NONE = {
-    DYNA + "*NODE\n       3             0.0             0.0             6.0\n": "line 18: node 3 is there already",
+    DYNA + "*NODE\n       3             0.0             0.0             7.0\n":
+        "line 18: node 3 is there already, at model.k line 5",
     DYNA + "*ELEMENT_BEAM\n       9       1       3       7\n": "line 18: node 7 is not in the file",
     DYNA + "*ELEMENT_BEAM\n       9       6       1       3\n": "line 18: part 6 is not in the deck",
     DYNA + "*ELEMENT_SHELL\n       9       1       1       2       3\n": "part 1 has no *SECTION_SHELL 1",
@@ -320,7 +321,7 @@ class Losses(unittest.TestCase):
     def test_files_that_are_none(self):
         cases = {"*NODE\n1, 0., zero, 0.\n": "line 2: 'zero' is not a number",
                  "1, 2, 3\n": "line 1: data before the first keyword",
-                 ABAQUS + "*NODE\n1, 0., 0., 0.\n": "line 19: node 1 is there already",
+                 ABAQUS + "*NODE\n1, 0., 0., 1.\n": "line 19: node 1 is there already, at model.inp line 2",
                  ABAQUS + "*ELEMENT, TYPE=B31, ELSET=ALL\n7, 1, 99\n": "line 19: node 99 is not in the deck",
                  ABAQUS + "*ELEMENT, TYPE=B31, ELSET=ALL\n7, 1\n": "line 19: element 7 of type B31 has 1 nodes in "
                                                                    "place of 2",

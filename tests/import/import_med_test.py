@@ -94,6 +94,50 @@ class Med(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("a mesh and groups alone", done.stdout)
 
+    def test_files_that_do_not_fit_themselves(self):
+        """Families, counts and types that are not those of the cells, and data that lie in other files."""
+        def changed(change):
+            path = med_file(CELLS)
+            with h5py.File(path, "r+") as file:
+                mesh = file["ENS_MAA/Mesh_1"]
+                change(mesh[next(iter(mesh))], path)
+            return imported.command(path, "mm,t,s")
+
+        def put(group, name, data, **attributes):
+            del group[name]
+            group[name] = data
+            group[name].attrs.update(attributes)
+
+        def linked(step, path):
+            with h5py.File(path.with_name("other.med"), "w") as other:
+                other["NOD"] = np.arange(1, 9)
+            del step["MAI/HE8/NOD"]
+            step["MAI/HE8/NOD"] = h5py.ExternalLink("other.med", "/NOD")
+
+        def stored(step, path):
+            path.with_name("raw").write_bytes(np.arange(1, 17, dtype="<i8").tobytes())
+            del step["MAI/HE8/NOD"]
+            step["MAI/HE8"].create_dataset("NOD", (16,), "<i8", external=[(str(path.with_name("raw")), 0, 128)])
+
+        def virtual(step, path):
+            del step["MAI/HE8/NOD"]
+            layout = h5py.VirtualLayout(shape=(16,), dtype="<i8")
+            layout[:] = h5py.VirtualSource(str(path.with_name("other.med")), "NOD", shape=(16,))
+            step["MAI/HE8"].create_virtual_dataset("NOD", layout)
+
+        for change, part in (
+                (lambda step, _: put(step["MAI/HE8"], "FAM", [-1]), "has 2 nodes or cells, and families of 1"),
+                (lambda step, _: put(step["MAI/HE8"], "FAM", [-1, -77]), "has family -77, which is not in the file"),
+                (lambda step, _: put(step["NOE"], "FAM", [0] * 5), "and families of 5"),
+                (lambda step, _: put(step["MAI/HE8"], "NOD", list(range(1, 9)), NBR=2), "2 cells HE8 have 8 nodes"),
+                (lambda step, _: put(step["MAI/HE8"], "NOD", np.arange(1, 17) + 0.5), "has no whole numbers"),
+                (linked, "NOD lies in another file"), (stored, "NOD lie in another file"),
+                (virtual, "NOD lie in another file")):
+            with self.subTest(part):
+                done = changed(change)
+                self.assertEqual((done.returncode, len(done.stderr.splitlines())), (1, 1), done.stdout + done.stderr)
+                self.assertIn(part, done.stderr)
+
     def test_losses_and_files_that_are_none(self):
         quadratic = med_file({**CELLS, "H20": ([list(range(1, 17)) + [1, 2, 3, 4]], [-1])})
         done = imported.command(quadratic, "mm,t,s")

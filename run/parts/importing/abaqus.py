@@ -1,6 +1,6 @@
 """Reads Abaqus and CalculiX decks (.inp) into the neutral model."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from .abaqus_cards import Block, Motion, Scope, blocks_of, motion_of
@@ -76,6 +76,7 @@ class Reader(Reading):
         self.orientations: dict = {}
         self.largest = 0  # number of a node
         self.valued: set = set()  # masses and springs that have a value
+        self.repeated: list = []  # materials of the same name
         self.sections = SectionReader(self)
         self.joints = JointReader(self)
         self.handlers = {"MATERIAL": self._name_material, "ELASTIC": self._elastic, "DENSITY": self._density,
@@ -94,6 +95,9 @@ class Reader(Reading):
                 self._handle(block, scope, motion)
         self.joints.finish()
         self._check_points()
+        for first, second in self.repeated:
+            if replace(first, place="") != replace(second, place=""):
+                raise InputFault(f"{second.place}: this material is there already, at {first.place}, and is another one")
 
     # What became of a block.
 
@@ -142,6 +146,8 @@ class Reader(Reading):
         flat, part, scope, motion = [], None, self.deck, Motion()
         for block in blocks:
             if block.keyword == "PART":
+                if not self.new("part", block.name("NAME"), block.place, block.place):
+                    raise InputFault(f"{block.place}: part {block.name('NAME')} is there already")
                 part = self.parts[block.name("NAME")] = []
             elif block.keyword == "END PART":
                 part = None
@@ -149,6 +155,7 @@ class Reader(Reading):
                 part.append(block)
                 continue
             elif block.keyword == "INSTANCE":
+                self.new("instance", block.name("NAME"), block.place, block.place)
                 scope, motion = Scope(block.name("NAME"), self.deck), motion_of(block)
                 self.deck.inner[scope.name] = scope
                 name = block.name("PART")
@@ -169,11 +176,13 @@ class Reader(Reading):
         members = []
         for place, fields in block.data:
             own = whole(fields[0], place)
-            if own in scope.nodes:
-                raise InputFault(f"{place}: node {own} is there already")
+            x = (numbers(fields[1:4], place) + [0.0] * 3)[:3]
+            if not self.new("node", scope.full(own), x, place):
+                members.append(scope.nodes[own])
+                continue
             number = own if own > 0 and own not in self.model.nodes else self.largest + 1
             self.largest = max(self.largest, number)
-            self.model.nodes[number] = motion.place((numbers(fields[1:4], place) + [0.0] * 3)[:3])
+            self.model.nodes[number] = motion.place(x)
             scope.nodes[own] = number
             members.append(number)
         if "NSET" in block.parameters:
@@ -195,6 +204,9 @@ class Reader(Reading):
             open_row = rows[-1] if more and short else None
         members = []
         for place, values in rows:
+            if not self.new("element", scope.full(values[0]), (kind, values), place):
+                members.append(scope.elements[whole(values[0], place)])
+                continue
             ids = [whole(text, place) if not at or is_whole_number(text) else text.upper() for at, text in enumerate(values)]
             if shape and shape[0] in BEAMS and len(ids) == width + 2:
                 towards = self.node(ids.pop(), scope, place)
@@ -205,8 +217,6 @@ class Reader(Reading):
                                  f"{width}")
             raw = Raw(kind, ids[0], tuple(self.node(one, scope, place) for one in ids[1:]) if width else (), place)
             members.append(raw)
-            if raw.number in scope.elements:
-                raise InputFault(f"{place}: element {raw.number} is there already")
             scope.elements[raw.number] = raw
             if shape:
                 own = raw.nodes if kind in ELEMENTS else by_corners(self.model, f"ELEMENT TYPE={kind}", shape[0],
@@ -225,7 +235,12 @@ class Reader(Reading):
 
     def _store(self, scope: Scope, table: str, name: str, members: list) -> None:
         held = getattr(scope, table).setdefault(name, [])
-        held += members
+        known = {id(one) if isinstance(one, Raw) else one for one in held}
+        for one in members:  # each once: a set may have itself, or another, many times
+            key = id(one) if isinstance(one, Raw) else one
+            if key not in known:
+                known.add(key)
+                held.append(one)
         full = f"{scope.name}.{name}" if scope.name and len(self.deck.inner) > 1 else name
         if table == "node_sets":
             self.model.node_sets[full] = held
@@ -251,7 +266,7 @@ class Reader(Reading):
                     continue
                 found = None if is_whole_number(text) else inner.find(table, text.upper()) or self.deck.find(table,
                                                                                                       text.upper())
-                members += found if found is not None else [one(text, inner, place)]
+                members += list(found) if found is not None else [one(text, inner, place)]
         self._store(scope, table, block.name(key), members)
 
     def _read_nset(self, block: Block, scope: Scope, _motion: Motion) -> None:
@@ -303,6 +318,8 @@ class Reader(Reading):
 
     def _read_surface(self, block: Block, scope: Scope, _motion: Motion) -> None:
         name, facets, nodes = block.name("NAME"), [], []
+        if not self.new("surface", scope.full(name), [fields for _, fields in block.data], block.place):
+            return
         for place, fields in block.data:
             if not fields or not fields[0]:
                 continue
@@ -322,10 +339,11 @@ class Reader(Reading):
                 else:
                     raise InputFault(f"{place}: a surface of '{fields[0]}' needs the faces of its elements, as in S1")
         scope.surfaces[name] = nodes or sorted({node for facet in facets for node in facet})
+        full = f"{scope.name}.{name}" if scope.name and len(self.deck.inner) > 1 else name
         if facets:
-            self.model.facet_sets[name] = facets
+            self.model.facet_sets[full] = facets
         elif nodes:
-            self.model.node_sets.setdefault(name, nodes)
+            self.model.node_sets.setdefault(full, nodes)
 
     def surface_nodes(self, name: str, scope: Scope, place: str) -> list:
         for one in (scope, self.deck):
@@ -351,11 +369,13 @@ class Reader(Reading):
                 x = unit(cross(cross(z, way), z)) if z and kind == "C" else None
             if x is None or z is None:
                 raise InputFault(f"{place}: no axes for node {node} in *TRANSFORM, TYPE={kind}")
+            self.new("*TRANSFORM of node", node, (x, z), place)
             self.axes[node] = (x, cross(z, x), z)
 
-    def _read_orientation(self, block: Block, _scope: Scope, motion: Motion) -> None:
+    def _read_orientation(self, block: Block, scope: Scope, motion: Motion) -> None:
         place, fields = block.data[0] if block.data else (block.place, [])
         values = (numbers(fields, place) + [0.0] * 6)[:6]
+        self.new("orientation", scope.full(block.name("NAME")), values, place)
         x, z = unit(motion.turn(values[:3])), unit(cross(motion.turn(values[:3]), motion.turn(values[3:6])))
         plain = x and z and block.name("SYSTEM", "RECTANGULAR") == "RECTANGULAR" and len(block.data) < 2
         self.orientations[block.name("NAME")] = (x, cross(z, x), z) if plain else None
@@ -364,7 +384,10 @@ class Reader(Reading):
 
     def _name_material(self, block: Block, _scope, _motion) -> None:
         self.material = block.name("NAME")
+        first = self.model.materials.get(self.material)
         self.model.materials[self.material] = Material(0.0, 0.0, 0.0, place=block.place)
+        if first:
+            self.repeated.append((first, self.model.materials[self.material]))
 
     def _property(self, block: Block) -> tuple:
         if self.material is None or not block.data:
@@ -372,7 +395,9 @@ class Reader(Reading):
         if len(block.data) > 1:
             self.model.said.append(f"{block.place}: *{block.keyword} has {len(block.data)} lines; the first one is "
                                    "taken")
-        return self.model.materials[self.material], numbers(block.data[0][1], block.data[0][0])
+        material, values = self.model.materials[self.material], numbers(block.data[0][1], block.data[0][0])
+        self.new(f"*{block.keyword} of material", f"{self.material} ({material.place})", values, block.place)
+        return material, values
 
     def _elastic(self, block: Block, _scope, _motion) -> bool | None:
         if block.name("TYPE", "ISOTROPIC") not in ("ISO", "ISOTROPIC"):
@@ -406,6 +431,8 @@ class Reader(Reading):
             if raw.type != wanted:
                 raise InputFault(f"{block.place}: *{block.keyword} of element {raw.number}, which is a {raw.type}")
             self.valued.add(id(raw))
+            if not self.new(f"*{block.keyword} of element", scope.full(raw.number), values, block.place):
+                continue
             mass = PointMass(raw.nodes[0], values[0], name=name, place=raw.place) if wanted == "MASS" else PointMass(
                 raw.nodes[0], 0.0, tuple(values[:3]), name=name, place=raw.place)
             self.model.masses.append(mass)
@@ -432,6 +459,8 @@ class Reader(Reading):
         for raw in raws:
             if not raw.type.startswith(family):
                 raise InputFault(f"{block.place}: *{family} of element {raw.number}, which is a {raw.type}")
+            if not self.new(f"*{family} of element", scope.full(raw.number), (dofs, value), block.place):
+                continue
             if raw.type.endswith("A"):
                 self.model.axial_springs.append(AxialSpring(raw.nodes, *both, name, family, raw.place))
                 continue

@@ -97,6 +97,10 @@ class Scope:
         self.surfaces: dict = {}
         self.inner: dict = {}  # name of an instance -> its scope
 
+    def full(self, key):
+        """A number or name with that of the instance before it, as in A.12."""
+        return f"{self.name}.{key}" if self.name else key
+
     def find(self, what: str, key):
         """A set, surface, node or element by its name, `INSTANCE.NAME` too; None where there is none."""
         table = getattr(self, what)

@@ -136,6 +136,8 @@ class JointReader(Reading):
                 raise InputFault(f"{place}: an equation of {terms} terms has a node, a component and a factor for each")
             parts = [(values[3 * k], whole(values[3 * k + 1], place), number(values[3 * k + 2],
                                                                              place)) for k in range(terms)]
+            if any(component < 1 for _, component, _ in parts):
+                raise InputFault(f"{place}: components of an equation are from 1 to 6")
             if terms == 2 and parts[0][1] == parts[1][1] <= 6 and parts[0][2] == -parts[1][2] != 0:
                 pairs = [self.reader.nodes_of(part[0], scope, place) for part in parts]
                 if len(pairs[0]) == len(pairs[1]):

@@ -1,5 +1,7 @@
 """Sections of Abaqus and CalculiX: cross-sections of beams, shells, bars, and the mass that they carry."""
 
+from dataclasses import replace
+
 from . import sections
 from .abaqus_cards import Block
 from .cards import number, numbers
@@ -47,12 +49,26 @@ class SectionReader(Reading):
 
     def __init__(self, reader):
         super().__init__(reader.model, reader)
+        self.taken: dict = {}  # id of an element -> what its section says
 
     def _new(self, block: Block, material, **more) -> str:
         name = block.parameters.get("ELSET", "section").strip('"').rpartition(".")[2]
         key = f"{len(self.model.properties)} {name}"
         self.model.properties[key] = Property(name, material, place=block.place, **more)
         return key
+
+    def _take(self, element, key: str, more=None) -> bool:
+        """Gives an element its section, with `more` that belongs to it; False where it has the same already. Throws
+        InputFault where it has another one."""
+        one = self.model.properties[key]
+        own = replace(one, name="", place=""), more
+        if element.property is None:
+            element.property, self.taken[id(element)] = key, own
+            return True
+        if self.taken[id(element)] != own:
+            raise InputFault(f"{one.place}: element {element.number} has a section already, of "
+                             f"{self.model.properties[element.property].place}, and another one")
+        return False
 
     def _members(self, block: Block, scope, *kinds) -> list:
         """Elements of its set, which have to be of these kinds."""
@@ -71,7 +87,7 @@ class SectionReader(Reading):
         area = number(block.data[0][1][0] or "0", block.data[0][0]) if block.data and block.data[0][1][0] else 0.0
         key = self._new(block, block.name("MATERIAL"), area=area)
         for element in self._members(block, scope, *SOLIDS, BAR):
-            element.property = key
+            self._take(element, key)
 
     def shell(self, block: Block, scope, _motion) -> bool | None:
         for word in ("COMPOSITE", "NODAL THICKNESS", "SHELL THICKNESS"):
@@ -86,8 +102,7 @@ class SectionReader(Reading):
         text = block.parameters.get("OFFSET", "0").strip().upper()
         offset = {"SPOS": 0.5, "SNEG": -0.5}[text] if text in ("SPOS", "SNEG") else number(text, block.place)
         for element in self._members(block, scope, SHELL):
-            element.property = key
-            if offset:
+            if self._take(element, key, offset) and offset:
                 arm = scaled(normal_of([self.model.at(node, block.place) for node in element.nodes], element.place),
                              -offset * thickness)
                 element.arms = (arm,) * len(element.nodes)
@@ -123,8 +138,9 @@ class SectionReader(Reading):
         young, shear = (numbers(fields, place) + [0.0] * 2)[:2]
         material = f"{block.name('ELSET')} material"
         poisson = block.number("POISSON", 0.0) if "POISSON" in block.parameters else None
-        self.model.materials[material] = Material(young, poisson, block.number("DENSITY", 0.0), shear or None,
-                                                  place=block.place)
+        own = Material(young, poisson, block.number("DENSITY", 0.0), shear or None, place=block.place)
+        while replace(self.model.materials.setdefault(material, own), place=block.place) != own:  # of another part
+            material += " more"
         centroid, bears = (0.0, 0.0), None
         for follower in self.reader.followers(block):
             values = numbers(follower.data[0][1], follower.data[0][0]) if follower.data else []
@@ -153,7 +169,8 @@ class SectionReader(Reading):
         """`direction`: n1, unless the element has a node for it; `centroid` along directions 1 and 2."""
         ends = [self.model.at(node, element.place) for node in element.nodes]
         who = f"{element.place}: element {element.number}"
-        element.property = key
+        if not self._take(element, key, (direction, centroid)):
+            return
         element.z_axis = element.z_axis or tuple(direction)
         frame = frame_about(axis_between(ends, who), element.z_axis, who)
         if any(centroid):

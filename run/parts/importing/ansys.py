@@ -23,6 +23,9 @@ NOTED = {
     F SF SFE SFL SFA SFGRAD BF BFE BFUNIF ACEL OMEGA DOMEGA CGLOC CGOMGA DCGOMG CMOMEGA CMDOMEGA CMACEL FK IC INISTATE
     SFCUM FCUM BFCUM BFECUM LDREAD
     """)}
+# They take more from other files: macros, archives, sets of data.
+ELSEWHERE = ("/INP", "/INPUT", "*USE", "CDREAD", "LSREAD", "PARRES", "/ASSIGN", "*ULIB", "RESUME", "/PSEARCH", "*VREAD", "*TREAD",
+             "NREAD", "EREAD", "MPREAD", "CBDOF", "IGESIN", "PARAIN", "SATIN", "UGIN", "CATIAIN")
 # Nodes that an element of a type cannot do without.
 NEEDED = {185: 8, 45: 8, 181: 3, 63: 3, 43: 3, 188: 2, 4: 2, 180: 2, 8: 2, 184: 2}
 # Those of second order: name, type that they become by their corners, nodes at corners and behind them.
@@ -68,6 +71,8 @@ class Reader(Reading):
             self.use(name)
         elif name in self.properties.handlers or (name == "N" and command.text(1).upper() == "LOC"):
             return
+        elif name in ELSEWHERE or name[:4] in ELSEWHERE:
+            self.lose(name, "it reads another file, which is not followed; write one archive with CDWRITE", command.place)
         elif name[0] in "/*_" or "=" in name:
             self.note(name.partition("=")[0], "titles, output and control")
         elif name in ("ALPHAD", "BETAD"):
@@ -92,8 +97,10 @@ class Reader(Reading):
             self._put(own, [command.real(3 + k) for k in range(3)] + [0.0] * 3, command.place)
 
     def _put(self, own: int, values: list, place: str) -> None:
-        if own in self.model.nodes or own < 1:
-            raise InputFault(f"{place}: node {own} is there already, or no number")
+        if own < 1:
+            raise InputFault(f"{place}: node {own} is no number")
+        if not self.new("node", own, values[:6], place):
+            return
         self.model.nodes[own] = tuple(values[:3])
         if any(values[3:6]):  # about z, then x, then y
             a, b, c = (math.radians(value) for value in values[3:6])
@@ -124,6 +131,8 @@ class Reader(Reading):
         material, type_number, real, section, own = values[0], values[1], values[2], values[3], values[10]
         if type_number not in self.properties.types:
             raise InputFault(f"{place}: element type {type_number} is not in the file")
+        if not self.new("element", own, (values[:4], nodes), place):
+            return None
         type_, keys = self.properties.types[type_number], self.properties.keys.get(type_number, {})
         reals = self.properties.reals.get(real, [])
         name = f"type_{type_number}_mat_{material}"
@@ -335,6 +344,8 @@ class JointReader(Reading):
     def _component(self, command: Command) -> None:
         """Numbers, and last ones of ranges with a minus sign."""
         name, kind = command.text(0).upper(), command.text(1).upper()
+        if not self.new("component", name, (kind, command.rows), command.place):
+            return
         known = self.model.nodes if kind.startswith("NODE") else self.reader.elements_
         members: dict = {}  # in their order, each once
         before = None

@@ -31,6 +31,7 @@ class Properties(Reading):
         self.reals: dict = {}  # set -> values
         self.sections: dict = {}  # number -> [kind, subtype, name, values or layers, offset, place]
         self.current: int | None = None
+        self.repeated: list = []  # sections of the same number, and what they were before
         self.last_real: int | None = None
         self.values: dict = {}  # material -> name of LABELS -> value
         self.handlers = {"ET": self._type, "ETBLOCK": self._types, "KEYOP": self._key, "KEYOPT": self._key,
@@ -44,6 +45,7 @@ class Properties(Reading):
         digits = "".join(letter for letter in text if is_whole_number(letter))
         if not digits or not is_whole_number(digits):
             raise InputFault(f"{command.place}: ET {command.text(0)} names no element")
+        self.new("ET", command.int(0), command.words[1:], command.place)
         self.types[command.int(0)] = int(digits)
         for at, value in enumerate(command.words[2:], 1):
             if value:
@@ -52,6 +54,7 @@ class Properties(Reading):
     def _types(self, command: Command) -> None:
         for place, words in command.rows:
             row = Command("ETBLOCK", words, place)
+            self.new("ET", row.int(0), words[1:], place)
             self.types[row.int(0)] = row.int(1)
             self.keys[row.int(0)] = {at: row.int(1 + at) for at in range(1, len(words) - 1) if row.int(1 + at, 0)}
 
@@ -60,6 +63,7 @@ class Properties(Reading):
 
     def _real(self, command: Command) -> None:
         self.last_real = command.int(0)
+        self.new("set of real constants", self.last_real, command.words[1:], command.place)
         self.reals[self.last_real] = [command.real(at) for at in range(1, len(command.words))]
 
     def _more(self, command: Command) -> None:
@@ -69,10 +73,14 @@ class Properties(Reading):
         values += [0.0] * (-len(values) % 6) + [command.real(at) for at in range(len(command.words))]
 
     def _reals(self, command: Command) -> None:
-        self.reals.update(command.rows)
+        for own, values in command.rows:
+            self.new("set of real constants", own, values, command.place)
+            self.reals[own] = values
 
     def _section(self, command: Command) -> None:
         self.current = command.int(0)
+        if self.current in self.sections:
+            self.repeated.append((self.current, self.sections[self.current]))
         self.sections[self.current] = [command.text(1).upper(), command.text(2).upper(), command.text(3), [], ("", []),
                                        command.place]
 
@@ -111,6 +119,8 @@ class Properties(Reading):
         row = Command(command.name, words, command.place)
         name, number_ = row.text(0).upper(), row.int(1)
         value = row.real(3 if command.name == "MPDATA" else 2)
+        if command.name == "MP" or row.int(2, 1) == 1:  # other ones begin at a higher temperature
+            self.new(f"{name} of material", number_, value, command.place)
         if name in LABELS:
             own = self.values.setdefault(number_, {})
             if LABELS[name] not in own:  # of several temperatures the first
@@ -121,6 +131,10 @@ class Properties(Reading):
 
     def finish(self) -> None:
         """Materials of the model."""
+        for number_, before in self.repeated:
+            if before[:5] != self.sections[number_][:5]:
+                raise InputFault(f"{self.sections[number_][5]}: section {number_} is there already, at {before[5]}, and is "
+                                 "another one")
         for number_, values in self.values.items():
             young, poisson, shear = (values.get(name) for name in ("young", "poisson", "shear"))
             place = values.get("place", "")

@@ -41,7 +41,9 @@ class Reader(Reading):
             if keyword.name in tables:
                 tables[keyword.name](keyword)
             elif keyword.name.startswith("MAT_"):
-                self.materials[keyword.card(0).int(0)] = keyword
+                own = keyword.card(0).int(0)
+                self.new("material", own, (keyword.name, [line for _, line in keyword.lines]), keyword.place)
+                self.materials[own] = keyword
             elif keyword.name.startswith("SECTION_"):
                 self._section(keyword)
         self.handlers = {**dict.fromkeys(("ELEMENT_SOLID", *MORE), self._solids), "ELEMENT_SHELL": self._shells,
@@ -80,8 +82,10 @@ class Reader(Reading):
     def _nodes(self, keyword: Keyword) -> None:
         for card in keyword.cards(*NODE):
             own = card.int(0)
-            if own < 1 or own in self.model.nodes:
-                raise InputFault(f"{card.place}: node {own} is there already, or no number")
+            if own < 1:
+                raise InputFault(f"{card.place}: node {own} is no number")
+            if not self.new("node", own, (card.vector(1), card.int(4), card.int(5)), card.place):
+                continue
             self.model.nodes[own] = card.vector(1)
             for at, shift in ((4, 0), (5, 3)):
                 self.joints.hold_code(own, card.int(at), shift, card.place)
@@ -90,16 +94,20 @@ class Reader(Reading):
         rows = keyword.lines
         for at in range(0, len(rows) - 1, 2):
             card = keyword.card(at + 1)
+            self.new("part", card.int(0), card.fields, card.place)
             self.parts[card.int(0)] = rows[at][1].strip() or f"part_{card.int(0)}", card.int(1), card.int(2), card.place
 
     def _section(self, keyword: Keyword) -> None:
         """Two cards each, of solids one."""
         step = 1 if keyword.name == "SECTION_SOLID" else 2
         for at in range(0, len(keyword.lines) - step + 1, step):
-            self.sections[keyword.card(at).int(0)] = keyword.name[8:], keyword.card(at), keyword.card(at + step - 1)
+            first, second = keyword.card(at), keyword.card(at + step - 1)
+            self.new("section", first.int(0), (keyword.name, first.fields, second.fields), first.place)
+            self.sections[first.int(0)] = keyword.name[8:], first, second
 
     def _way(self, keyword: Keyword) -> None:
         for card in keyword.cards():
+            self.new("orientation", card.int(0), card.fields, card.place)
             if card.int(1) not in (0, 2):
                 self.lose("DEFINE_SD_ORIENTATION", "springs act along a vector, or from node to node", card.place)
             elif card.int(1) == 2:
@@ -130,6 +138,9 @@ class Reader(Reading):
     def _add(self, kind: str, own: int, nodes, key, place: str, part: int, **more) -> None:
         for node in nodes:
             self.model.at(node, place)
+        family = "shell" if kind == "shell" else "beam" if kind in ("beam", BAR) else "solid"
+        if not self.new(f"{family} element", own, (kind, tuple(nodes), key, more), place):
+            return
         self.elements[kind, own] = len(self.model.elements)
         self.members.setdefault(part, set()).update(nodes)
         self.model.elements.append(Element(kind, own, tuple(nodes), key, place=place, **more))
@@ -314,6 +325,8 @@ class Reader(Reading):
                 self.lose("ELEMENT_DISCRETE", "springs and dampers are linear", card.place)
                 continue
             self.use(keyword.name)
+            if not self.new("discrete element", card.int(0), card.fields, card.place):
+                continue
             value = law.card(0).real(1) * (card.real(5) or 1.0)
             both = (value, 0.0) if kind in ("MAT_SPRING_ELASTIC", "MAT_S01") else (0.0, value)
             nodes = tuple(node for node in (card.int(2), card.int(3)) if node)
@@ -335,6 +348,8 @@ class Reader(Reading):
 
     def _masses(self, keyword: Keyword) -> None:
         for card in keyword.cards(*MASS):
+            if not self.new("mass", card.int(0), card.fields, card.place):
+                continue
             self.model.masses.append(PointMass(card.int(1), card.real(2), name="mass", place=card.place))
             self.use(keyword.name)
 
@@ -342,6 +357,8 @@ class Reader(Reading):
         step = 3 if keyword.name.endswith("OFFSET") else 2
         for at in range(0, len(keyword.lines), step):
             card, values = keyword.card(at, *EIGHT), keyword.card(at + 1)
+            if not self.new("inertia", card.int(0), (card.fields, values.fields), card.place):
+                continue
             if card.int(2) or any(values.real(k) for k in (1, 2, 4)):
                 self.lose("ELEMENT_INERTIA", "rotary inertia is about the global axes, without products", card.place)
                 continue

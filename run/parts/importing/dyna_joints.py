@@ -66,6 +66,7 @@ class JointReader(Reading):
                 for node in values:
                     self.model.at(node, card.place)
                 members += values
+        self.new("node set", own, members, keyword.place)
         self.sets[own] = members
         self.model.node_sets[f"set_{own}"] = members
 
@@ -77,6 +78,7 @@ class JointReader(Reading):
                 if node:
                     self.model.at(node, card.place)
             facets.append(tuple(nodes[:3] if nodes[3] in (0, nodes[2]) else nodes))
+        self.new("set of segments", keyword.card(0).int(0), facets, keyword.place)
         self.model.facet_sets[f"segments_{keyword.card(0).int(0)}"] = facets
 
     def _elements(self, keyword: Keyword) -> None:
@@ -84,6 +86,7 @@ class JointReader(Reading):
         found = [self.reader.elements[kind, card.int(k)] for card in keyword.cards()[1:] for k in range(8)
                  for kind in families if (kind, card.int(k)) in self.reader.elements]
         name = keyword.name[4:].removesuffix("_LIST").lower()
+        self.new(f"set of {name}s", keyword.card(0).int(0), found, keyword.place)
         self.model.element_sets[f"{name}_set_{keyword.card(0).int(0)}"] = found
 
     def _body(self, keyword: Keyword) -> bool | None:

@@ -97,7 +97,7 @@ class MeshFile:
         blocks: dict = {}
         for at, (family, nodes, _, names) in enumerate(self.cells):
             dimension, kind = TYPES[family, len(nodes)]
-            tags = tuple(sorted(groups.setdefault((dimension, name), len(groups) + 1) for name in names))
+            tags = tuple(sorted(groups.setdefault((dimension, name), len(groups) + 1) for name in sorted(names)))
             entity = entities.setdefault((dimension, tags), len(entities) + 1)
             blocks.setdefault((dimension, entity, kind), []).append(at)
         return groups, entities, blocks

@@ -139,6 +139,20 @@ class Cards:
         return False
 
 
+class Once:
+    """Numbers and names that a file gives to one thing alone."""
+
+    def __init__(self):
+        self.first: dict = {}  # (what, number) -> content and place of the first
+
+    def new(self, what: str, number, content, place: str) -> bool:
+        """Whether this is the first; a second that says the same is none. Throws InputFault where it says other."""
+        before, where = self.first.setdefault((what, number), (content, place))
+        if before != content:
+            raise InputFault(f"{place}: {what} {number} is there already, at {where}, and is another one")
+        return where is place
+
+
 @dataclass
 class Model:
     """A structure: nodes by number, elements, and what holds and joins them."""
@@ -163,6 +177,7 @@ class Model:
     beta: float = 0.0
     has_properties: bool = True  # .med and .unv hold meshes and groups alone
     cards: Cards = field(default_factory=Cards)
+    once: Once = field(default_factory=Once)
     said: list = field(default_factory=list)  # remarks for the user
 
     def hold(self, node: int, components: int) -> None:
@@ -186,6 +201,7 @@ class Reading:
     def __init__(self, model: Model, reader=None):
         self.model, self.reader = model, reader
         self.use, self.note, self.lose = model.cards.use, model.cards.note, model.cards.lose
+        self.new = model.once.new
 
     def pass_over(self, card: str, place: str, reasons: dict) -> None:
         """Notes a card that no handler takes by the reason that knows its name, or loses it."""
