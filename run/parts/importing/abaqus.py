@@ -124,7 +124,7 @@ class Reader(Reading):
             if self.handlers[keyword](block, scope, motion) is not False:
                 self.use(keyword)
         elif keyword in ("NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "PART", "END PART", "ASSEMBLY", "END ASSEMBLY",
-                         "INSTANCE", "END INSTANCE", "INCLUDE"):
+                         "INSTANCE", "END INSTANCE", "INCLUDE", "PARAMETER"):
             if keyword != "ELEMENT":
                 self.use(keyword)
         else:
@@ -202,7 +202,7 @@ class Reader(Reading):
             more = len(fields) > 1 and not fields[-1]
             short = width is None or len(rows[-1][1]) < width + 1
             open_row = rows[-1] if more and short else None
-        members = []
+        members, surplus = [], []
         for place, values in rows:
             if not self.new("element", scope.full(values[0]), (kind, values), place):
                 members.append(scope.elements[whole(values[0], place)])
@@ -212,6 +212,9 @@ class Reader(Reading):
                 towards = self.node(ids.pop(), scope, place)
             else:
                 towards = None
+            if width and len(ids) > width + 1:
+                surplus.append(place)
+                del ids[width + 1:]
             if width and len(ids) != width + 1:
                 raise InputFault(f"{place}: element {values[0]} of type {kind} has {len(ids) - 1} nodes in place of "
                                  f"{width}")
@@ -228,6 +231,9 @@ class Reader(Reading):
                 self.model.elements.append(raw.element)
             elif kind not in POINTS:
                 self.lose(f"ELEMENT TYPE={kind}", "this type is not known", place)
+        if surplus:
+            self.model.said.append(f"{surplus[0]}: more numbers than the {width} nodes of {kind}, in {len(surplus)} lines; "
+                                   "the first ones are taken")
         if kind in ELEMENTS or kind in POINTS:
             self.use(f"ELEMENT TYPE={kind}", len(rows))
         if "ELSET" in block.parameters:

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from .abaqus_parameters import Parameters
 from .cards import is_whole_number, lines_of, number, numbers
 from .geometry import cross, difference, dot, sum_of, unit
 from .model import InputFault
@@ -52,17 +53,22 @@ class Block:
         return number(self.parameters[key], self.place) if key in self.parameters else fallback
 
 
-def blocks_of(path: Path, seen=()) -> list:
-    """All blocks of a deck, those of included files in their place."""
+def blocks_of(path: Path, seen=(), parameters_=None) -> list:
+    """All blocks of a deck, those of included files in their place; `parameters_`: those of *PARAMETER so far."""
     blocks: list = []
+    given = Parameters() if parameters_ is None else parameters_
     lines = iter(lines_of(path, seen))
     for place, line in lines:
-        if line.startswith("**") or not line.strip():
+        line = given.fill(line, place)
+        if line.lstrip().startswith("**") or not line.strip():
             continue
         if not line.lstrip().startswith("*"):
             if not blocks:
                 raise InputFault(f"{place}: data before the first keyword; a deck of Abaqus begins with one, as "
                                  "*HEADING")
+            if blocks[-1].keyword == "PARAMETER":
+                given.assign(line, place)
+                continue
             blocks[-1].data.append((place, [text.strip() for text in line.split(",")]))
             continue
         while line.endswith(","):
@@ -78,7 +84,7 @@ def blocks_of(path: Path, seen=()) -> list:
                 parameters[" ".join(key.split()).upper()] = value.strip()
         block = Block(" ".join(words[0].split()).upper(), parameters, place)
         if block.keyword == "INCLUDE":
-            blocks += blocks_of(path.parent / parameters.get("INPUT", "").strip('"'), (*seen, path.resolve()))
+            blocks += blocks_of(path.parent / parameters.get("INPUT", "").strip('"'), (*seen, path.resolve()), given)
             blocks.append(Block("INCLUDE", parameters, place))
         else:
             blocks.append(block)

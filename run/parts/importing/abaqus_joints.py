@@ -128,10 +128,13 @@ class JointReader(Reading):
             terms, values = whole(fields[0], place), []
             if not 1 <= terms <= 1000:
                 raise InputFault(f"{place}: an equation of {terms} terms")
-            for _ in range(-(-terms // 4)):
-                values += [text for text in next(rows, (place, []))[1]]
+            while len(values) < 3 * terms:  # up to four terms in a line, or fewer
+                more = next(rows, (place, []))[1]
+                values += more
                 while len(values) % 3 and not values[-1]:
                     values.pop()
+                if not any(more):
+                    break
             if len(values) < 3 * terms:
                 raise InputFault(f"{place}: an equation of {terms} terms has a node, a component and a factor for each")
             parts = [(values[3 * k], whole(values[3 * k + 1], place), number(values[3 * k + 2],

@@ -17,10 +17,12 @@ NOTED = {
     NUMOFF DOF FINISH EXTOPT MPTEMP TREF TOFFST ANTYPE MODOPT MXPAND LUMPM KUSE TIME TUNIF TOTAL ERESX SSTIF SHPP SOLVE
     NLGEOM OUTRES OUTPR AUTOTS NSUBST KBC ERNORM EQSLV PRED CNVTOL NEQIT LNSRCH CSYS LOCAL CSCIR CLOCAL DSYS ALLSEL
     NSEL ESEL TYPE MAT REAL SECNUM ESYS RATE CMSEL EXPASS NUMEXP BCSOPTION RESCONTROL DMPRAT MDAMP DMPSTR PSTRES TINTP
-    TRNOPT LSCLEAR CMEDIT WPSTYL LSWRITE UNITS
+    TRNOPT LSCLEAR CMEDIT WPSTYL LSWRITE UNITS CRPLIM DMPOPT NCNV STEF TIMINT MODCONTROL QRDOPT EMUNIT THOPT CM CMGRP CMDELE
+    HROPT HARFRQ HROUT NROPT OPNCONTROL ARCLEN CUTCONTROL SOLCONTROL PIVCHECK SNOPTION SPOPT SVTYP SSOPT BUCOPT STABILIZE
+    MONITOR SHOWDISP EXUNIT KEYW NUMSTR ICLWID NSLE ESLN CMLIST PRECISION
     """),
     "loads and steps are not part of the model": names_of("""
-    F SF SFE SFL SFA SFGRAD BF BFE BFUNIF ACEL OMEGA DOMEGA CGLOC CGOMGA DCGOMG CMOMEGA CMDOMEGA CMACEL FK IC INISTATE
+    CGOMEGA F SF SFE SFL SFA SFGRAD BF BFE BFUNIF ACEL OMEGA DOMEGA CGLOC CGOMGA DCGOMG CMOMEGA CMDOMEGA CMACEL FK IC INISTATE
     SFCUM FCUM BFCUM BFECUM LDREAD
     """)}
 # They take more from other files: macros, archives, sets of data.
@@ -75,6 +77,8 @@ class Reader(Reading):
             self.lose(name, "it reads another file, which is not followed; write one archive with CDWRITE", command.place)
         elif name[0] in "/*_" or "=" in name:
             self.note(name.partition("=")[0], "titles, output and control")
+        elif name == "IRLF" and not command.real(0):
+            self.note(name, "titles, output and control")
         elif name in ("ALPHAD", "BETAD"):
             setattr(self.model, "alpha" if name == "ALPHAD" else "beta", command.real(0))
             self.use(name)

@@ -35,6 +35,7 @@ class Reader(Reading):
         self.ways: dict = {}  # orientation of discrete elements -> vector
         self.elements: dict = {}  # family and number -> place in the model's elements
         self.members: dict = {}  # part -> nodes
+        self.by_part: dict = {}  # part -> places in the model's elements
         self.joints = JointReader(self)
         tables = {"PART": self._part, "NODE": self._nodes, "DEFINE_SD_ORIENTATION": self._way}
         for keyword in self.keywords:
@@ -49,7 +50,8 @@ class Reader(Reading):
         self.handlers = {**dict.fromkeys(("ELEMENT_SOLID", *MORE), self._solids), "ELEMENT_SHELL": self._shells,
                          "ELEMENT_SHELL_THICKNESS": self._shells, "ELEMENT_SHELL_OFFSET": self._shells,
                          "ELEMENT_BEAM": self._beams, "ELEMENT_BEAM_ORIENTATION": self._beams,
-                         "ELEMENT_BEAM_OFFSET": self._beams, "ELEMENT_DISCRETE": self._discrete,
+                         "ELEMENT_BEAM_OFFSET": self._beams,
+                         "ELEMENT_BEAM_THICKNESS": self._beams, "ELEMENT_DISCRETE": self._discrete,
                          "ELEMENT_MASS": self._masses, "ELEMENT_INERTIA": self._inertias,
                          "ELEMENT_INERTIA_OFFSET": self._inertias, "DAMPING_GLOBAL": self._damping,
                          **self.joints.handlers}
@@ -143,6 +145,7 @@ class Reader(Reading):
             return
         self.elements[kind, own] = len(self.model.elements)
         self.members.setdefault(part, set()).update(nodes)
+        self.by_part.setdefault(part, []).append(len(self.model.elements))
         self.model.elements.append(Element(kind, own, tuple(nodes), key, place=place, **more))
 
     # Elements.
@@ -220,12 +223,19 @@ class Reader(Reading):
             self.use(keyword.name)
 
     def _beams(self, keyword: Keyword) -> None:
-        rows = iter(keyword.cards(*EIGHT))
+        rows, wide = iter(keyword.cards(*EIGHT)), iter(keyword.cards(16))
         for card in rows:
+            next(wide)
+            own = next(wide, None) if keyword.name != "ELEMENT_BEAM" else None
             more = next(rows, None) if keyword.name != "ELEMENT_BEAM" else Card([], card.place)
             if more is None:
                 raise InputFault(f"{card.place}: element {card.int(0)} has no second card")
             title, (first, second), material, part = self.part_of(card, 1, "BEAM")
+            key = part
+            if keyword.name == "ELEMENT_BEAM_THICKNESS":  # dimensions or numbers of its own, where there are some
+                fields = [own.text(k) if k < 5 and own.real(k) else second.text(k) for k in range(8)]
+                second = Card(fields, own.place)
+                key = f"{part} {','.join(fields)}"
             form = first.int(1, 1)
             nodes = card.int(2), card.int(3)
             ends = [self.model.at(node, card.place) for node in nodes]
@@ -236,9 +246,9 @@ class Reader(Reading):
             self.elastic(material, card.place)
             added = first.real(6)
             if form == 3:
-                self.model.properties.setdefault(part, Property(title, material, area=second.real(0), added=added,
-                                                                place=card.place))
-                self._add(BAR, card.int(0), nodes, part, card.place, part)
+                self.model.properties.setdefault(key, Property(title, material, area=second.real(0), added=added,
+                                                               place=card.place))
+                self._add(BAR, card.int(0), nodes, key, card.place, part)
                 continue
             section, off = self._cross_section(form, first, second)
             if section is None:
@@ -259,10 +269,10 @@ class Reader(Reading):
             if keyword.name == "ELEMENT_BEAM_OFFSET":
                 arms = [tuple(a + b for a, b in zip(arm, more.vector(at))) for arm, at in zip(arms, (0, 3))]
             hinged = [self._released(card, at) for at in (5, 7)]
-            self.model.properties.setdefault(part, Property(title, material, section=section, added=added,
-                                                            place=card.place))
+            self.model.properties.setdefault(key, Property(title, material, section=section, added=added,
+                                                           place=card.place))
             long = tuple(arm if length(arm) > 0 else None for arm in arms)
-            self._add("beam", card.int(0), nodes, part, card.place, part, z_axis=frame[2], arms=long if any(long)
+            self._add("beam", card.int(0), nodes, key, card.place, part, z_axis=frame[2], arms=long if any(long)
                       else None, hinged=tuple(hinged))
 
     def _released(self, card: Card, at: int) -> bool:

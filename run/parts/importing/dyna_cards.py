@@ -9,6 +9,8 @@ from .model import InputFault
 
 TEN = (10,) * 8
 EIGHT = (8,) * 10
+# Lines of keywords that a title or number precedes each time, with it.
+HEADED = (("BOUNDARY_SPC", 2), ("BOUNDARY_PRESCRIBED_MOTION", 2), ("SECTION_SOLID", 2), ("SECTION_", 3))
 
 
 @dataclass(slots=True)
@@ -82,5 +84,6 @@ def keywords_of(path: Path, seen=()) -> list:
         for end in ("_TITLE", "_ID"):
             if keyword.name.endswith(end) and keyword.name not in ("SET_ID",):
                 keyword.name = keyword.name[:-len(end)]
-                keyword.lines = keyword.lines[1:]
+                each = next((count for name, count in HEADED if keyword.name.startswith(name)), len(keyword.lines))
+                keyword.lines = [row for at, row in enumerate(keyword.lines) if at % each]
     return result

@@ -25,6 +25,7 @@ class JointReader(Reading):
                          "CONSTRAINED_RIGID_BODIES": self._merge, "CONSTRAINED_NODE_SET": self._pin,
                          "BOUNDARY_PRESCRIBED_MOTION_SET": self._moved, "BOUNDARY_PRESCRIBED_MOTION_NODE": self._moved,
                          **{name + end: self._elements for name in FAMILIES for end in ("", "_LIST")}}
+        self.handlers |= dict.fromkeys(("SET_PART", "SET_PART_LIST", "SET_PART_LIST_GENERATE"), self._parts)
         self.merged: list = []
 
     def hold_code(self, node: int, code: int, shift: int, place: str) -> None:
@@ -88,6 +89,20 @@ class JointReader(Reading):
         name = keyword.name[4:].removesuffix("_LIST").lower()
         self.new(f"set of {name}s", keyword.card(0).int(0), found, keyword.place)
         self.model.element_sets[f"{name}_set_{keyword.card(0).int(0)}"] = found
+
+    def _parts(self, keyword: Keyword) -> None:
+        """A set of parts is one of their elements."""
+        found: list = []
+        for card in keyword.cards()[1:]:
+            values = [card.int(k) for k in range(8) if card.int(k)]
+            spans = zip(values[::2], values[1::2]) if keyword.name.endswith("GENERATE") else zip(values, values)
+            for first, last in spans:
+                wanted = [part for part in sorted(self.reader.parts) if first <= part <= last]
+                if not wanted:
+                    raise InputFault(f"{card.place}: part {first} is not in the deck")
+                found += [at for part in wanted for at in self.reader.by_part.get(part, ())]
+        self.new("set of parts", keyword.card(0).int(0), found, keyword.place)
+        self.model.element_sets[f"part_set_{keyword.card(0).int(0)}"] = sorted(set(found))
 
     def _body(self, keyword: Keyword) -> bool | None:
         lost = False

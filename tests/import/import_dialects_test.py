@@ -1,0 +1,68 @@
+"""Ways of writing that programs and people have: the scene is that of the same deck in plain words."""
+import unittest
+
+import imported
+from import_losses_test import ABAQUS, ANSYS, DYNA
+from imported import refused
+
+PINNED = ABAQUS.replace("3, 0., 0., 6.\n", "3, 0., 0., 6.\n4, 0., 0., 3.\n").replace("2, 2, 3\n", "2, 4, 3\n")
+EQUATIONS = "".join(f"*EQUATION\n2\n2, {k}, 1., 4, {k}, -1.\n" for k in (1, 2, 3))
+PARAMETERS = ("*PARAMETER\n# a comment\ntall = 2*(1.5e0 + .5) - 1.0  # of a storey\ntop=2*tall/1\nfirst = -(-2)/2\n"
+              "step = 1.5*first\n")
+SPC = "         7         0         1         1         1         0         0         0\n"
+CONTROL = ("IRLF,  0\nCGOMEGA,  0., 0., 0.\nSTEF, 5.67E-08\nDMPOPT,ESAV,NO\nNCNV,1,0,0,0,0\nTIMINT,0,STRU\nCRPLIM,0.1,0\n"
+           "MODCONTROL,ON\nQRDOPT,OFF\nEMUNIT,MKS\nTHOPT,FULL\nCM,_ALL,NODE\n")
+# Name, deck, and the same in plain words.
+SAME = {
+    "a term a line": ("model.inp", PINNED + EQUATIONS.replace("1., 4", "1.,\n4"), PINNED + EQUATIONS),
+    "indented comments": ("model.inp", ABAQUS.replace("7850.", "   ** kg/m3\n  7850."), ABAQUS),
+    "surplus numbers": ("model.inp", ABAQUS.replace("2, 2, 3\n", "2, 2, 3, 1, 1\n"), ABAQUS),
+    "parameters": ("model.inp", PARAMETERS + ABAQUS.replace("2, 0., 0., 3.", "2, 0., 0., <tall>").replace(
+        "3, 0., 0., 6.", "3, 0., 0., <TOP>").replace("*BOUNDARY\n1,", "*BOUNDARY\n<first>,").replace(
+            ".3\n*DENSITY", "<slender>\n*DENSITY").replace("*NODE", "*PARAMETER\nslender=step/5\n*NODE", 1), ABAQUS),
+    "control of the solution": ("model.cdb", ANSYS + CONTROL, ANSYS),
+    "heads of supports": ("model.k", DYNA + "*SET_NODE_LIST\n         7\n         2         3\n*BOUNDARY_SPC_SET_ID\n"
+                          "         1 the first\n" + SPC + "         2 the second\n" + SPC.replace("1         0         0",
+                                                                                             "0         1         1"),
+                          DYNA + "*SET_NODE_LIST\n         7\n         2         3\n*BOUNDARY_SPC_SET\n" + SPC
+                          + SPC.replace("1         0         0", "0         1         1")),
+    "titles of sections": ("model.k", DYNA.replace("*SECTION_BEAM\n", "*SECTION_BEAM_TITLE\nthe first\n").replace(
+        "*PART", "the second\n         2         2       1.0\n      0.02      1e-5      1e-5      2e-5\n*PART"), DYNA),
+    "numbers of a beam's own": ("model.k", DYNA.replace("*ELEMENT_BEAM\n", "*ELEMENT_BEAM_THICKNESS\n").replace(
+        "       1       2\n", "       1       2\n{0:>16}{1:>16}\n".format("0.02", "3e-5"), 1).replace(
+            "       2       3\n", "       2       3\n{0:>16}{1:>16}\n".format("0.02", "3e-5")).replace(
+                "1e-5      1e-5", "1e-5      3e-5"), DYNA.replace("0.01      1e-5      1e-5", "0.02      3e-5      3e-5")),
+}
+
+
+class Dialects(unittest.TestCase):
+    def test_the_scene_is_the_same(self):
+        for what, (name, deck, plain) in SAME.items():
+            with self.subTest(what):
+                one, other = (imported.imported(self, name, text)[0] for text in (deck, plain))
+                self.assertEqual(one.read_text(), other.read_text())
+                self.assertEqual(one.with_suffix(".msh").read_text(), other.with_suffix(".msh").read_text())
+
+    def test_sets_of_parts_are_groups(self):
+        for keyword, values in (("SET_PART_LIST", "         1"), ("SET_PART_LIST_GENERATE", "         1         5")):
+            scene, said = imported.imported(self, "model.k", DYNA + f"*{keyword}\n         3\n{values}\n")
+            self.assertIn('"part_set_3"', scene.with_suffix(".msh").read_text())
+            self.assertIn(f"{keyword} 1", said)
+        refused(self, "model.k", DYNA + "*SET_PART_LIST\n         3\n         4\n", "part 4 is not in the deck")
+
+    def test_parameters_are_numbers_alone(self):
+        for line, part in (("a=__import__('os').system('x')", "'__import__('os').system('x')' is more than numbers"),
+                           ("a=2**3", "is more than numbers"), ("a=b", "'b' is no number, nor an earlier name"),
+                           ("a=1/0", "a division by zero"), ("a=(1", "a bracket that is not closed"), ("a=1 2", "no expression"),
+                           ("a=" + "(" * 900 + "1" + ")" * 99, "within each other"), ("a 1", "lines of name = number"),
+                           ("a=" + "-" * 999 + "1", "within each other"), ("a=1e308*1e308", "no expression")):
+            with self.subTest(line[:40]):
+                refused(self, "model.inp", f"*PARAMETER\n{line}\n" + ABAQUS, part, "line 2")
+        refused(self, "model.inp", ABAQUS.replace("7850.", "<rho>"), "<rho> is no name of *PARAMETER")
+
+    def test_inertia_relief_is_a_loss(self):
+        refused(self, "model.cdb", ANSYS + "IRLF,1\n", "IRLF 1 would be lost")
+
+
+if __name__ == "__main__":
+    unittest.main()
