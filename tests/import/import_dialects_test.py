@@ -15,6 +15,12 @@ CONTROL = ("IRLF,  0\nCGOMEGA,  0., 0., 0.\nSTEF, 5.67E-08\nDMPOPT,ESAV,NO\nNCNV
 # Name, deck, and the same in plain words.
 SAME = {
     "a term a line": ("model.inp", PINNED + EQUATIONS.replace("1., 4", "1.,\n4"), PINNED + EQUATIONS),
+    "keywords without blanks": ("model.inp", ABAQUS.replace("*BEAM SECTION", "*BEAMSECTION") + "*NODEFILE\nU\n*RIGIDBODY, "
+                                "NSET=S, REFNODE=2\n*NSET, NSET=S\n2, 3\n",
+                                ABAQUS + "*RIGID BODY, NSET=S, REF NODE=2\n*NSET, NSET=S\n2, 3\n"),
+    "temperatures, and nodes that are not there": (
+        "model.inp", ABAQUS + "*NSET, NSET=S\n2, 77\n*BOUNDARY\n2, 0, 0, 20.\n2, 11, 11, 20.\n*HEADING\n<no name>\n",
+        ABAQUS + "*NSET, NSET=S\n2\n"),
     "indented comments": ("model.inp", ABAQUS.replace("7850.", "   ** kg/m3\n  7850."), ABAQUS),
     "surplus numbers": ("model.inp", ABAQUS.replace("2, 2, 3\n", "2, 2, 3, 1, 1\n"), ABAQUS),
     "parameters": ("model.inp", PARAMETERS + ABAQUS.replace("2, 0., 0., 3.", "2, 0., 0., <tall>").replace(
@@ -55,7 +61,7 @@ class Dialects(unittest.TestCase):
                            ("a=2**3", "is more than numbers"), ("a=b", "'b' is no number, nor an earlier name"),
                            ("a=1/0", "a division by zero"), ("a=(1", "a bracket that is not closed"), ("a=1 2", "no expression"),
                            ("a=" + "(" * 900 + "1" + ")" * 99, "within each other"), ("a 1", "lines of name = number"),
-                           ("a=" + "-" * 999 + "1", "within each other"), ("a=1e308*1e308", "no expression")):
+                           ("a=" + "-" * 999 + "1", "within each other"), ("a=" + "*".join(["1e59"] * 6), "no expression")):
             with self.subTest(line[:40]):
                 refused(self, "model.inp", f"*PARAMETER\n{line}\n" + ABAQUS, part, "line 2")
         refused(self, "model.inp", ABAQUS.replace("7850.", "<rho>"), "<rho> is no name of *PARAMETER")

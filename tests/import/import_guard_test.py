@@ -124,7 +124,7 @@ class Guard(unittest.TestCase):
                   "sys.path.insert(0, os.path.dirname(sys.argv[0]))\nimport parts\n"
                   "import runpy\nrunpy.run_path(sys.argv[0], run_name='__main__')\n")
         script = script.replace("COMMAND", str(imported.COMMAND)).replace("FILE", str(path)).replace(
-            "OUT", str(path.parent / "out"))
+            "OUT", str(path.parent / "out") + "' + os.environ['WAIT'] + '")
         seen = set()
         for wait in (0.01, 0.03, 0.06, 0.1, 0.15):
             done = subprocess.run([sys.executable, "-c", script], env={**os.environ, "WAIT": str(wait)}, text=True,

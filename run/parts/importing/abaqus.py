@@ -272,7 +272,10 @@ class Reader(Reading):
                     continue
                 found = None if is_whole_number(text) else inner.find(table, text.upper()) or self.deck.find(table,
                                                                                                       text.upper())
-                members += list(found) if found is not None else [one(text, inner, place)]
+                if found is None and table == "node_sets" and is_whole_number(text) and inner.find("nodes", int(text)) is None:
+                    self.model.said.append(f"{place}: node {text} of set {block.name(key)} is not in the deck")
+                else:
+                    members += list(found) if found is not None else [one(text, inner, place)]
         self._store(scope, table, block.name(key), members)
 
     def _read_nset(self, block: Block, scope: Scope, _motion: Motion) -> None:

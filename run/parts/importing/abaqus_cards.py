@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from .abaqus_parameters import Parameters
-from .cards import is_whole_number, lines_of, number, numbers
+from .cards import is_whole_number, lines_of, names_of, number, numbers
 from .geometry import cross, difference, dot, sum_of, unit
 from .model import InputFault
 
@@ -26,6 +26,14 @@ PARAMETERS = {
     "TIE": "NAME,ADJUST,POSITION TOLERANCE,TYPE", "ELASTIC": "TYPE,MODULI",
     "DAMPING": "ALPHA,BETA,STRUCTURAL,COMPOSITE",
     "MPC": "", "EQUATION": "", "RELEASE": "", "TRANSFORM": "NSET,TYPE", "ORIENTATION": "NAME,DEFINITION,SYSTEM"}
+
+# CalculiX takes no heed of blanks in them: without blanks -> as they are known here.
+KEYWORDS = {keyword.replace(" ", ""): keyword for keyword in (*PARAMETERS, *names_of("""
+    NODE PRINT, EL PRINT, NODE FILE, EL FILE, CONTACT PRINT, CONTACT FILE, NODE OUTPUT, ELEMENT OUTPUT, SECTION PRINT, END STEP,
+    MODAL DYNAMIC, STEADY STATE DYNAMICS, BASE MOTION, INITIAL CONDITIONS, SPECIFIC HEAT, PHYSICAL CONSTANTS, MODAL DAMPING,
+    TIME POINTS, SELECT CYCLIC SYMMETRY MODES, CONTACT PAIR, SURFACE INTERACTION, SURFACE BEHAVIOR, HEAT TRANSFER, END PART,
+    END ASSEMBLY, END INSTANCE, TRANSVERSE SHEAR STIFFNESS, SHEAR CENTER"""))}
+NAMES = {name.replace(" ", ""): name for names in PARAMETERS.values() for name in names.split(",")}
 
 
 @dataclass(slots=True)
@@ -59,9 +67,10 @@ def blocks_of(path: Path, seen=(), parameters_=None) -> list:
     given = Parameters() if parameters_ is None else parameters_
     lines = iter(lines_of(path, seen))
     for place, line in lines:
-        line = given.fill(line, place)
         if line.lstrip().startswith("**") or not line.strip():
             continue
+        if not blocks or blocks[-1].keyword != "HEADING" or line.lstrip().startswith("*"):
+            line = given.fill(line, place)
         if not line.lstrip().startswith("*"):
             if not blocks:
                 raise InputFault(f"{place}: data before the first keyword; a deck of Abaqus begins with one, as "
@@ -81,8 +90,10 @@ def blocks_of(path: Path, seen=(), parameters_=None) -> list:
         for word in words[1:]:
             key, _, value = word.partition("=")
             if key.strip():
-                parameters[" ".join(key.split()).upper()] = value.strip()
-        block = Block(" ".join(words[0].split()).upper(), parameters, place)
+                key = " ".join(key.split()).upper()
+                parameters[NAMES.get(key.replace(" ", ""), key)] = value.strip()
+        keyword = " ".join(words[0].split()).upper()
+        block = Block(KEYWORDS.get(keyword.replace(" ", ""), keyword), parameters, place)
         if block.keyword == "INCLUDE":
             blocks += blocks_of(path.parent / parameters.get("INPUT", "").strip('"'), (*seen, path.resolve()), given)
             blocks.append(Block("INCLUDE", parameters, place))

@@ -44,7 +44,7 @@ class JointReader(Reading):
             else:
                 first = whole(fields[1], place)
                 last = whole(fields[2], place) if len(fields) > 2 and fields[2] else first
-                if first > 6:  # temperature and the like
+                if first > 6 or first == last == 0:  # temperature and the like
                     self.note("BOUNDARY", "")
                     continue
                 components = span_of((first, last), place)
@@ -123,6 +123,8 @@ class JointReader(Reading):
         return False
 
     def _equation(self, block: Block, scope, _motion) -> bool | None:
+        if set(block.parameters) & {"REMOVE", "REMOVE ALL"}:
+            return False  # a loss by this parameter
         rows = iter(block.data)
         for place, fields in rows:
             terms, values = whole(fields[0], place), []

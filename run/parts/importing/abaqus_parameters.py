@@ -36,7 +36,7 @@ class Parameters:
             found = self.values[match[1].strip().upper()]
             return str(int(found)) if found == int(found) and abs(found) < 1e15 else repr(found)
 
-        return re.sub(r"<([^<>,]*)>", value, line) if "<" in line else line
+        return re.sub(r"<\s*([A-Za-z_]\w*)\s*>", value, line, flags=re.ASCII) if "<" in line else line
 
     def _value(self, text: str, place: str) -> float:
         tokens, at = [], 0
