@@ -11,7 +11,7 @@ PARAMETERS = ("*PARAMETER\n# a comment\ntall = 2*(1.5e0 + .5) - 1.0  # of a stor
               "step = 1.5*first\n")
 SPC = "         7         0         1         1         1         0         0         0\n"
 CONTROL = ("IRLF,  0\nCGOMEGA,  0., 0., 0.\nSTEF, 5.67E-08\nDMPOPT,ESAV,NO\nNCNV,1,0,0,0,0\nTIMINT,0,STRU\nCRPLIM,0.1,0\n"
-           "MODCONTROL,ON\nQRDOPT,OFF\nEMUNIT,MKS\nTHOPT,FULL\nCM,_ALL,NODE\n")
+           "MODCONTROL,ON\nQRDOPT,OFF\nEMUNIT,MKS\nTHOPT,FULL\nFINI\nOUTRE,ALL\nEN,R5.5,ATTR,       -1\nCM,_ALL,NODE\n")
 # Name, deck, and the same in plain words.
 SAME = {
     "a term a line": ("model.inp", PINNED + EQUATIONS.replace("1., 4", "1.,\n4"), PINNED + EQUATIONS),
@@ -27,6 +27,8 @@ SAME = {
         "3, 0., 0., 6.", "3, 0., 0., <TOP>").replace("*BOUNDARY\n1,", "*BOUNDARY\n<first>,").replace(
             ".3\n*DENSITY", "<slender>\n*DENSITY").replace("*NODE", "*PARAMETER\nslender=step/5\n*NODE", 1), ABAQUS),
     "control of the solution": ("model.cdb", ANSYS + CONTROL, ANSYS),
+    "names of *SET": ("model.cdb", "*set,sid,1\n*set,twice,2\n" + ANSYS.replace("ET,1,188", "et,sid,188").replace(
+        "MP,DENS,1", "MP,DENS,sid") + "D,3,ux,%table%\n", ANSYS + "D,3,UX\n"),
     "heads of supports": ("model.k", DYNA + "*SET_NODE_LIST\n         7\n         2         3\n*BOUNDARY_SPC_SET_ID\n"
                           "         1 the first\n" + SPC + "         2 the second\n" + SPC.replace("1         0         0",
                                                                                              "0         1         1"),
@@ -65,6 +67,10 @@ class Dialects(unittest.TestCase):
             with self.subTest(line[:40]):
                 refused(self, "model.inp", f"*PARAMETER\n{line}\n" + ABAQUS, part, "line 2")
         refused(self, "model.inp", ABAQUS.replace("7850.", "<rho>"), "<rho> is no name of *PARAMETER")
+
+    def test_blocks_of_other_elements_are_a_loss(self):
+        more = "EBLOCK,10,,,2\n(15i9)\n     1163        3        3\n     1164        3        3\n-1\n"
+        refused(self, "model.cdb", ANSYS + more, "EBLOCK OF OTHERS 2 would be lost")
 
     def test_inertia_relief_is_a_loss(self):
         refused(self, "model.cdb", ANSYS + "IRLF,1\n", "IRLF 1 would be lost")

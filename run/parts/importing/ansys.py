@@ -19,12 +19,13 @@ NOTED = {
     NSEL ESEL TYPE MAT REAL SECNUM ESYS RATE CMSEL EXPASS NUMEXP BCSOPTION RESCONTROL DMPRAT MDAMP DMPSTR PSTRES TINTP
     TRNOPT LSCLEAR CMEDIT WPSTYL LSWRITE UNITS CRPLIM DMPOPT NCNV STEF TIMINT MODCONTROL QRDOPT EMUNIT THOPT CM CMGRP CMDELE
     HROPT HARFRQ HROUT NROPT OPNCONTROL ARCLEN CUTCONTROL SOLCONTROL PIVCHECK SNOPTION SPOPT SVTYP SSOPT BUCOPT STABILIZE
-    MONITOR SHOWDISP EXUNIT KEYW NUMSTR ICLWID NSLE ESLN CMLIST PRECISION
+    CEWRITE CNTR ETCON TSHAPE NLDIAG XMLO MONITOR SHOWDISP EXUNIT KEYW NUMSTR ICLWID NSLE ESLN CMLIST PRECISION
     """),
     "loads and steps are not part of the model": names_of("""
     CGOMEGA F SF SFE SFL SFA SFGRAD BF BFE BFUNIF ACEL OMEGA DOMEGA CGLOC CGOMGA DCGOMG CMOMEGA CMDOMEGA CMACEL FK IC INISTATE
     SFCUM FCUM BFCUM BFECUM LDREAD
     """)}
+NOTED = {why: names | {name[:4] for name in names} for why, names in NOTED.items()}  # four letters are enough for ANSYS
 # They take more from other files: macros, archives, sets of data.
 ELSEWHERE = ("/INP", "/INPUT", "*USE", "CDREAD", "LSREAD", "PARRES", "/ASSIGN", "*ULIB", "RESUME", "/PSEARCH", "*VREAD", "*TREAD",
              "NREAD", "EREAD", "MPREAD", "CBDOF", "IGESIN", "PARAIN", "SATIN", "UGIN", "CATIAIN")
@@ -77,13 +78,15 @@ class Reader(Reading):
             self.lose(name, "it reads another file, which is not followed; write one archive with CDWRITE", command.place)
         elif name[0] in "/*_" or "=" in name:
             self.note(name.partition("=")[0], "titles, output and control")
+        elif name == "EN" and command.words[-1:] == ["-1"]:
+            self.note(name, "titles, output and control")  # the end of a block
         elif name == "IRLF" and not command.real(0):
             self.note(name, "titles, output and control")
         elif name in ("ALPHAD", "BETAD"):
             setattr(self.model, "alpha" if name == "ALPHAD" else "beta", command.real(0))
             self.use(name)
         else:
-            self.pass_over(name, command.place, NOTED)
+            self.pass_over(name, command.place, {why: {name} for why, names in NOTED.items() if {name, name[:4]} & names})
 
     # Nodes.
 
@@ -117,7 +120,9 @@ class Reader(Reading):
 
     def _elements(self, command: Command) -> None:
         if command.text(1).upper() != "SOLID":
-            raise InputFault(f"{command.place}: an EBLOCK is of the kind 19,SOLID")
+            self.lose("EBLOCK OF OTHERS", "elements are read in blocks of the kind 19,SOLID; others are of contact and loads",
+                      command.place, max(1, len(command.rows)))
+            return
         rows = iter(command.rows)
         for place, words in rows:
             values = [whole(text, place) for text in words]
@@ -334,7 +339,8 @@ class JointReader(Reading):
         if command.text(0).upper() in ("ALL", "") and self.selects:
             return self.lose("D OF SELECTED NODES", "selections are not followed; name the nodes or a component",
                                   command.place)
-        if command.text(2).upper() not in ("", "%_FIX%") and command.real(2):
+        table = command.text(2)[:1] == "%" and command.text(2).upper() != "%_FIX%"
+        if table or command.text(2).upper() not in ("", "%_FIX%") and command.real(2):
             self.model.said.append(f"{command.place}: a displacement of {command.text(2)} is held at zero")
         nodes = self._nodes(command.text(0), command.place)
         if command.text(4):

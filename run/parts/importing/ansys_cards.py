@@ -45,6 +45,7 @@ class Commands:
         self.lines = lines_of(path)
         self.at = 0
         self.found: list = []
+        self.parameters: dict = {}  # names of *SET -> words
         while self.at < len(self.lines):
             place, line = self._next()
             line = line.split("!")[0]
@@ -53,6 +54,10 @@ class Commands:
                 if not words[0]:
                     continue
                 name = words[0].upper()
+                if name == "*SET" and len(words) > 2:
+                    self.parameters[words[1].upper()] = words[2]
+                elif name[:1].isalpha():  # whole words alone: nothing is computed
+                    words[1:] = [self.parameters.get(word.upper(), word) for word in words[1:]]
                 command = Command(name, words[1:], place)
                 if name in BLOCKS:
                     getattr(self, f"_read_{name.lower()}")(command)

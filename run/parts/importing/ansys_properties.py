@@ -34,7 +34,7 @@ class Properties(Reading):
         self.repeated: list = []  # sections of the same number, and what they were before
         self.last_real: int | None = None
         self.values: dict = {}  # material -> name of LABELS -> value
-        self.handlers = {"ET": self._type, "ETBLOCK": self._types, "KEYOP": self._key, "KEYOPT": self._key,
+        self.handlers = {"ET": self._type, "ETBLOCK": self._types, "KEYO": self._key, "KEYOP": self._key, "KEYOPT": self._key,
                          "R": self._real,
                          "RMORE": self._more, "RLBLOCK": self._reals, "SECTYPE": self._section, "SECDATA": self._data,
                          "SECBLOCK": self._layers, "SECOFFSET": self._offset, "SECCONTROL": self._control,
