@@ -44,6 +44,7 @@ class Result:
     offset: dict = field(default_factory=dict)  # dataset name -> shift of its time stamps [s]
     spectra: dict = field(default_factory=dict)  # column -> array
     impacts: dict = field(default_factory=dict)
+    contact_points: dict = field(default_factory=dict)  # of contact_points.csv: pairs, and the impulse of each
     forces: dict = field(default_factory=dict)  # of forces.csv: largest values
     energy: dict = field(default_factory=dict)
     yielding: dict = field(default_factory=dict)  # of yielding.csv: laws of elements and how far they went
@@ -296,6 +297,7 @@ NAMES = ("probe", "direction", "contact", "item", "component", "element", "law")
 COLUMNS = {
     "spectra": ("probe", "direction", "damping", "frequency", "pseudo_acceleration"),
     "impacts": ("contact", "start", "end", "duration", "impulse"),
+    "contact_points": ("contact", "x", "y", "z", "impulse"),
     "forces": ("item", "component", "element", "peak", "time"),
     "energy": ("time", "kinetic", "strain", "input_work", "residual"),
     "yielding": ("law", "element", "ductility", "x", "y", "z"),
@@ -327,6 +329,7 @@ def load(folder: Path | str) -> Result:
         "summary.json": lambda path: result.summary.update(_read_summary(path)),
         "history.h5": lambda path: _read_history(path, result),
         "spectra.csv": lambda path: result.spectra.update(_read_table(path)),
+        "contact_points.csv": lambda path: result.contact_points.update(_read_table(path)),
         "impacts.csv": lambda path: result.impacts.update(_read_table(path)),
         "forces.csv": lambda path: result.forces.update(_read_table(path)),
         "energy.csv": lambda path: result.energy.update(_read_table(path)),

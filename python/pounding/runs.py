@@ -17,7 +17,7 @@ from .scenes import value_text
 SOURCE = Path(__file__).resolve().parents[2]
 LOG = "log.txt"
 # What a run leaves in its folder, or leaves behind where it is killed.
-RESULTS = ("summary.json", "history.h5", "spectra.csv", "impacts.csv", "energy.csv", "forces.csv", "yielding.csv", "equipment.csv",
+RESULTS = ("summary.json", "history.h5", "spectra.csv", "impacts.csv", "contact_points.csv", "energy.csv", "forces.csv", "yielding.csv", "equipment.csv",
            "resolved.yaml", "modes.h5", "modes.xdmf", "model.h5", "model.xdmf", "fields.h5", "fields.xdmf", "fields.vtkhdf",
            "checkpoint.h5")
 CROWD = 4  # ranks per core; more are a slip

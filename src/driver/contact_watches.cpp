@@ -9,6 +9,7 @@
 #include "interactions/contact_operator.h"
 #include "interactions/interface_rows.h"
 #include "interactions/pairing/interface.h"
+#include "io/csv_file.h"
 #include "system/trace.h"
 
 namespace pounding {
@@ -186,6 +187,14 @@ void ImpactWatch::report(RunStatistics& statistics) {
   on_rank0(run_.comm, [&] {
     write_impacts(run_.scene.output + "/impacts.csv", run_.contact_names(), catalogue_.impacts(),
                   run_.scene.csv_digits);
+    CsvFile points(run_.scene.output + "/contact_points.csv", run_.scene.csv_digits);
+    points.header("contact,x,y,z,impulse");
+    const auto& rows = run_.model.interface.constraints;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      points.row(run_.contact_names()[rows[i].contact],
+                 {rows[i].at[0], rows[i].at[1], rows[i].at[2], catalogue_.row_impulses()[i]});
+    }
+    points.close();
   });
 }
 

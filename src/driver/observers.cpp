@@ -18,7 +18,8 @@ namespace pounding {
 namespace {
 
 /// A new run removes those of an earlier one.
-constexpr std::array tables{"impacts.csv", "energy.csv", "forces.csv", "yielding.csv"};
+constexpr std::array tables{"impacts.csv", "contact_points.csv", "energy.csv", "forces.csv",
+                            "yielding.csv"};
 
 /// A file beside the checkpoint that a run continues; empty for a new run.
 std::string continued_file(const Scene& scene, const char* name) {

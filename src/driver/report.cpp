@@ -177,8 +177,11 @@ void write_summary(const std::string& path, const FinishedRun& run) {
                {"commit", program_commit()}},
               ""};
   add_provenance(run.provenance, facts.values);
-  for (const Building& building : model.buildings) {
-    facts.values["structures"][building.name()] = structure_facts(building).values;
+  for (std::size_t s = 0; s < model.buildings.size(); ++s) {
+    Json& values = facts.values["structures"][model.buildings[s].name()];
+    values = structure_facts(model.buildings[s]).values;
+    const BoundingBox& box = model.interface.extents[s];
+    if (box.low[0] <= box.high[0]) values["extent"] = {box.low, box.high};
   }
   if (model.equilibrium) facts.add("equilibrium", rest_facts(scene, model));
   facts.add("motion", motion_facts(*model.motion));

@@ -86,7 +86,8 @@ ImpactCatalogue::ImpactCatalogue(int contacts, std::vector<int> contact_of_row,
       step_impulse_(static_cast<std::size_t>(contacts), 0.0),
       step_tangential_(static_cast<std::size_t>(contacts)),
       touched_(contact_of_row_.size(), 0),
-      slipped_(contact_of_row_.size(), 0.0) {
+      slipped_(contact_of_row_.size(), 0.0),
+      row_impulses_(contact_of_row_.size(), 0.0) {
   impacts_.reserve(4096);
 }
 
@@ -107,6 +108,7 @@ void ImpactCatalogue::add_step(double time, double duration, const ContactStep& 
   std::fill(step_tangential_.begin(), step_tangential_.end(), Vector3{});
   for (std::size_t row = 0; row < impulses.size(); ++row) {
     step_impulse_[contact_of_row_[row]] += impulses[row];
+    row_impulses_[row] += impulses[row];
   }
   for (std::size_t c = 0; c < open_.size(); ++c) {
     if (!(step_impulse_[c] > 0)) continue;
@@ -172,6 +174,7 @@ void ImpactCatalogue::finish(MPI_Comm comm, int root) {
     if (is_open_[c] != 0) close(c);
   }
   broadcast_array(comm, impacts_, root);
+  broadcast_array(comm, row_impulses_, root);
   std::stable_sort(impacts_.begin(), impacts_.end(),
                    [](const Impact& a, const Impact& b) { return a.start < b.start; });
 }
@@ -182,6 +185,7 @@ void ImpactCatalogue::save(SavedState& saved) const {
   saved.put("impacts_is_open", std::vector<double>(is_open_.begin(), is_open_.end()));
   saved.put("impacts_touched_rows", std::vector<double>(touched_.begin(), touched_.end()));
   saved.put("impacts_slipped_rows", slipped_);
+  saved.put("impacts_impulse_rows", row_impulses_);
   for (std::size_t c = 0; c < windows_.size(); ++c) {
     saved.put("impacts_window_" + std::to_string(c), windows_[c].table(), ForceWindow::columns);
   }
@@ -195,6 +199,7 @@ void ImpactCatalogue::load(const SavedState& saved) {
   saved.get("impacts_is_open", is_open);
   saved.get("impacts_touched_rows", touched);
   saved.get("impacts_slipped_rows", slipped_);
+  saved.get("impacts_impulse_rows", row_impulses_);
   const std::vector<double>& closed = saved.table("impacts", impact_columns);
   if (!names_contacts(closed, open_.size())) saved.refuse_values("impacts");
   if (!names_contacts(open, open_.size())) saved.refuse_values("impacts_open");

@@ -122,6 +122,8 @@ class ImpactCatalogue {
   void load(const SavedState& saved);
 
   const std::vector<Impact>& impacts() const { return impacts_; }
+  /// Impulse of each constraint in the run [N s]; after `finish` on every rank.
+  std::span<const double> row_impulses() const { return row_impulses_; }
   int episodes() const { return static_cast<int>(impacts_.size()) + open_count(); }
   ImpactTotals totals(int contact) const;
   ImpactTotals totals() const;
@@ -142,6 +144,7 @@ class ImpactCatalogue {
   std::vector<Vector3> step_tangential_;    ///< likewise, of friction
   std::vector<char> touched_;               ///< per row, in the open episode
   std::vector<double> slipped_;             ///< per row, path in the open episode [m]
+  std::vector<double> row_impulses_;        ///< per row, of the whole run [N s]
   std::vector<Impact> impacts_;
 };
 

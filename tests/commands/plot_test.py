@@ -8,6 +8,7 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import h5py
 import numpy as np
@@ -15,7 +16,10 @@ import numpy as np
 PLOT = Path(__file__).resolve().parents[2] / "run" / "plot"
 sys.path.insert(0, str(PLOT.parent))
 sys.dont_write_bytecode = True
+sys.path.insert(0, str(PLOT.parents[1] / "python"))
+from parts.plot import contact_figures  # noqa: E402
 from parts.plot.style import envelope  # noqa: E402
+from pounding import results  # noqa: E402
 
 PROBES = {"s1_floor1": ("s1", 2.72), "s1_floor2": ("s1", 5.22), "s2_floor1": ("s2", 2.72),
           "s2_floor2": ("s2", 5.22)}
@@ -129,6 +133,12 @@ def make_folder(folder: Path, samples: int = 20001) -> None:
     (folder / "energy.csv").write_text("\n".join(lines) + "\n")
 
 
+def drawn_by(draw, module, result):
+    """The figure that a function hands over to be written."""
+    with mock.patch.object(module, "save", side_effect=lambda figure, *_, **__: [figure]):
+        return draw(result)[0]
+
+
 def plot(*words):
     return subprocess.run([PLOT, *words], capture_output=True, text=True, timeout=300)
 
@@ -149,12 +159,60 @@ class PlotTest(unittest.TestCase):
             self.assertTrue(image.startswith(b"\x89PNG"), name)
             self.assertGreater(len(image), 10000, name)
         page = (self.folder / "report.html").read_text()
-        self.assertEqual(page.count("data:image/png;base64,"), len(FIGURES))
+        self.assertEqual(page.count("<figure>"), len(FIGURES))
+        panels = [figure.count("data:image/png;base64,") for figure in page.split("<figure>")[1:]]
+        self.assertEqual(sorted(set(panels)), [1, 2, 4])  # of three columns the legend is a picture of its own
         self.assertEqual(re.findall(r"""(?:src|href)\s*=\s*["'](?!data:|#)""", page), [])
         self.assertTrue("http" not in page)
         self.assertTrue("<h1>Two &lt;boxes&gt; &amp; a gap</h1>" in page)
         for expected in ("2.09", "9199", "8\u202f052", "900", "1 × 10⁻¹³", "2.54 × 10⁻⁶"):
             self.assertTrue(expected in page, expected)
+
+    def test_where_they_hit_has_every_pair_every_point_hit_and_the_outlines(self):
+        make_folder(self.folder, 2001)
+        lines = ["contact,x,y,z,impulse"]
+        lines += [f"floor2,2.0,{0.4 * i},5.22,{10.0 * i if i in (1, 4, 5) else 0.0}" for i in range(7)]
+        (self.folder / "contact_points.csv").write_text("\n".join(lines) + "\n")
+        summary = json.loads((self.folder / "summary.json").read_text())
+        summary["contacts"] = {name: {"normal": [1, 0, 0]} for name in CONTACTS}
+        summary["structures"]["s1"]["extent"] = [[0, 0, 0], [2, 2.4, 5.22]]
+        (self.folder / "summary.json").write_text(json.dumps(summary))
+        drawn = drawn_by(contact_figures.impact_places, contact_figures, results.load(self.folder))
+        elevation, plan = drawn.axes
+        self.assertEqual([axes.get_title("left") for axes in drawn.axes], ["On the faces, along y and z", "In plan"])
+        for axes, column in ((elevation, 0), (plan, 1)):
+            pairs, hit = axes.collections[-2:]
+            np.testing.assert_allclose(pairs.get_offsets()[:, column], 0.4 * np.arange(7))
+            np.testing.assert_allclose(hit.get_offsets()[:, column], [0.4, 1.6, 2.0])
+            self.assertEqual([patch.get_bbox().bounds for patch in axes.patches],
+                             [(0, 0, 2.4, 5.22) if axes is elevation else (0, 0, 2, 2.4)])
+        np.testing.assert_allclose(np.diff(hit.get_sizes()) / np.diff(hit.get_sizes())[1], [3, 1])  # areas by impulse
+        self.assertIn("floor2: 2 impacts, 100 N s, 3 of 7 points", [text.get_text() for text in elevation.get_legend().texts])
+
+    def test_the_strongest_impact_has_the_force_over_the_stated_time_and_the_nearest_probes(self):
+        make_folder(self.folder)
+        summary = json.loads((self.folder / "summary.json").read_text())
+        summary["impacts"]["force_window"] = 2e-3
+        summary["contacts"] = {name: {"normal": [0, 1, 0]} for name in CONTACTS}
+        (self.folder / "summary.json").write_text(json.dumps(summary))
+        (self.folder / "contact_points.csv").write_text("contact,x,y,z,impulse\nfloor2,1.1,1.14,5.1,900\n")
+        gap, force, felt = drawn_by(contact_figures.strongest_impact, contact_figures, results.load(self.folder)).axes
+        self.assertIn("2 ms", force.get_ylabel())
+        self.assertIn("acceleration y", felt.get_ylabel())  # across the joint
+        self.assertEqual([line.get_label() for line in felt.lines], ["s1_floor2", "s2_floor2"])
+        time, values = force.lines[CONTACTS.index("floor2")].get_data()
+        flat = values[(time > 2) & (time < 7)]
+        np.testing.assert_allclose(flat, 100, rtol=1e-12)  # 900 N s in 9 ms
+        self.assertAlmostEqual(values[np.abs(time - 0.0).argmin()], 50, delta=11)  # half of the time lies before it; a sample is 10
+
+    def test_floors_at_rest_are_drawn(self):
+        make_folder(self.folder, 2001)
+        lines = (self.folder / "spectra.csv").read_text().splitlines()
+        rest = [",".join([*line.split(",")[:5], "0,0,0"]) for line in lines[2:]]
+        (self.folder / "spectra.csv").write_text("\n".join([*lines[:2], *rest]) + "\n")
+        done = plot(self.folder)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertTrue((self.folder / "answer.png").exists())
 
     def test_what_the_folder_lacks_is_skipped_with_a_word(self):
         make_folder(self.folder)

@@ -26,7 +26,7 @@ ALPHA = (0.3958406743523139, 0.697433569096934)
 ACCELERATION, FREQUENCY = 0.30 * 9.81, 2.6
 TIME_STEP, END = 5e-4, 1.5
 FREE_FLIGHT = 0.3  # s: nothing touches before
-FILES = {"history.h5", "spectra.csv", "impacts.csv", "energy.csv", "summary.json", "resolved.yaml"}
+FILES = {"history.h5", "spectra.csv", "impacts.csv", "contact_points.csv", "energy.csv", "summary.json", "resolved.yaml"}
 
 
 def scene(record, interval, merge_time=1e-3):
@@ -193,6 +193,13 @@ class Labels(unittest.TestCase):
         self.assertEqual(set(self.fine.csv["impacts.csv"]["contact"]), {"gap"})
         numpy.testing.assert_allclose(column["left"], 0.5, atol=1e-6)
         numpy.testing.assert_allclose(column["bottom"], 0.5, atol=1e-6)
+        points = {name: self.fine.column("contact_points.csv", name) for name in ("x", "y", "z", "impulse")}
+        self.assertEqual(len(points["x"]), 4)  # the pairs of the faces, each with a quarter
+        numpy.testing.assert_allclose(points["impulse"], column["impulse"].sum() / 4, rtol=1e-6)
+        places = numpy.stack([points[axis] for axis in "xyz"], 1)
+        self.assertEqual(sorted(map(tuple, places)), [(0, y, z) for y in (0, 1) for z in (0, 1)])
+        boxes = {name: one["extent"] for name, one in self.fine.summary["structures"].items()}
+        self.assertEqual(boxes, {"left": [[-1, 0, 0], [0, 1, 1]], "right": [[0, 0, 0], [1, 1, 1]]})
 
     def test_contact_whose_pairs_are_not_all_alike(self):
         """A face of 3 x 3 nodes that reaches past one of 2 x 2, gaps that differ, a slide: summary, report, history.

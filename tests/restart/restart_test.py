@@ -26,7 +26,7 @@ PAIR = program.COARSE_PAIR + ["-s2_mesh_set", "cells_x=5,cells_y=4,column_elemen
                               "-motion_x_pga", 20, "-motion_x_envelope", "0.02,20", "-modes", 1,
                               "-output_interval", 2e-4]
 
-TABLES = ("impacts.csv", "energy.csv", "spectra.csv")
+TABLES = ("impacts.csv", "contact_points.csv", "energy.csv", "spectra.csv")
 
 
 def history(folder):
@@ -68,7 +68,7 @@ class RestartCase(unittest.TestCase):
         self.assertEqual(checkpoint_step(folder), step)
         return folder
 
-    def assert_same_motion(self, one, other, tables=("impacts.csv", "spectra.csv")):
+    def assert_same_motion(self, one, other, tables=("impacts.csv", "contact_points.csv", "spectra.csv")):
         first, second = history(one), history(other)
         self.assertEqual(set(first), set(second))
         for name, values in first.items():

@@ -26,6 +26,8 @@ def spectra_figure(runs: Runs, probe: str, folder: Path) -> list:
                                 sharey="row", height_ratios=(3, 2))
     for column, way in enumerate(ways):
         upper, lower = grid[:, column]
+        upper.tick_params(labelleft=True)
+        lower.tick_params(labelleft=True)
         values = runs.spectra(probe, way, damping)
         held = values[0] > floor
         for axes in (upper, lower):
@@ -45,7 +47,7 @@ def spectra_figure(runs: Runs, probe: str, folder: Path) -> list:
     g_axis(grid[0, -1])
     grid[1, 0].set_ylabel(f"over {runs.labels[0]}")
     return save(figure, folder, f"spectra_{probe}.png", f"Floor response spectra of {probe}",
-                f"Pseudo-acceleration at {100 * damping:g} % damping, and its ratio to that of {runs.labels[0]}.")
+                f"Pseudo-acceleration at {100 * damping:g} % damping, and its ratio to that of {runs.labels[0]}.", columns=list(grid.T))
 
 
 def _cells(rows: list) -> tuple:

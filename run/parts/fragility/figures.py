@@ -88,7 +88,8 @@ def draw_map(axes, analysis: Analysis) -> str:
 def summary(analysis: Analysis, folder: Path) -> list:
     figure, panels = plt.subplots(1, 2, figsize=(1.35 * WIDTH, 4.6))
     captions = draw_floor(panels[0], analysis), draw_map(panels[1], analysis)
-    return save(figure, folder, "fragility.png", "Floor spectrum and probability of contact", " ".join(captions))
+    return save(figure, folder, "fragility.png", "Floor spectrum and probability of contact", " ".join(captions),
+                columns=[[panels[0]], [axes for axes in figure.axes if axes is not panels[0]]])
 
 
 def scatter_parts(analysis: Analysis, folder: Path) -> list:
@@ -130,11 +131,12 @@ def curves(analysis: Analysis, fits: dict, folder: Path) -> list:
             if isinstance(fit, Fragility):
                 axes.plot(levels / 9.81, fit.probability(levels), color=colour, lw=1.4)
         axes.set_title(name_of(event), fontsize=8)
+        axes.tick_params(labelleft=True)
         axes.set(xlabel="peak ground acceleration [g]", ylim=(-0.03, 1.03))
         axes.legend(fontsize=8)
     panels[0][0].set_ylabel("probability")
     return save(figure, folder, "curves.png", "Fragility curves", "Shares with their intervals, and lognormal curves "
-                "of largest likelihood where the counts allow one, by joint.")
+                "of largest likelihood where the counts allow one, by joint.", columns=[[axes] for axes in panels[0]])
 
 
 def enough(analysis: Analysis, folder: Path) -> tuple:
@@ -163,11 +165,12 @@ def enough(analysis: Analysis, folder: Path) -> tuple:
         axes.axhline(0.1, color="#555555", lw=0.8)
         axes.set(xlabel="members", title="of the mean of logarithms" if logs else "of the mean")
         log_scale(axes, "y", [0.01, 1])
+        axes.tick_params(labelleft=True)
     panels[0].set_ylabel(f"half width of the {100 * study.confidence:g} % interval")
     panels[1].legend(fontsize=8)
     pages = save(figure, folder, "enough.png", "How many motions were enough",
                  f"{found.channels[channel]}, {100 * found.damping[damping]:g} % damping, joint of {1e3 * gap:g} mm, "
-                 f"{level:g} m/s², over the frequencies: the first members of an order drawn by the seed.")
+                 f"{level:g} m/s², over the frequencies: the first members of an order drawn by the seed.", columns=[[axes] for axes in panels])
     return pages, rows
 
 

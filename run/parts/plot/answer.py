@@ -366,7 +366,8 @@ def picture(result: Result) -> list:
         draw_spectrum(panels[-1], result, probe, way, [damping], in_g=True)
         panels[-1].set_title(f"{probe}, {way}, {100 * damping:g} %")
         panels[-1].set(xlabel="frequency [Hz]", ylabel="pseudo-acceleration [m/s²]")
-        panels[-1].legend(loc="best")
+        if panels[-1].get_legend_handles_labels()[0]:
+            panels[-1].legend(loc="best")
     words = ["the gap of the joint that decides"] if name else []
     if floor:
         across = f" along {way} (across that joint)" if _across(result, name) == (way,) else ""
@@ -375,4 +376,5 @@ def picture(result: Result) -> list:
         if result.spectrum_if_any(GROUND, way, damping):
             words[-1] += ", and that of the ground"
     words = "; ".join(words)
-    return save(figure, result.folder, "answer.png", "In one picture", words[:1].upper() + words[1:] + ".")
+    return save(figure, result.folder, "answer.png", "In one picture", words[:1].upper() + words[1:] + ".",
+                columns=[[axes] for axes in panels])

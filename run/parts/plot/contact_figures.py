@@ -46,6 +46,30 @@ def gaps(result: Result) -> list:
                 "Smallest gap over the faces of each contact; positive when open.")
 
 
+def _over(time: np.ndarray, force: np.ndarray, width: float) -> np.ndarray:
+    """Mean of the force over `width` [s] around each time. A sample is the mean over the interval that ends with it."""
+    if not width > np.diff(time).max():
+        return force
+    impulse = np.concatenate([[0.0], np.cumsum(force[1:] * np.diff(time))])
+    return (np.interp(time + width / 2, time, impulse) - np.interp(time - width / 2, time, impulse)) / width
+
+
+def _nearest(result: Result, index: int) -> list:
+    """The two probes that are nearest to an impact, of two structures where both have some; all where nobody knows."""
+    impacts, points, known = result.impacts, result.contact_points, result.summary.get("probes", {})
+    own = points["contact"].astype(str) == str(impacts["contact"][index]) if points else np.array([False])
+    probes = [name for name in result.probes if known.get(name, {}).get("position")]
+    if not own.any() or "lateral" not in impacts or len(probes) < 2:
+        return result.probes
+    _, along = _axes_of(result.summary.get("contacts", {}).get(str(impacts["contact"][index]), {}))
+    pairs = np.stack([points[way][own] for way in DIRECTIONS], 1)
+    at = np.array([impacts["lateral"][index], impacts["vertical"][index]])
+    place = pairs[np.argmin(np.linalg.norm(pairs[:, along] - at, axis=1))]
+    probes.sort(key=lambda name: np.linalg.norm(np.array(known[name]["position"]) - place))
+    other = [name for name in probes if known[name].get("structure") != known[probes[0]].get("structure")]
+    return [probes[0], (other or probes[1:])[0]]
+
+
 def strongest_impact(result: Result) -> list:
     impacts = _impacts(result)
     result.need("gap", "contact_force", "acceleration", "contacts")
@@ -60,20 +84,23 @@ def strongest_impact(result: Result) -> list:
     if len(time[window]) < 2:
         raise Missing("history.h5 does not cover the strongest impact")
     figure, rows = stacked(3, 2.0)
+    width = result.summary.get("impacts", {}).get("force_window") or 0.0
+    near, way = _nearest(result, index), DIRECTIONS[_axes_of(result.summary.get("contacts", {}).get(contact, {}))[0]]
     for i, name in enumerate(result.contacts):
         style = {"color": contact_colour(_names(result), name), "label": name, "lw": 1.4}
         gap = 1e3 * result.history["gap"][window, i]
         known = np.isfinite(gap)
         rows[0].plot(1e3 * (time[window] - start)[known], gap[known], **style)
-        force = result.history["contact_force"][window, i]
+        force = _over(time, result.history["contact_force"][:, i], width)[window]
         rows[1].plot(1e3 * (time[window] - start), 1e-3 * force, **style)
-    for probe in result.probes:
-        series = result.series_if_any("acceleration", probe, "x")
+    for probe in near:
+        series = result.series_if_any("acceleration", probe, way)
         if series is not None:
             rows[2].plot(1e3 * (series[0][window] - start), series[1][window], label=probe,
                          color=probe_colour(result.probes, probe), lw=1.2)
     rows[0].axhline(0, color="black", lw=0.8)
-    for axes, label in zip(rows, ("gap [mm]", "contact force [kN]", "acceleration x,\nas sampled [m/s²]")):
+    over = f"contact force over\n{1e3 * width:.3g} ms [kN]" if width else "contact force [kN]"
+    for axes, label in zip(rows, ("gap [mm]", over, f"acceleration {way},\nas sampled [m/s²]")):
         axes.axvspan(0, 1e3 * (end - start), color="#C0392B", alpha=0.10, lw=0)
         axes.set_ylabel(label)
         if axes.get_legend_handles_labels()[0]:
@@ -82,7 +109,8 @@ def strongest_impact(result: Result) -> list:
                       f"in {1e3 * impacts['duration'][index]:.3g} ms")
     rows[2].set_xlabel(f"time after {start:.6g} s [ms]")
     return save(figure, result.folder, "strongest_impact.png", "The strongest impact",
-                "Gap, total contact force and floor accelerations around the impact with the "
+                f"Gap, contact force{' as the mean over the stated time around each moment' if width else ''}, and accelerations "
+                f"of the {'probes nearest to the place' if len(near) < len(result.probes) else 'probes'} around the impact with the "
                 "largest impulse. Shaded: from its first to its last contact. Accelerations are the samples themselves; "
                 "where an impact acts at a probe their peaks grow with finer samples, those of the table of peaks do not.")
 
@@ -107,7 +135,8 @@ def impact_catalogue(result: Result) -> list:
     right.legend(loc="best")
     right.grid(True, which="minor", lw=0.3)
     return save(figure, result.folder, "impacts.png", "Impact catalogue",
-                "Every impact: impulse and duration, by contact (number of impacts in brackets).")
+                "Every impact: impulse and duration, by contact (number of impacts in brackets).",
+                columns=[[left], [right]])
 
 
 def energy_balance(result: Result) -> list:
@@ -142,7 +171,7 @@ def energy_balance(result: Result) -> list:
 
 def _axes_of(contact: dict) -> tuple:
     """The axis of the normal, and the two along the face in their order."""
-    normal = int(np.argmax(np.abs(contact["normal"])))
+    normal = int(np.argmax(np.abs(contact.get("normal") or (1, 0, 0))))
     return normal, [axis for axis in range(3) if axis != normal]
 
 
@@ -155,7 +184,32 @@ def _parts(result: Result) -> list:
 
 def _areas(impulse: np.ndarray, largest: float) -> np.ndarray:
     """Of circles [points squared], in proportion to the impulse."""
-    return 12 + 900 * impulse / largest
+    return 12 + 400 * impulse / largest
+
+
+def _hit_points(result: Result, name: str, along: list) -> tuple:
+    """Places (n, 3) [m] and impulses [N s] of the pairs of a contact; without the table of them the means of its impacts."""
+    table = result.contact_points
+    own = table["contact"].astype(str) == name if table else np.array([False])
+    if own.any():
+        return np.stack([table[way][own] for way in DIRECTIONS], 1), table["impulse"][own]
+    impacts = result.impacts
+    own = impacts["contact"].astype(str) == name
+    places = np.full((own.sum(), 3), np.nan)
+    places[:, along[0]], places[:, along[1]] = impacts["lateral"][own], impacts["vertical"][own]
+    return places, impacts["impulse"][own]
+
+
+def _outlines(axes, result: Result, first: int, second: int) -> None:
+    """The extent of each structure in the plane of two axes."""
+    boxes = {}
+    for name, structure in result.summary.get("structures", {}).items():
+        for low, high in [structure["extent"]] if structure.get("extent") else []:
+            boxes.setdefault((low[first], low[second], high[first], high[second]), []).append(name)
+    for (left, bottom, right, top), names in boxes.items():
+        axes.add_patch(plt.Rectangle((left, bottom), right - left, top - bottom, fill=False, ec="#888888", lw=0.9, ls="--", zorder=0.5))
+        axes.annotate(", ".join(names), (left, bottom), xytext=(3, 3), textcoords="offset points", fontsize=8, color="#666666")
+        axes.autoscale_view()
 
 
 def impact_places(result: Result) -> list:
@@ -164,45 +218,37 @@ def impact_places(result: Result) -> list:
         raise Missing("no impact" if impacts else "no impacts.csv")
     if "lateral" not in impacts or not contacts:
         raise Missing("impacts.csv has no places, or summary.json no contacts")
-    names = [name for name in contacts if (impacts["contact"].astype(str) == name).any()]
-    parts, largest = _parts(result), impacts["impulse"].max()
-    figure, (elevation, plan) = plt.subplots(1, 2, figsize=(WIDTH, 4.2))
-    for part in parts:  # nodes of the faces that may touch
-        for first, second in sorted({tuple(_axes_of(contacts[name])[1]) for name in names}):
-            elevation.scatter(part.points[:, first], part.points[:, second], s=0.3, color="#CCCCCC", zorder=0)
-        for name in names:
-            nodes = part.points[part.contacts.get(name, [])]
-            _, (first, second) = _axes_of(contacts[name])
-            elevation.scatter(nodes[:, first], nodes[:, second], s=3, color="#999999", zorder=1)
-        plan.scatter(*part.points[:, :2].T, s=0.3, color="#CCCCCC", zorder=1)
-    labels = set()
-    for name in names:
-        own = impacts["contact"].astype(str) == name
-        normal, along = _axes_of(contacts[name])
-        labels.add(tuple(DIRECTIONS[axis] for axis in along))
-        colour = contact_colour(result.contacts, name)
-        sizes = _areas(impacts["impulse"][own], largest)
-        total = impacts["impulse"][own].sum()
-        elevation.scatter(impacts["lateral"][own], impacts["vertical"][own], s=sizes, color=colour, alpha=0.35,
-                          edgecolor=colour, zorder=2, label=f"{name}: {own.sum()}, {readable(total)} N s")
-        faces = [part.points[part.contacts[name]] for part in parts if name in part.contacts]
-        if normal == 2 or not faces:
-            continue
-        place = np.zeros((own.sum(), 3))
-        place[:, normal] = np.concatenate(faces)[:, normal].mean()
-        place[:, along[0]], place[:, along[1]] = impacts["lateral"][own], impacts["vertical"][own]
-        plan.scatter(place[:, 0], place[:, 1], s=sizes, color=colour, alpha=0.35, edgecolor=colour, zorder=2)
-    first, second = (" or ".join(sorted({pair[i] for pair in labels})) for i in range(2))
-    elevation.set(title="On the faces", xlabel=f"{first} [m]", ylabel=f"{second} [m]")
-    elevation.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), markerscale=0.3)
-    plan.set(title="In plan", xlabel="x [m]", ylabel="y [m]")
-    if not parts:  # no mesh in the folder
-        plan.remove()
-    for axes in (elevation, plan) if parts else (elevation,):
+    hit = {name: int((impacts["contact"].astype(str) == name).sum()) for name in contacts}
+    planes = {name: _axes_of(contacts[name])[1] for name in contacts if hit[name]}
+    points = {name: _hit_points(result, name, plane) for name, plane in planes.items()}
+    parts, largest = _parts(result), max(impulse.max() for _, impulse in points.values())
+    in_plan = parts or not all(np.isnan(places).any() for places, _ in points.values())
+    views = sorted({tuple(plane) for plane in planes.values()} | ({(0, 1)} if in_plan else set()), reverse=True)
+    figure, grid = plt.subplots(1, len(views), figsize=(WIDTH, 4.2), squeeze=False)
+    for axes, (first, second) in zip(grid[0], views):
+        for part in parts:
+            axes.scatter(part.points[:, first], part.points[:, second], s=0.3, color="#CCCCCC", zorder=0)
+        _outlines(axes, result, first, second)
+        for name, (places, impulse) in points.items():
+            if (first, second) not in ((0, 1), tuple(planes[name])) or np.isnan(places[:, [first, second]]).any():
+                continue
+            colour, felt = contact_colour(result.contacts, name), impulse > 0
+            if result.contact_points:
+                axes.scatter(places[:, first], places[:, second], s=7, color="#777777", marker="s", lw=0, zorder=1)
+            count = f", {felt.sum()} of {len(felt)} points" if result.contact_points else ""
+            axes.scatter(places[felt, first], places[felt, second], s=_areas(impulse[felt], largest), color=colour, alpha=0.35,
+                         edgecolor=colour, zorder=2, label=f"{name}: {hit[name]} impact{'' if hit[name] == 1 else 's'}, "
+                         f"{readable(impulse.sum())} N s{count}")
+        axes.set(title="In plan" if (first, second) == (0, 1) else f"On the faces, along {DIRECTIONS[first]} and {DIRECTIONS[second]}",
+                 xlabel=f"{DIRECTIONS[first]} [m]", ylabel=f"{DIRECTIONS[second]} [m]")
         axes.set_aspect("equal", "datalim")
+        axes.margins(0.12)
+        if (first, second) != (0, 1):
+            axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), markerscale=0.3)
     return save(figure, result.folder, "impact_places.png", "Where they hit",
-                "Each impact at the mean place of its impulses, the area of its circle in proportion to its impulse; "
-                f"the largest is {readable(largest)} N s. Grey: nodes.")
+                "Each point that was hit, the area of its circle in proportion to the impulse that it took in all; the largest "
+                f"is {readable(largest)} N s. Squares: all pairs of the joints that closed; dashed: the extent of each structure"
+                + ("; grey: nodes." if parts else "."), columns=[[axes] for axes in grid[0]])
 
 
 JOINT = [gaps, strongest_impact, impact_catalogue, impact_places]

@@ -84,6 +84,8 @@ def _figure(run: Result, name: str, one: dict) -> list:
     figure, grid = plt.subplots(2, len(ways), figsize=(max(WIDTH, 3.6 * len(ways)), 5.4), squeeze=False, sharex=True,
                                 sharey="row", height_ratios=(3, 2))
     for (upper, lower), way in zip(grid.T, ways):
+        upper.tick_params(labelleft=True)
+        lower.tick_params(labelleft=True)
         drawn = [("required", run, WITH, "-")]
         if twin and name in items(twin) and twin.equipment:
             drawn.insert(0, ("required without pounding", twin, WITHOUT, "--"))
@@ -110,7 +112,7 @@ def _figure(run: Result, name: str, one: dict) -> list:
     return save(figure, run.folder, f"equipment_{name}.png", f"Equipment: {name}",
                 f"Spectrum that the floor at {one['probe']} asks for ({100 * one['damping']:g} % damping, widened by "
                 f"{100 * one['broadening']:g} %) beside the capacity; below their ratio, of which {one['needed']:.3g} (dotted) "
-                "is needed. Grey frequencies do not count.")
+                "is needed. Grey frequencies do not count.", columns=list(grid.T))
 
 
 def _left_out(frequency: np.ndarray, counted: np.ndarray) -> list:

@@ -125,7 +125,7 @@ def loops(result: Result) -> list:
                                              result.history["link_force"][:, k]) for k in members})
     return save(figure, result.folder, "loops.png", "Loops",
                 "Force over elongation of the links recorded, those that took most energy in each group, with the "
-                "energy of each. Springs that press only and fillers count compression as elongation.")
+                "energy of each. Springs that press only and fillers count compression as elongation.", columns=list(panels.T))
 
 
 ALL = [forces, loops]

@@ -25,6 +25,8 @@ th, td { padding: 0.25em 0.8em; text-align: right; border-bottom: 1px solid #ddd
 th { border-bottom: 2px solid #888; } th:first-child, td:first-child { text-align: left; }
 td.text, th.text { text-align: left; overflow-wrap: anywhere; min-width: 6em; } td.hash { font: 0.8em monospace; text-align: left; overflow-wrap: anywhere; }
 figure { margin: 1.5em 0; } img { max-width: 100%; height: auto; }
+.panels { display: flex; flex-wrap: wrap; align-items: flex-start; justify-content: center; }
+.legend { flex: 0 0 100%; text-align: center; }
 figcaption, .note, .from { color: #555; font-size: 0.9em; }
 .answer { border-left: 5px solid #08519C; padding: 0.1em 1.2em; background: #f4f7fb; }
 .answer.touched { border-color: #C0392B; background: #fdf5f4; }
@@ -33,15 +35,16 @@ nav ul { columns: 3 14em; padding-left: 1.2em; font-size: 0.9em; } nav a { color
 h1, code { overflow-wrap: anywhere; } summary { cursor: pointer; margin: 0.4em 0; } .small table { font-size: 0.75em; }
 @page { size: A4; margin: 16mm 14mm 18mm 14mm;
   @bottom-right { content: counter(page) " / " counter(pages); font: 8pt sans-serif; color: #555; } }
-@media (max-width: 40em) { body { margin: 1em auto; } h1 { font-size: 1.25em; } th, td { padding: 0.25em 0.4em; } }
+@media (max-width: 40em) { body { margin: 1em auto; } h1 { font-size: 1.25em; } th, td { padding: 0.25em 0.4em; }
+  .panels img { width: 100% !important; } }
 @media print {
   body { font-size: 10pt; line-height: 1.4; margin: 0; max-width: none; padding: 0; }
   h1 { font-size: 16pt; } h2 { font-size: 13pt; } h2, h3, caption { break-after: avoid; }
   figure, tr, .answer, .together { break-inside: avoid; } thead { display: table-header-group; }
-  table.short { break-inside: avoid; } .page { break-before: page; } h2 { margin-top: 1.4em; } #view .bar { display: none !important; }
+  table.short { break-inside: avoid; } h2 { margin-top: 1.4em; } #view .bar { display: none !important; }
   th, td { padding: 0.15em 0.6em; } table { max-width: 100%; } .rows { overflow: visible; } .screen { display: none; }
   table.wide { font-size: 0.68em; } .wide th, .wide td { padding: 0.1em 0.3em; overflow-wrap: anywhere; }
-  figure { margin: 0.8em 0; } img { max-height: 235mm; }
+  figure { margin: 0.8em 0; } img { max-height: 235mm; object-fit: contain; }
 }
 """
 
@@ -92,11 +95,17 @@ def html_table(caption: str, header: list, rows: list, text: tuple = (), hashes:
 
 
 def html_figure(folder: Path, page: dict, level: int = 2) -> str:
-    """A figure with its picture in it, under a title of that level."""
-    image = base64.b64encode((folder / page["file"]).read_bytes()).decode()
+    """A figure with its picture in it, under a title of that level; its panels, where it has some, below each other on
+    a narrow page."""
     title = escape(page["title"])
-    return (f'<div class="together"><h{level}>{title}</h{level}>\n<figure><img alt="{title}" '
-            f'src="data:image/png;base64,{image}"><figcaption>{escape(page["caption"])}</figcaption></figure></div>\n')
+    legends, panels = page.get("panels") or (0, [(1.0, (folder / page["file"]).read_bytes())])
+    images = ""
+    for number, (part, image) in enumerate(panels):
+        width = f' style="width: {99.9 * part:.3f}%"' if part < 1 else ""
+        one = f'<img alt="{title}"{width} src="data:image/png;base64,{base64.b64encode(image).decode()}">'
+        images += f'<div class="legend">{one}</div>' if number < legends else one
+    return (f'<div class="together"><h{level}>{title}</h{level}>\n<figure><div class="panels">{images}</div>'
+            f'<figcaption>{escape(page["caption"])}</figcaption></figure></div>\n')
 
 
 def paragraphs(lines: list) -> str:

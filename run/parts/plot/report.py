@@ -28,10 +28,9 @@ class _Drawn:
         return text
 
 
-def _part(title: str, content: str, page: bool = True) -> str:
-    """A part of the report, on a page of its own; nothing of no content."""
-    kind = ' class="page"' if page else ""
-    return f"<h2{kind}>{escape(title)}</h2>\n{content}" if content else ""
+def _part(title: str, content: str) -> str:
+    """A part of the report; nothing of no content."""
+    return f"<h2>{escape(title)}</h2>\n{content}" if content else ""
 
 
 def _design_spectra(result: Result) -> str:
@@ -51,7 +50,7 @@ def _found(result: Result, drawn: _Drawn) -> str:
     forces = result_tables.force_table(result, twin) + drawn.html(*force_figures.ALL)
     energy = result_tables.energy_table(result) + drawn.html(contact_figures.energy_balance)
     return (_part("Equipment", items) + _part("Yielding", result_tables.yield_table(result)) + _part("The joints", joints)
-            + _part("The floors", floors) + _part("Forces and links", forces) + _part("Energy", energy, page=False))
+            + _part("The floors", floors) + _part("Forces and links", forces) + _part("Energy", energy))
 
 
 def _computed(result: Result, drawn: _Drawn) -> str:

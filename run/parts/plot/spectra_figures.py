@@ -36,13 +36,16 @@ def _curves(result: Result, probe: str, way: str, dampings: list) -> list:
                                  (own, "with pounding" if beside else "floor", {"color": WITH, "lw": 1.5})):
             if run:
                 found.append((label if strength == 1 else None, *run, {**look, "alpha": strength}))
-    largest = max(values.max() for _, _, values, _ in found)
+    largest = max((values.max() for _, _, values, _ in found), default=0.0)
     return [curve for curve in found if curve[2].max() > _DEPTH * largest]
 
 
 def draw_spectrum(axes, result: Result, probe: str, way: str, dampings: list, in_g: bool = False) -> None:
     """Spectra of a probe along one direction on logarithmic axes, with a second axis in g on the right."""
     curves = _curves(result, probe, way, dampings)
+    if not curves:  # nothing moved
+        axes.text(0.5, 0.5, "does not move", transform=axes.transAxes, ha="center", color="#777777")
+        return
     log_scale(axes, "x", np.concatenate([frequency for _, frequency, *_ in curves]))
     largest = max(values.max() for _, _, values, _ in curves)
     held = [np.where(values > _DEPTH * largest, values, np.nan) for _, _, values, _ in curves]
@@ -76,6 +79,7 @@ def _figure(result: Result, probes: list, ways: list, dampings: list, number: in
                 continue
             draw_spectrum(axes, result, probe, way, dampings, in_g=way == moving[-1])
             axes.set_title(f"{probe}, {way}")
+            axes.tick_params(labelleft=True)
             drawn.append(axes)
         row[0].set_ylabel("pseudo-acc. [m/s²]")
     for axes in grid[-1]:
@@ -90,7 +94,8 @@ def _figure(result: Result, probes: list, ways: list, dampings: list, number: in
     return save(figure, result.folder, "spectra.png" if number == 1 else f"spectra_{number}.png",
                 "Floor response spectra" + (f" ({number} of {of})" if of > 1 else ""),
                 f"Pseudo-acceleration at {percent}; g on the right.{beside} Dotted: modes of the structure that move "
-                f"in that direction and carry {100 * MODE_SHARE:g} % of its mass or more.")
+                f"in that direction and carry {100 * MODE_SHARE:g} % of its mass or more.",
+                columns=list(grid.T))
 
 
 def response_spectra(result: Result) -> list:

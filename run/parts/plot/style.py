@@ -2,6 +2,7 @@
 
 import io
 import itertools
+import math
 from pathlib import Path
 
 import matplotlib
@@ -108,14 +109,36 @@ def stacked(rows: int, height: float = 1.9, sharey: bool = False):
     return figure, axes.ravel()
 
 
-def save(figure, folder: Path, name: str, title: str, caption: str) -> list:
-    """Writes the PNG, in 256 colours, which takes a third of the room; returns what the report needs to show it."""
+def _panels(figure, picture, columns: list) -> tuple | None:
+    """The picture cut between its columns of axes, so that a narrow page can show them below each other: how many of
+    its pieces are legends above them, which come first, and (part of the width, PNG) of each."""
+    drawn = [[axes.get_tightbbox() for axes in column if axes.get_visible()] for column in columns]
+    ends = [(min(box.x0 for box in boxes), max(box.x1 for box in boxes)) for boxes in drawn if boxes]
+    if len(ends) < 2:
+        return None
+    cuts = [0, *(round((left[1] + right[0]) / 2) for left, right in zip(ends, ends[1:])), picture.width]
+    legends = [legend.get_window_extent() for legend in figure.legends]
+    top = max((picture.height - math.floor(box.y0) for box in legends), default=0)
+    pieces = [(math.floor(box.x0), 0, math.ceil(box.x1), top) for box in legends]
+    pieces += [(left, top, right, picture.height) for left, right in zip(cuts, cuts[1:])]
+    found = []
+    for piece in pieces:
+        held = io.BytesIO()
+        picture.crop(piece).save(held, optimize=True, format="png")
+        found.append(((piece[2] - piece[0]) / picture.width, held.getvalue()))
+    return len(legends), found
+
+
+def save(figure, folder: Path, name: str, title: str, caption: str, columns: list = ()) -> list:
+    """Writes the PNG, in 256 colours, which takes a third of the room; returns what the report needs to show it.
+    `columns`: lists of axes that stand side by side, from the left, which a narrow page shows below each other."""
     figure.align_ylabels()
     drawn = io.BytesIO()
     figure.savefig(drawn, format="png")
-    plt.close(figure)
     colours = Image.open(drawn).convert("RGB").quantize(256, dither=Image.Dither.NONE)
+    panels = _panels(figure, colours, columns)
+    plt.close(figure)
     name = file_name(name)
     with written_beside(folder / name) as draft:
         colours.save(draft, optimize=True, format="png")
-    return [{"file": name, "title": title, "caption": caption}]
+    return [{"file": name, "title": title, "caption": caption, "panels": panels}]

@@ -125,7 +125,8 @@ def draw(rows: list, axes: list, folder: Path) -> list:
         axes_of.set_xlabel(axis.title if axis else "member, in the order of the table")
     if any(groups):
         panels[0][0].legend(loc="best", fontsize=7)
-    return save(figure, folder, "sweep.png", "Sweep", "Strongest impulse and largest floor spectrum.")
+    return save(figure, folder, "sweep.png", "Sweep", "Strongest impulse and largest floor spectrum.",
+                columns=list(panels.T))
 
 
 def _is_joint(axis) -> bool:

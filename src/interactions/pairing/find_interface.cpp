@@ -283,6 +283,7 @@ class PairFinder {
     if (contact_.sliding > 0 && !watches_) constraint.facet_size = 2 * contact_.sliding;
     const auto [a, b] = report_.tangent_axes;
     const Vector3& n = report_.normal;
+    constraint.at = x;
     constraint.place = {x[a], x[b]};
     // A plane seen along the third axis is shorter by |n| of it along (n_a, n_b).
     const double third = std::abs(n[3 - a - b]);
@@ -373,6 +374,7 @@ Interface find_interface(const Scene& scene, std::span<const GlobalMesh> meshes,
                          std::vector<GapShare>* shares) {
   Interface interface;
   interface.model_size = bounding_box(meshes).longest_side();
+  for (const GlobalMesh& mesh : meshes) interface.extents.push_back(bounding_box({&mesh, 1}));
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
     if (scene.contacts[c].stop) {
       add_stop_rows(scene, meshes, static_cast<int>(c), interface, shares);

@@ -83,7 +83,8 @@ struct Constraint {
   double geometric_gap = 0;       ///< of the meshes, between the surfaces of shells [m]
   double facet_size = 0;          ///< of the facet that it faces, or twice how far pairs may slide
                                   ///< where they are found anew; 0: a wall, endless [m]
-  std::array<double, 2> place{};  ///< secondary node on the tangent axes [m]
+  Vector3 at{};                   ///< secondary node [m]
+  std::array<double, 2> place{};  ///< and on the tangent axes [m]
   std::array<double, 2> level{};  ///< and in the mean plane of the face, lengths kept [m]
   bool matched = false;           ///< faces one primary node exactly
   double friction = 0;            ///< Coulomb's coefficient [-]
@@ -131,6 +132,7 @@ struct Interface {
   std::vector<Constraint> constraints;  ///< in the order of the contacts, nodes in file order
   std::vector<InterfaceReport> reports;
   SlidingFaces sliding;
+  std::vector<BoundingBox> extents;   ///< per structure
   double model_size = 0;              ///< largest extent of the scene [m]
   std::vector<std::string> warnings;  ///< doubts; rank 0 only
   /// Rows of second passes that are not taken: they never act, and a run looks how far nodes of the
@@ -157,6 +159,7 @@ void pass_rows(Stream& stream, AnyInterface& interface) {
     stream(row.initial_gap);
     stream(row.geometric_gap);
     stream(row.facet_size);
+    stream(row.at);
     stream(row.place);
     stream(row.level);
     stream(row.matched);
@@ -170,6 +173,7 @@ void pass_rows(Stream& stream, AnyInterface& interface) {
   stream.array(sliding.facets);
   stream.array(sliding.rows);
   stream.array(sliding.candidates);
+  stream.array(interface.extents);
   stream(interface.model_size);
 }
 

@@ -122,6 +122,7 @@ class StopRows {
       row.initial_gap = contact_.gap.values[side];
       row.geometric_gap = dot(normal, way);
       row.friction = contact_.friction;
+      row.at = here;
       for (std::size_t t = 0; t < 2; ++t) {
         row.place[t] = here[static_cast<std::size_t>(report_.tangent_axes[t])];
       }
