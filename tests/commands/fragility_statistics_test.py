@@ -1,14 +1,20 @@
 """Statistics of pounding.fragility: intervals that hold as often as they say, curves that are found again, samples."""
 import os
+import shutil
 import sys
+import tempfile
 import unittest
+from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import program
 from scipy import stats
 
 sys.path.insert(0, os.path.join(program.SOURCE, "python"))
+sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 sys.dont_write_bytecode = True
+from parts.fragility import figures, report, study  # noqa: E402
 from pounding import fragility  # noqa: E402
 
 LEVELS = np.array([1.0, 1.5, 2.0, 3.0, 4.0, 6.0])
@@ -189,6 +195,43 @@ class Samples(unittest.TestCase):
         self.assertAlmostEqual(fragility.correlations([first, mixed])[0, 1], 0.3 / np.sqrt(1.09), delta=0.03)
         self.assertEqual(fragility.independent([first, mixed, second], 0.16, 3), [0, 2])
         self.assertAlmostEqual(fragility.correlations([first, first[:2000]])[0, 1], np.sqrt(0.5), delta=0.03)
+
+
+class OneLevel(unittest.TestCase):
+    """A study of one level has a bar for each joint, and words that fit."""
+
+    def setUp(self):
+        hits = {0.01: 4, 0.02: 2, None: 0}
+        self.study = SimpleNamespace(levels=[4.0], gaps=[0.01, 0.02], samples=4, confidence=0.95, scene=Path("none.yaml"), options={},
+                                     joints={"roof": study.Joint((0.001, -0.001))})
+        self.analysis = SimpleNamespace(study=self.study, gaps_of=lambda event: list(hits),
+                                        hits=lambda event, gap: np.arange(4)[:, None] < hits[gap])
+
+    def test_bars_by_joint(self):
+        figure, axes = figures.plt.subplots()
+        self.addCleanup(figures.plt.close, figure)
+        figures.draw_bars(axes, self.analysis, "contact")
+        self.assertEqual([bar.get_height() for bar in axes.patches], [1.0, 0.5, 0.0])
+        self.assertEqual([label.get_text() for label in axes.get_xticklabels()], ["10 mm", "20 mm", "apart"])
+        low, high = fragility.binomial_interval(2, 4)
+        ends = axes.collections[0].get_segments()[1][:, 1]
+        np.testing.assert_allclose(ends, [low, high])
+
+    def test_words(self):
+        self.assertEqual(report.touching({}, self.analysis), ["Joint of 10 mm: touches in 100 % of the cases at 4 m/s2 (40 to 100).",
+                                                              "Joint of 20 mm: touches in 50 % of the cases at 4 m/s2 (6.8 to 93)."])
+        self.assertEqual([report.percent(part) for part in (0.0052, 0.74, 0.9949, 1)], ["0.52", "74", "99", "100"])
+        self.assertEqual([report.counted([1], "level"), report.counted([1, 2], "joint")], ["1 level", "2 joints"])
+
+    def test_the_scene_s_own_joint_is_shown(self):
+        folder = Path(tempfile.mkdtemp(prefix="pounding-"))
+        self.addCleanup(shutil.rmtree, folder)
+        (folder / "walls.yaml").write_text('roof: {gap: "0.021,0.019"}\n')
+        (folder / "scene.yaml").write_text("include: walls.yaml\nroof: {secondary: a}\n")
+        self.study.scene = folder / "scene.yaml"
+        self.assertEqual(study.own_gap(self.study), 0.02)
+        self.study.options = {"roof_gap": "0.5"}
+        self.assertIsNone(study.own_gap(self.study))
 
 
 if __name__ == "__main__":

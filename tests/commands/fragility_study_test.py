@@ -24,7 +24,7 @@ STUDY = {
     "options": {**two_buildings.SHORT, "probes": "left_roof", "output_interval": 2e-4,
                 "left_columns_element": "euler_beam", "right_columns_element": "euler_beam"},
     "reduction": {name: {"model": "modal", "modal_vectors": 12} for name in ("left", "right")},
-    "motions": {"choose": 3, "correlation": 0.4,
+    "motions": {"choose": 3, "correlation": 0.4, "between_samples": True,
                 "x": {"target": str(two_buildings.FOLDER / "ground.csv"),
                       "options": {"duration": 6, "envelope": "0.3,4"}}},
     "levels": [2.0, 5.0],
@@ -283,9 +283,15 @@ class Study(unittest.TestCase):
 
     @program.long
     def test_motions_that_depend_on_each_other_are_told(self):
-        seeds = {"correlation": 1e-4, "x": {**STUDY["motions"]["x"], "seeds": [1, 2]}}
+        seeds = {"correlation": 1e-4, "between_samples": True, "x": {**STUDY["motions"]["x"], "seeds": [1, 2]}}
         self.refuse("1 of 1 pairs are correlated by 0.0001 or more, x 1 and x 2 by", "--dry-run", motions=seeds)
         self.refuse("joints: roof", "--dry-run", joints={"roof": {"shape": "1,2,3"}})
+        # Without a word it is the limit of components that act together: two samples may depend on each other.
+        free = {"correlation": 1e-4, "x": {**STUDY["motions"]["x"], "seeds": [1, 2]}}
+        said = self.fragility("--dry-run", out="free", motions=free).stdout
+        self.assertRegex(said, "largest correlation of two motions of different samples 0\\.[0-9]+;")
+        both = {**free, "y": {**STUDY["motions"]["x"], "seeds": [2, 1]}}
+        self.refuse("2 of 2 pairs are correlated by 0.0001 or more", "--dry-run", motions=both)
         told = {"correlation": 0.9, "x": {**STUDY["motions"]["x"], "seeds": [1, 2]}}
         factor = {"left_stiffness_factor": {"distribution": "lognormal", "cov": 0.1}}
         self.refuse("floor9_gap", "--dry-run", motions=told, joints={"floor9": {}})
@@ -294,7 +300,7 @@ class Study(unittest.TestCase):
         self.refuse("'cab' is no probe", "--dry-run", motions=told, reduction={},
                     capacities=[{**STUDY["capacities"][0], "probe": "cab"}])
         record = program.write_samples(np.sin(np.arange(300) / 9), 0.01)
-        twice = {"x": {"records": [record, record], "options": {"unit": "m/s2"}}}
+        twice = {"between_samples": True, "x": {"records": [record, record], "options": {"unit": "m/s2"}}}
         self.refuse("x " + os.path.basename(record), "--dry-run", motions=twice)
 
 

@@ -9,16 +9,19 @@ from parts.plot.style import WIDTH, WITH, WITHOUT, g_axis, log_scale, plt, save
 from pounding.fragility import Fragility, binomial_interval, moments, scatter
 
 from .analysis import CONTACT, EXCEEDED, Analysis, gap_text, name_of
+from .study import own_gap
 
 COLOURS = ("#08519C", "#0072B2", "#009E73", "#E69F00", "#D55E00", "#B2182B", "#762A83")
 STEPS = 40  # contours of the map between two levels
 
 
 def shown(analysis: Analysis) -> tuple:
-    """Gap, level, channel and damping ratio that figures of spectra show: those of `show`, else the cell that touches
-    in about half of its members, and there the channel whose mean pounding raises most, of those that move without."""
+    """Gap, level, channel and damping ratio that figures of spectra show: those of `show`, else the joint of the scene
+    where the study has it, in the cell that touches in about half of its members, and there the channel whose mean
+    pounding raises most, of those that move without."""
     study, found = analysis.study, analysis.outcomes
-    share = {(gap, level): analysis.hits(CONTACT, gap)[:, k].mean() for gap in study.gaps
+    own = own_gap(study)
+    share = {(gap, level): analysis.hits(CONTACT, gap)[:, k].mean() for gap in ([own] if own is not None else study.gaps)
              for k, level in enumerate(study.levels)}
     best = max(share, key=lambda cell: (-abs(share[cell] - 0.5), cell[1]))
     gap, level = (float(study.show.get(key, default)) for key, default in zip(("gap", "level"), best))
@@ -85,9 +88,28 @@ def draw_map(axes, analysis: Analysis) -> str:
             "Pearson; lines: joints beyond which so many of the runs without pounding would need to be apart.")
 
 
+def draw_bars(axes, analysis: Analysis, event) -> str:
+    """The probability of an event at the only level, a bar for each joint with its interval; returns its caption."""
+    study, gaps = analysis.study, analysis.gaps_of(event)
+    counts = np.array([analysis.hits(event, gap)[:, 0].sum() for gap in gaps])
+    low, high = binomial_interval(counts, study.samples, study.confidence)
+    share = counts / study.samples
+    axes.bar(range(len(gaps)), share, width=0.6, color=[WITHOUT if gap is None else WITH for gap in gaps], alpha=0.7,
+             yerr=np.clip([share - low, high - share], 0, None), capsize=4, ecolor="#333333")
+    axes.set_xticks(range(len(gaps)), ["apart" if gap is None else f"{1e3 * gap:g} mm" for gap in gaps])
+    axes.set(ylim=(0, 1.03), xlabel="nominal joint", ylabel="probability")
+    axes.grid(axis="x", visible=False)
+    return (f"{study.samples} members in each joint at {study.levels[0]:g} m/s², with the {100 * study.confidence:g} % interval of "
+            "Clopper and Pearson.")
+
+
 def summary(analysis: Analysis, folder: Path) -> list:
     figure, panels = plt.subplots(1, 2, figsize=(1.35 * WIDTH, 4.6))
-    captions = draw_floor(panels[0], analysis), draw_map(panels[1], analysis)
+    if len(analysis.study.levels) > 1:
+        captions = draw_floor(panels[0], analysis), draw_map(panels[1], analysis)
+    else:
+        captions = draw_floor(panels[0], analysis), draw_bars(panels[1], analysis, CONTACT)
+        panels[1].set_title("Probability that the buildings touch")
     return save(figure, folder, "fragility.png", "Floor spectrum and probability of contact", " ".join(captions),
                 columns=[[panels[0]], [axes for axes in figure.axes if axes is not panels[0]]])
 
@@ -119,6 +141,12 @@ def curves(analysis: Analysis, fits: dict, folder: Path) -> list:
     width = max(0.75 * WIDTH, 4.6 * len(events))
     figure, panels = plt.subplots(1, len(events), figsize=(width, 4.2), squeeze=False, sharey=True)
     levels = np.linspace(0.0, 1.15 * study.levels[-1], 300)[1:]
+    if len(study.levels) == 1:
+        for axes, event in zip(panels[0], events):
+            words = draw_bars(axes, analysis, event)
+            axes.set_title(name_of(event), fontsize=8)
+            axes.tick_params(labelleft=True)
+        return save(figure, folder, "curves.png", "Probability by joint", words, columns=[[axes] for axes in panels[0]])
     for axes, event in zip(panels[0], events):
         for gap, colour in zip(analysis.gaps_of(event), COLOURS * 9):
             counts = analysis.hits(event, gap).sum(0)

@@ -95,8 +95,8 @@ class Motions:
 
 
 def choose_seeds(study: Study, made: Motions) -> None:
-    """Gives the study's targets the first seeds whose motions are independent of each other and along all axes. Throws
-    StudyError where hardly any are."""
+    """Gives the study's targets the first seeds whose motions along the axes are independent of each other and, where
+    the study wants that, of all others. Throws StudyError where hardly any are."""
     names = list(study.axes)
     kept, seeds, seed = [], {name: [] for name in names}, 1
     while len(seeds[names[0]]) < study.wanted:
@@ -110,7 +110,7 @@ def choose_seeds(study: Study, made: Motions) -> None:
             trial = correlations(kept + signals)
             np.fill_diagonal(trial, 0)
             if len(seeds[names[0]]) < study.wanted and abs(trial[len(kept):]).max() < study.correlation:
-                kept += signals
+                kept += signals if study.between else []
                 for name in names:
                     seeds[name].append(batch[name][k])
         seed += len(names) * AT_ONCE
@@ -121,7 +121,8 @@ def choose_seeds(study: Study, made: Motions) -> None:
 
 def check(study: Study, folder: Path, jobs: int, write: bool = True) -> np.ndarray:
     """Chooses what is to be chosen, writes motions.csv and correlation.csv into the folder and returns the matrix of
-    all axes one after the other. Throws StudyError with the pair that is furthest beyond the limit."""
+    all axes one after the other. Throws StudyError with the pair that is furthest beyond the limit: of the motions that
+    act together, and where the study wants that of all. Motions of different samples never act together."""
     made = Motions(study, folder / "motions", jobs)
     with alone_in(folder / "motions", called("run/fragility"), wait=True):  # parts of a study make them once
         if study.wanted:
@@ -137,10 +138,12 @@ def check(study: Study, folder: Path, jobs: int, write: bool = True) -> np.ndarr
         write_rows(folder / "motions.csv", ["axis", "motion", "samples", "largest correlation", "with"],
                    ([name, motion, len(made.signal(name, motion)), f"{row.max():.4f}", labels[row.argmax()]]
                     for (name, motion), row in zip(pairs, off)))
-    beyond = [(off[i, j], i, j) for i in range(len(off)) for j in range(i) if off[i, j] >= study.correlation]
+    count = len(pairs) // len(study.axes)
+    held = [(off[i, j], i, j) for i in range(len(off)) for j in range(i) if study.between or i % count == j % count]
+    beyond = [one for one in held if one[0] >= study.correlation]
     if beyond:
         value, i, j = max(beyond)
-        raise StudyError(f"{study.path}: motions: {len(beyond)} of {len(off) * (len(off) - 1) // 2} pairs are "
+        raise StudyError(f"{study.path}: motions: {len(beyond)} of {len(held)} pairs are "
                          f"correlated by {study.correlation:g} or more, {labels[j]} and {labels[i]} by {value:.3f}; take "
                          "others, or raise `correlation` (all pairs in correlation.csv)")
     return matrix

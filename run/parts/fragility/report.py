@@ -170,6 +170,16 @@ def floor_table(analysis: Analysis) -> str:
                       ["", *(f"{f:g}" for f in at)], rows)
 
 
+def percent(part: float) -> str:
+    """A part in percent, of two digits or whole: 0.52, 74, 100."""
+    value = 100 * float(part)
+    return f"{value:.2g}" if abs(value) < 9.95 else f"{value:.0f}"
+
+
+def counted(things: list, word: str) -> str:
+    return f"{len(things)} {word}{'' if len(things) == 1 else 's'}"
+
+
 def needed_joint(rows: list, study) -> str:
     """Width that the joints need so that none of them closes, at each level, with its interval."""
     part = EXCEEDED[-1]
@@ -184,8 +194,15 @@ def needed_joint(rows: list, study) -> str:
             f"interval at {100 * study.confidence:g} % confidence.")
 
 
-def touching(fits: dict) -> list:
-    lines = []
+def touching(fits: dict, analysis: Analysis) -> list:
+    study, lines = analysis.study, []
+    if len(study.levels) == 1:  # no curve, but its only point
+        for gap in study.gaps:
+            count = int(analysis.hits(CONTACT, gap).sum())
+            low, high = binomial_interval(count, study.samples, study.confidence)
+            lines.append(f"Joint of {1e3 * gap:g} mm: touches in {percent(count / study.samples)} % of the cases at "
+                         f"{study.levels[0]:g} m/s2 ({percent(low)} to {percent(high)}).")
+        return lines
     for gap, fit in fits[CONTACT].items():
         if isinstance(fit, Fragility):
             lines.append(f"Joint of {1e3 * gap:g} mm: touches in half of the cases at {fit.theta:.3g} m/s2 "
@@ -205,7 +222,7 @@ def failing(analysis: Analysis) -> list:
             count = int(analysis.hits(item, gap)[:, -1].sum())
             low, high = binomial_interval(count, study.samples, study.confidence)
             place = "apart" if gap is None else f"in a joint of {1e3 * gap:g} mm"
-            shares.append(f"{100 * count / study.samples:.3g} % {place} ({100 * float(low):.2g} to {100 * float(high):.2g})")
+            shares.append(f"{100 * count / study.samples:.3g} % {place} ({percent(low)} to {percent(high)})")
         lines.append(f"{item.title} fails at {study.levels[-1]:g} m/s2 in {', '.join(shares)}.")
     return lines
 
@@ -217,8 +234,8 @@ def scattered(analysis: Analysis, rows: list) -> list:
         some = [row for row in mine if row["band [Hz]"] == band]
         worst = max(some, key=lambda row: row["share of the joint"])
         low, high = (f"{100 * min(worst[end], 1):.0f}" for end in ("low", "high"))
-        lines.append(f"{100 * float(np.median([row['share of the joint'] for row in some])):.2g} % at {band} Hz, at most "
-                     f"{100 * worst['share of the joint']:.2g} % ({low} to {high}; {worst['channel']})")
+        lines.append(f"{percent(np.median([row['share of the joint'] for row in some]))} % at {band} Hz, at most "
+                     f"{percent(worst['share of the joint'])} % ({low} to {high}; {worst['channel']})")
     return [f"Of the variance of ln-spectra in a joint of {1e3 * float(mine[0]['gap [m]']):g} mm at {mine[0]['pga [m/s2]']:g} m/s2 "
             f"the joint's own width makes, in the median of the channels, {'; '.join(lines)}."] if lines else []
 
@@ -229,13 +246,13 @@ def told(analysis: Analysis, fits: dict, full: Outcomes | None, tables: dict) ->
     lines = [needed_joint(tables["joint"], study)]
     cells = len(study.gaps) * len(study.levels) * study.samples
     disturbed = f", and {len(analysis.design.repeated)} disturbed" if analysis.design.repeated else ""
-    lines += touching(fits) + failing(analysis) + scattered(analysis, tables["joint_share"])
+    lines += touching(fits, analysis) + failing(analysis) + scattered(analysis, tables["joint_share"])
     lines += fields_told(fields_summary(tables["fields"]))
     exchanged = ", as many in the joint of the next sample" if study.exchange else ""
     others = sum(one.factors != OWN_FIELD for one in analysis.design.members)
     exchanged += f", at {study.levels[-1]:g} m/s2 in other fields ({others})" if others else ""
     lines += [f"{len(analysis.design.members)} runs: {study.samples} samples of motion and building at "
-             f"{len(study.levels)} levels, in {len(study.gaps)} joints ({cells}){exchanged}, apart "
+             f"{counted(study.levels, 'level')}, in {counted(study.gaps, 'joint')} ({cells}){exchanged}, apart "
              f"({len(study.levels) * study.samples}){disturbed}."]
     wrong = analysis.contradictions()
     lines.append(f"The runs apart say of {cells - wrong} of {cells} runs with a joint whether they touch as these do.")

@@ -82,7 +82,8 @@ class Study:
     samples: int
     confidence: float
     axes: dict  # "x" -> Axis
-    correlation: float
+    correlation: float  # below which motions that act together are
+    between: bool  # the limit holds between samples as well
     wanted: int  # motions to be chosen from the first seed on; 0: those that are given
     levels: list  # peak ground accelerations [m/s2]
     gaps: list  # nominal [m]
@@ -245,8 +246,8 @@ def _axis(reader: _Reader, name: str) -> Axis:
 
 
 def _motions(reader: _Reader) -> tuple:
-    """Axes, the limit of correlation, and how many motions are to be chosen."""
-    motions = reader.part("motions", ("x", "y", "z", "correlation", "choose"))
+    """Axes, the limit of correlation, whether it holds between samples, and how many motions are to be chosen."""
+    motions = reader.part("motions", ("x", "y", "z", "correlation", "between_samples", "choose"))
     axes = {name: _axis(motions, name) for name in DIRECTIONS if name in motions.values}
     if not axes:
         raise StudyError(f"{reader.path}: motions has no axis x, y or z")
@@ -257,7 +258,7 @@ def _motions(reader: _Reader) -> tuple:
     if not wanted and (len(counts) < len(axes) or len(set(counts.values())) > 1):
         raise StudyError(f"{reader.path}: motions: every axis needs as many records or seeds as the others, or "
                          "`choose` says how many synthetic motions are wanted")
-    return axes, motions.number("correlation", 0.16, 0.0), wanted, wanted or next(iter(counts.values()))
+    return axes, motions.number("correlation", 0.16, 0.0), motions.flag("between_samples"), wanted, wanted or next(iter(counts.values()))
 
 
 def _joints(reader: _Reader) -> dict:
@@ -365,6 +366,33 @@ def _load(path: Path):
         raise StudyError(f"{path}: {' '.join(str(error).split())}") from error
 
 
+def _given(path: Path) -> dict:
+    """Option -> text of a file of options and of those that it includes; nothing of what cannot be read here."""
+    try:
+        found = yaml.safe_load(path.read_text(encoding="utf-8"))
+        options = flatten(found) if isinstance(found, dict) else {}
+    except (OSError, ValueError, yaml.YAMLError, SceneError, RecursionError):
+        return {}
+    for name in filter(None, options.pop("include", "").split(",")):
+        options = {**(_given(path.parent / name.strip()) if (path.parent / name.strip()) != path else {}), **options}
+    return options
+
+
+def own_gap(study: Study) -> float | None:
+    """The nominal gap of the study that its scene has: that of a joint whose gap the scene or the study's options give."""
+    options = {**_given(study.scene), **study.options}
+    for name, joint in study.joints.items():
+        try:
+            values = [float(text) for text in options[f"{name}_gap"].split(",")]
+        except (KeyError, ValueError):
+            continue
+        nominal = sum(values) / len(values) - sum(joint.shape) / len(joint.shape)
+        same = [gap for gap in study.gaps if abs(gap - nominal) <= 1e-6 + 1e-3 * gap]
+        if same:
+            return same[0]
+    return None
+
+
 def check_names(study: Study, probes: list, contacts: list) -> None:
     """Throws StudyError where the study speaks of probes and contacts that the scene has not."""
     for name in study.joints:
@@ -403,7 +431,7 @@ def read(path: Path) -> Study:
     scene = path.parent / str(reader.values.get("scene", ""))
     if not scene.is_file():
         raise StudyError(f"{path}: scene: {scene}: no such file")
-    axes, limit, wanted, motions = _motions(reader)
+    axes, limit, between, wanted, motions = _motions(reader)
     frequencies = reader.increasing("frequencies", standard_frequencies())
     dampings = reader.increasing("dampings", DAMPINGS)
     full = reader.part("full_order", ("share", "options", "noise"))
@@ -422,7 +450,7 @@ def read(path: Path) -> Study:
         path, scene.resolve(), str(reader.values.get("title", f"Study {path.stem}")),
         Path(str(reader.values.get("output", Path("results") / f"fragility-{path.stem}"))), reader.options("options"),
         reader.options("reduction"), reader.whole("seed", 1, 0), samples,
-        reader.number("confidence", 0.95, 0.0, 1.0), axes, limit, wanted, levels, gaps,
+        reader.number("confidence", 0.95, 0.0, 1.0), axes, limit, between, wanted, levels, gaps,
         reader.number("apart", max(1.0, 20 * gaps[-1]), gaps[-1]), joints, exchange, field_factors, _factors(reader),
         _capacities(reader, frequencies, dampings), full.number("share", 0.0, -1e-12, 1.0 + 1e-12),
         full.options("options"), full.number("noise", 1e-3, 0.0), frequencies, dampings,
