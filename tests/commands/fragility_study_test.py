@@ -290,6 +290,9 @@ class Study(unittest.TestCase):
         free = {"correlation": 1e-4, "x": {**STUDY["motions"]["x"], "seeds": [1, 2]}}
         said = self.fragility("--dry-run", out="free", motions=free).stdout
         self.assertRegex(said, "largest correlation of two motions of different samples 0\\.[0-9]+;")
+        self.assertNotIn("motions made", said)  # two are made at once
+        many = {"correlation": 0.16, "choose": 6, "x": STUDY["motions"]["x"]}
+        self.assertIn("fragility: 6 of 12 motions made", self.fragility("--dry-run", out="many", motions=many).stdout)
         both = {**free, "y": {**STUDY["motions"]["x"], "seeds": [2, 1]}}
         self.refuse("2 of 2 pairs are correlated by 0.0001 or more", "--dry-run", motions=both)
         told = {"correlation": 0.9, "x": {**STUDY["motions"]["x"], "seeds": [1, 2]}}

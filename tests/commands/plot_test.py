@@ -17,7 +17,7 @@ PLOT = Path(__file__).resolve().parents[2] / "run" / "plot"
 sys.path.insert(0, str(PLOT.parent))
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(PLOT.parents[1] / "python"))
-from parts.plot import contact_figures  # noqa: E402
+from parts.plot import contact_figures, report  # noqa: E402
 from parts.plot.style import envelope  # noqa: E402
 from pounding import results  # noqa: E402
 
@@ -204,6 +204,21 @@ class PlotTest(unittest.TestCase):
         flat = values[(time > 2) & (time < 7)]
         np.testing.assert_allclose(flat, 100, rtol=1e-12)  # 900 N s in 9 ms
         self.assertAlmostEqual(values[np.abs(time - 0.0).argmin()], 50, delta=11)  # half of the time lies before it; a sample is 10
+
+    def test_an_interrupted_run_says_where_it_stopped(self):
+        make_folder(self.folder, 2001)
+        (self.folder / "summary.json").unlink()
+        (self.folder / "resolved.yaml").write_text('end_time: "15"\n')
+        done = plot(self.folder)
+        self.assertIn("The run stopped at 4.0 of 15 s: what is shown ends there.", done.stdout)
+        self.assertIn("stopped at 4.0 of 15 s", (self.folder / "report.html").read_text())
+
+    def test_what_is_drawn_is_told(self):
+        make_folder(self.folder, 2001)
+        told = []
+        report.write(results.load(self.folder), "", told.append)
+        self.assertEqual(told[:2], ["picture", "gaps"])
+        self.assertIn("energy_balance", told)
 
     def test_floors_at_rest_are_drawn(self):
         make_folder(self.folder, 2001)

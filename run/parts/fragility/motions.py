@@ -22,6 +22,7 @@ POINT = 'Point(1) = {0, 0, 0};\nPhysical Point("mass") = {1};\n'
 SCENE = {"structures": "one", "contacts": "none", "time_step": STEP, "output_interval": STEP, "modes": 0,
          "spectra_frequencies": 1,
          "one": {"mesh": "point.geo", "allow_loose": True, "mass": {"element": "point_mass", "mass": 1}}}
+SHOWN = 6  # motions made between two lines of progress
 AT_ONCE = 12  # synthetic motions made before the next look
 
 
@@ -49,7 +50,7 @@ class Motions:
         told = str(sorted(options_of(one, motion, not one.records).items())).encode()
         return f"{axis}-{hashlib.sha256(told + content).hexdigest()[:16]}"
 
-    def make(self, wanted: list) -> None:
+    def make(self, wanted: list, of: str = "") -> None:
         """Runs what is not there; `wanted`: pairs of an axis and a motion. Throws StudyError."""
         todo = [pair for pair in wanted if not (self.folder / f"{self._name(*pair)}.npy").is_file()]
         if not todo:
@@ -67,8 +68,10 @@ class Motions:
             path = write_scene(self.folder / f"{place.name}.yaml", scene)
             return Job(["-options_file", str(path.absolute())], place.absolute(), 1, Path.cwd(), self.variables)
 
-        def ended(pair: tuple, job: Job, _waiting: list, _running: list) -> None:
+        def ended(pair: tuple, job: Job, waiting: list, _running: list) -> None:
             failure = job.outcome()
+            if (len(todo) - len(waiting)) % SHOWN == 0:
+                print(f"fragility: {len(todo) - len(waiting)} of {len(todo)} motions made{of}", flush=True)
             if failure:
                 failures.append(f"motion {pair[1]} along {pair[0]}: {failure}")
                 return
@@ -104,7 +107,8 @@ def choose_seeds(study: Study, made: Motions) -> None:
             raise StudyError(f"{study.path}: motions: of seeds up to {seed} only {len(seeds[names[0]])} are "
                              "independent; raise the correlation, take longer motions or fewer")
         batch = {name: [len(names) * k + place + seed for k in range(AT_ONCE)] for place, name in enumerate(names)}
-        made.make([(name, one) for name in names for one in batch[name]])
+        found = f", {len(seeds[names[0]])} of {study.wanted} that are independent found" if seed > 1 else ""
+        made.make([(name, one) for name in names for one in batch[name]], found)
         for k in range(AT_ONCE):
             signals = [made.signal(name, batch[name][k]) for name in names]
             trial = correlations(kept + signals)

@@ -4,20 +4,22 @@ from html import escape
 from pathlib import Path
 
 from pounding.results import Missing, Result
+from pounding.scenes import SceneError, read_scene
 from . import (answer, contact_figures, design_spectra, equipment, floor_figures, force_figures, model_tables, origin_tables,
                result_tables, spectra_figures, view)
 from .markup import html_figure, write_page
 
 
 class _Drawn:
-    """Figures as they are asked for; what cannot be drawn is said."""
+    """Figures as they are asked for; what cannot be drawn is said. `told` hears the name of each before it is drawn."""
 
-    def __init__(self, result: Result):
-        self.result, self.count, self.skipped = result, 0, []
+    def __init__(self, result: Result, told=lambda name: None):
+        self.result, self.count, self.skipped, self.told = result, 0, [], told
 
     def html(self, *figures, level: int = 3) -> str:
         text = ""
         for figure in figures:
+            self.told(figure.__name__)
             try:
                 pages = figure(self.result)
             except Missing as reason:
@@ -70,14 +72,29 @@ def _view(result: Result, drawn: _Drawn) -> str:
         return ""
 
 
-def write(result: Result, why: str = "") -> tuple:
+def stopped(result: Result) -> str:
+    """How far a run came that did not reach its end, as far as the folder tells it; nothing of one that did."""
+    if result.summary:
+        return ""
+    try:
+        end = float(read_scene(result.folder / "resolved.yaml")["end_time"])
+    except (OSError, KeyError, ValueError, SceneError):
+        end = None
+    if "time" not in result.history or not len(result.history["time"]) or not end:
+        return "No summary.json in the result folder."
+    last = result.history["time"][-1]
+    where = f"at {last:.1f} of {end:g} s: what is shown ends there" if last < 0.999 * end else "after its last step, before its spectra"
+    return f"The run stopped {where}."
+
+
+def write(result: Result, why: str = "", told=lambda name: None) -> tuple:
     """Draws the figures and writes report.html into the result folder; `why` there is no run without pounding beside
-    it. Returns the number of figures, what was skipped and the path."""
-    drawn = _Drawn(result)
+    it; `told` hears what is drawn. Returns the number of figures, what was skipped and the path."""
+    drawn = _Drawn(result, told)
     content = answer.html(result, result.without, why) + drawn.html(answer.picture)
     content += result_tables.warnings(result)
     if not result.summary:
-        content += '<p class="note">No summary.json in the result folder.</p>\n'
+        content += f'<p class="note">{stopped(result)}</p>\n'
     content += _found(result, drawn) + _computed(result, drawn) + _view(result, drawn)
     origin = model_tables.run_table(result) + origin_tables.tables(result)
     content += _part("Where this report comes from", origin) + origin_tables.options(result)

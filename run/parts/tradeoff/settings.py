@@ -53,6 +53,12 @@ def of_scene(structures: list, dofs: int, time_step: float, estimate: float | No
     return savings
 
 
+def pasted(setting: Setting) -> str:
+    """Its options as words of a command line; bases go to the working folder."""
+    words = [f"-{name} {value}".replace("{folder}/", "") for name, value in setting.changes]
+    return " ".join(words) + ("  (in petsc-options/azalee/pair-b.yaml)" if setting.shells else "")
+
+
 HALF_STEP = "half the time step"
 
 
