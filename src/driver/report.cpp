@@ -1,12 +1,15 @@
 #include "driver/report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "common/byte_texts.h"
 #include "common/version.h"
+#include "driver/field_plan.h"
 #include "io/new_file.h"
 #include "io/schema.h"
+#include "motion/response_spectrum.h"
 #include "scene/resolved_options.h"
 
 namespace pounding {
@@ -118,6 +121,25 @@ void print_model(const Scene& scene, const Model& model) {
   print(partition_facts(model));
   print(kernel_facts());
   print(warning_facts(model.warnings));
+}
+
+void print_prospect(const Scene& scene, const Model& model, int ranks, double set_up,
+                    double seconds_per_step) {
+  const double interval = model.time_step * record_stride(scene, model);
+  const std::vector<double> rest(20000);
+  const double begin = MPI_Wtime();
+  response_spectra(rest, interval, scene.spectra.frequencies, scene.spectra.damping_ratios,
+                   AfterRecord::ignored);
+  const double spectra = (MPI_Wtime() - begin) * scene.end_time / (20000 * interval) *
+                         std::ceil(3.0 * static_cast<double>(model.probes.size()) / ranks);
+  const double steps = seconds_per_step * static_cast<double>(model.steps);
+  print(
+      sentence("\nwould step {} structures with {} pairs of contacts to {} s, in {} steps\n"
+               "expected time of the whole run: {:.2g} s: {:.2g} until its first step, {:.2g} of "
+               "steps, {:.2g} of spectra, and what its files take\n",
+               {model.buildings.size(), model.interface.constraints.size(), scene.end_time,
+                model.steps, set_up + steps + spectra, set_up, steps, spectra}));
+  print(doubts_again({scene.warnings, model.warnings}) + "\nin detail:\n");
 }
 
 void print_time_step(const Scene& scene, const Model& model, double seconds_per_step) {

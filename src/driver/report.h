@@ -21,6 +21,11 @@ namespace pounding {
 /// `overrides`: in words, how the run differs from the files of its options.
 void print_title(const Scene& scene, const std::string& overrides, int ranks);
 void print_model(const Scene& scene, const Model& model);
+/// The first lines of a dry run: the steps that a run would make, its expected time as a whole on
+/// so many ranks, its spectra measured here by a short signal, and the doubts. `set_up` [s]: taken
+/// so far; `seconds_per_step`: measured, 0 if it was not. Rank 0.
+void print_prospect(const Scene& scene, const Model& model, int ranks, double set_up,
+                    double seconds_per_step);
 /// `seconds_per_step`: measured, 0 if it was not.
 void print_time_step(const Scene& scene, const Model& model, double seconds_per_step);
 /// `files`: those removed from the folder of results.

@@ -111,7 +111,7 @@ RunOutcome run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
   const Model model = build_model(comm, scene, read.stiffness_factors, profile);
   if (!scene.dry_run) note_model(comm, scene, model.buildings, provenance);
   return_freed_memory();
-  if (root) print_model(scene, model);
+  if (root && !scene.dry_run) print_model(scene, model);
   if (!scene.export_matrices.empty()) export_matrices(comm, scene, model);
   const RunIdentity identity = identity_of(comm, resolved, model);
   const std::optional<SavedState> restart = read_restart(comm, scene, model, identity);
@@ -126,6 +126,10 @@ RunOutcome run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
   print_fields(comm, scene, model);
   TimeLoop loop(comm, scene, model, profile);
   const double seconds = loop.measure(scene.dry_run ? 200 : 50);
+  if (root && scene.dry_run) {
+    print_prospect(scene, model, size_of(comm), MPI_Wtime() - start, seconds);
+    print_model(scene, model);
+  }
   if (root) print_time_step(scene, model, seconds);
   RunStatistics statistics;
   if (scene.dry_run) {

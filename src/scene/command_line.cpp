@@ -54,9 +54,11 @@ bool is_silent(const std::string& name) {
 
 CommandLine read_command_line(std::span<const std::string> words) {
   CommandLine line;
-  line.help = std::ranges::any_of(words, [](const auto& word) {
+  const auto asked = std::ranges::find_if(words, [](const auto& word) {
     return is_one_of(word, {"-help", "--help", "-h"});
   });
+  line.help = asked != words.end();
+  if (line.help && asked + 1 != words.end() && !is_option(asked[1])) line.help_about = asked[1];
   line.version = std::ranges::any_of(words, [](const auto& word) {
     return is_one_of(word, {"-version", "--version"});
   });

@@ -12,6 +12,7 @@ namespace pounding {
 /// Words behind the program's name.
 struct CommandLine {
   bool help = false;               ///< -help, --help or -h
+  std::string help_about;          ///< the word behind it
   bool version = false;            ///< -version or --version
   std::vector<std::string> files;  ///< of every -options_file, in their order
   OptionsDatabase options;         ///< all others; of two with the same name the last one

@@ -74,24 +74,28 @@ void append(std::string& text, const OptionRow& row) {
 
 }  // namespace
 
-std::string help_text() {
+std::string help_text(const std::string& about) {
   std::string text =
       "pounding: response of floors when two buildings hit each other in an earthquake\n"
       "\n"
       "  mpirun -n 2 pounding -options_file case.yaml [-name value ...]\n"
-      "  pounding -help | -version\n"
+      "  pounding -help [WORD] | -version\n"
       "\n"
       "Options come from YAML files (nested keys join with _: s1: {slab: {element: hex8}} is\n"
       "-s1_slab_element hex8), from the files that they name as include, and from the command\n"
       "line, which wins. -dry_run checks a case. Names in <> are the user's; units are SI.\n";
   bool first = true;
   OptionBlock block{};
+  if (!about.empty()) text.clear();
   for (const OptionRow& row : option_table()) {
+    const std::string line = std::string(row.pattern).append(" ").append(row.help);
+    if (line.find(about) == std::string::npos) continue;
     if (first || row.block != block) text.append("\n").append(title_of(row.block)).append("\n");
     first = false;
     block = row.block;
     append(text, row);
   }
+  if (!about.empty()) return text.empty() ? "no option has '" + about + "' in its line\n" : text;
   text += "\nOptions of PETSc and SLEPc that pass through:\n ";
   std::size_t width = 1;
   for (const std::string_view pattern : petsc_option_patterns()) {

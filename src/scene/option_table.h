@@ -127,8 +127,8 @@ bool is_petsc_option(std::string_view name);
 bool may_differ(std::string_view name, Comparison comparison);
 
 /// The text of `pounding -help`: usage, every option with unit, default, range and one line, and
-/// the admitted PETSc and SLEPc names.
-std::string help_text();
+/// the admitted PETSc and SLEPc names; `about`: of the options that have it in name or line alone.
+std::string help_text(const std::string& about = "");
 
 }  // namespace pounding
 

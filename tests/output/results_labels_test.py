@@ -140,6 +140,15 @@ class Labels(unittest.TestCase):
         u = self.fine.data["displacement"]
         numpy.testing.assert_allclose(self.fine.data["gap"][:, 0], 0.02 + u[:, 3] - u[:, 0], atol=1e-12)
 
+    def test_help_about_a_word(self):
+        told = program.run(["-help", "passes"], 1)
+        rows = [line for line in told.stdout.splitlines() if line.startswith("  -")]
+        self.assertEqual((told.returncode, rows[0].split()[0]), (0, "-<contact>_passes"))
+        self.assertTrue(all("passes" in line for line in rows), rows)
+        whole = program.run(["-help"], 1).stdout
+        self.assertTrue(set(rows) < set(whole.splitlines()))
+        self.assertEqual(program.run(["-help", "qqq"], 1).stdout, "no option has 'qqq' in its line\n")
+
     def test_files_and_columns(self):
         self.assertEqual(self.fine.files, FILES)
         self.assertEqual(list(self.fine.csv["impacts.csv"]),
@@ -476,6 +485,13 @@ class Labels(unittest.TestCase):
         long = program.run(scene(self.record, TIME_STEP) + ["-end_time", 1000, "-dry_run"], 1).stdout  # 2e6 steps
         seconds, each = numbers(r"expected wall time of the steps: # s \(# microseconds per step", long)
         self.assertAlmostEqual(seconds, 2 * each, delta=0.16)  # both are rounded to a tenth
+        first = long[:long.index("in detail:")]  # the answer comes before the details
+        self.assertLess(first.count("\n"), 20)
+        whole, *parts = numbers(r"expected time of the whole run: # s: # until its first step, # of steps, # of spectra", first)
+        self.assertAlmostEqual(whole / sum(parts), 1, delta=0.1)  # of two digits each
+        self.assertAlmostEqual(parts[1] / seconds, 1, delta=0.1)
+        self.assertIn("would step 2 structures with 4 pairs of contacts to 1000 s, in 2000000 steps", first)
+        self.assertLess(long.index("\ndoubts, " if "\ndoubts, " in long else "\nno doubts"), long.index("structure left"))
         said = numbers(r"wall time # s, # microseconds per step", printed)
         self.assertAlmostEqual(said[0], summary["wall_time"], delta=6e-3)
         self.assertAlmostEqual(said[1], summary["microseconds_per_step"], delta=6e-4)
