@@ -5,7 +5,8 @@
     wide = pounding.load("results/wide")
     frequency, acceleration = wide.spectrum("roof", "x")
 
-python/examples/gaps.py is a whole script. Put the folder python on PYTHONPATH, or on sys.path.
+python/examples/gaps.py is a whole script. `pip install ./python` of the repository, or put that folder on
+PYTHONPATH.
 """
 
 from .ensembles import Ensemble, load_ensemble

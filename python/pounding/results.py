@@ -21,6 +21,10 @@ GROUND = "ground"  # stands for a probe in the rows of spectra.csv that are the 
 SCHEMAS = {"summary.json": 1, "history.h5": 1, "fields.h5": 1, "modes.h5": 1, "model.h5": 1, "ensemble.h5": 1}
 
 
+TABLES = ("history", "spectra", "impacts", "contact_points", "forces", "energy", "yielding", "equipment")
+QUANTITIES = ("displacement", "velocity", "acceleration")
+
+
 class ResultError(Exception):
     """The folder or one of its files cannot be used: one line for the user."""
 
@@ -109,6 +113,27 @@ class Result:
             raise ResultError(f"{self.folder}: no {quantity} of {probe} along {direction} was recorded; there are "
                               f"{_listed(recorded)} of {_listed(self.history.get('channels', []))}")
         return found
+
+    def to_frame(self, table: str = "history"):
+        """A table as a DataFrame of pandas: of the history the channels by time, as "acceleration left_roof.x", times of
+        quantities that are means over an interval at its end; else `spectra`, `impacts`, `contact_points`, `forces`,
+        `energy`, `yielding` or `equipment` by its columns. Throws ResultError, without pandas as well."""
+        try:
+            import pandas
+        except ImportError as error:
+            raise ResultError("to_frame needs pandas, which is not installed: pip install pandas, or use the arrays "
+                              "(history, spectra, ...)") from error
+        if table not in TABLES:
+            raise ResultError(f"to_frame: no table {table!r}; there are {', '.join(TABLES)}")
+        if not getattr(self, table):
+            raise ResultError(f"{self.folder}: the run left no {table}")
+        if table != "history":
+            return pandas.DataFrame(getattr(self, table))
+        columns = {f"{quantity} {channel}": self.history[quantity][:, i] for quantity in QUANTITIES if quantity in self.history
+                   for i, channel in enumerate(self.history["channels"])}
+        columns |= {f"{quantity} {name}": self.history[quantity][:, i] for quantity in ("gap", "contact_force")
+                    if quantity in self.history for i, name in enumerate(self.contacts)}
+        return pandas.DataFrame(columns, index=pandas.Index(self.history["time"], name="time"))
 
     def base(self, structure: str, direction: str):
         """Times and displacements [m] of what a structure stands on, or None where that follows the ground."""

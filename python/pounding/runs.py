@@ -2,6 +2,7 @@
 
 import ctypes
 import os
+import shutil
 import signal
 import subprocess
 import threading
@@ -37,7 +38,8 @@ def folder_of_programs() -> Path:
     """That of the build, which POUNDING_BUILD names where it is not `build`; of an installed package its bin."""
     if "POUNDING_BUILD" in os.environ or (SOURCE / "CMakeLists.txt").exists():
         return (SOURCE / os.environ.get("POUNDING_BUILD", "build")).absolute()
-    return SOURCE.parents[1] / "bin"
+    found = shutil.which("pounding")  # of a package that pip has installed
+    return Path(found).parent if found and not (SOURCE.parents[1] / "bin" / "pounding").exists() else SOURCE.parents[1] / "bin"
 
 
 def program(name: str = "pounding") -> Path:
@@ -49,7 +51,9 @@ def program(name: str = "pounding") -> Path:
 
 
 def environment() -> dict:
-    """The variables that run/environment sets."""
+    """The variables that run/environment sets, where it is."""
+    if not (SOURCE / "run" / "environment").exists():
+        return {**os.environ, "OMP_NUM_THREADS": "1"}
     text = subprocess.run(["bash", "-c", "source run/environment && env -0"], cwd=SOURCE, capture_output=True,
                           text=True, check=True).stdout
     return dict(item.split("=", 1) for item in text.split("\0") if "=" in item)

@@ -1,11 +1,15 @@
 """The Python package: scenes written and read back, runs, results as arrays, and its example."""
+import importlib.util
 import json
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import h5py
 import numpy as np
@@ -49,7 +53,49 @@ class Scenes(unittest.TestCase):
                 two_buildings.launched(self.place / "bad", ranks, end_time=-1)
 
 
+class Installed(unittest.TestCase):
+    @unittest.skipUnless(importlib.util.find_spec("pip") and importlib.util.find_spec("setuptools"), "no pip or setuptools here")
+    def test_pip_installs_the_package_with_its_needs(self):
+        place = Path(tempfile.mkdtemp(prefix="pounding-"))
+        self.addCleanup(shutil.rmtree, place)
+        shutil.copytree(Path(program.SOURCE, "python"), place / "python", ignore=shutil.ignore_patterns("build", "*.egg-info"))
+        done = subprocess.run([sys.executable, "-m", "pip", "install", "-q", "--no-build-isolation", "--no-deps", "--no-index",
+                               "--target", place / "site", place / "python"], capture_output=True, text=True, timeout=300, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told = (place / "site" / "pounding-0.2.0.dist-info" / "METADATA").read_text()
+        self.assertIn("Requires-Dist: h5py\nRequires-Dist: numpy\n", told)
+        self.assertIn("VERSION 0.2.0 ", Path(program.SOURCE, "CMakeLists.txt").read_text())
+        bin_folder = place / "bin"
+        bin_folder.mkdir()
+        (bin_folder / "pounding").write_text("#!/bin/sh\n")
+        (bin_folder / "pounding").chmod(0o755)
+        variables = {name: value for name, value in os.environ.items() if name not in ("POUNDING_BUILD", "PYTHONPATH")}
+        said = subprocess.run([sys.executable, "-c", "import pounding; print(pounding.__file__); print(pounding.program())"],
+                              cwd=place, env={**variables, "PYTHONPATH": str(place / "site"), "PATH": f"{bin_folder}:{os.environ['PATH']}"},
+                              capture_output=True, text=True, timeout=60, check=True).stdout.split()
+        self.assertEqual(said, [str(place / "site" / "pounding" / "__init__.py"), str(bin_folder / "pounding")])
+
+
 class Results(unittest.TestCase):
+    def test_frames_need_pandas_in_one_line(self):
+        with mock.patch.dict(sys.modules, {"pandas": None}):
+            with self.assertRaisesRegex(pounding.ResultError, "^to_frame needs pandas, which is not installed: .*$"):
+                self.found.to_frame()
+
+    def test_frames_have_what_the_arrays_have(self):
+        frames = types.SimpleNamespace(DataFrame=lambda columns, index=None: (columns, index), Index=lambda values, name: (values, name))
+        with mock.patch.dict(sys.modules, {"pandas": frames}):
+            columns, index = self.found.to_frame()
+            impacts, _ = self.found.to_frame("impacts")
+            with self.assertRaisesRegex(pounding.ResultError, "no table 'roof'; there are history, "):
+                self.found.to_frame("roof")
+            with self.assertRaisesRegex(pounding.ResultError, "the run left no forces"):
+                self.found.to_frame("forces")
+        self.assertEqual((index[1], len(index[0])), ("time", len(self.found.history["time"])))
+        np.testing.assert_array_equal(columns["acceleration left_roof.x"], self.found.series("acceleration", "left_roof", "x")[1])
+        np.testing.assert_array_equal(columns["gap floor2"], self.found.history["gap"][:, self.found.contacts.index("floor2")])
+        np.testing.assert_array_equal(impacts["impulse"], self.found.impacts["impulse"])
+
     @classmethod
     def setUpClass(cls):
         cls.folder = Path(tempfile.mkdtemp(prefix="pounding-"))
