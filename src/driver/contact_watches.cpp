@@ -80,7 +80,7 @@ class SlideWatch final : public Observer {
   void gather(const auto& of, std::span<const double> supports);
   /// Looks at all pairs at a time [s]. Members only, collective over them.
   void look(double time);
-  /// By how much a row of a pass that is not taken is wider than unloaded [m].
+  /// Opening of a row of a pass that is not taken since it was unloaded [m].
   double opening_of(std::size_t row) const {
     return operator_.apply(static_cast<int>(2 * run_.model.interface.constraints.size() + row),
                            displacement_);

@@ -23,8 +23,8 @@ struct StructureRest {
   double largest_displacement = 0;  ///< of a component; 0 of a reduced structure [m]
   std::string place;                ///< where that is; empty of a reduced structure
   double forces = 0;  ///< sum of |f_i| over the dofs, of weight and loads: pairs of loads count
-  /// |weight + load + contact + support| over the largest of them and `forces`, the support summed up from K u;
-  /// 0 of a reduced structure, whose support follows from the others [-].
+  /// |weight + load + contact + support| over the largest of them and `forces`, the support summed
+  /// up from K u; 0 of a reduced structure, whose support follows from the others [-].
   double imbalance = 0;
   std::string method;  ///< how its stiffness was solved
 };

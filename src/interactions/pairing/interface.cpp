@@ -39,8 +39,8 @@ void drop_repeated(std::size_t first, Interface& interface, InterfaceReport& rep
                        Terms terms;
                        for (const ConstraintTerm& term : row.terms) {
                          const long rounded = std::lround(digits * term.coefficient);
-                         if (rounded != 0)
-                           terms.emplace(term.structure, term.node, term.component, rounded);
+                         if (rounded == 0) continue;
+                         terms.emplace(term.structure, term.node, term.component, rounded);
                        }
                        return row.matched && !known.insert(terms).second;
                      });
