@@ -103,8 +103,8 @@ struct LinearSystem {
   std::vector<double> rest_law_force;
   double total_mass = 0;  ///< clamped nodes included [kg]
   /// Upper bound of omega_max from single elements, and its element: the one with the largest omega
-  /// of its own. Infinite if an element has stiffness but no mass (springs), which is not named; nor
-  /// are, here and below, elements inside a rigid body.
+  /// of its own. Infinite if an element has stiffness but no mass (springs), which is not named;
+  /// nor are, here and below, elements inside a rigid body.
   double element_frequency_bound = 0;  ///< [rad/s]
   std::string stiffest_element;
   /// Lower bound of the stable time step from single elements, and which one holds it; infinite
