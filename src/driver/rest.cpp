@@ -125,9 +125,12 @@ std::vector<char> rows_open_at_rest(const Scene& scene, const interactions::Inte
     const double gap = row.of_faces(row.initial_gap);
     if (!contact.gap_at_rest || gap >= -none_below * interface.model_size) continue;
     throw UserError(sentence(
-        "option -{}_gap_at rest: the meshes overlap by {:g mm} somewhere, and a joint is open or "
-        "just closed at rest; give -{}_gap, or -{}_gap_at unloaded",
-        {contact.name, -gap, contact.name, contact.name}));
+        "option -{}_gap_at rest: {} by {:g mm} somewhere, and a joint is open or just closed at "
+        "rest; give -{}_gap, or -{}_gap_at unloaded",
+        {contact.name,
+         contact.gap.values.empty() ? "the meshes overlap"
+                                    : "the gap given, its random part included, is below 0",
+         -gap, contact.name, contact.name}));
   }
   return open;
 }

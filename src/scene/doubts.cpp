@@ -165,8 +165,8 @@ void look_at_gravity(const Structure& structure, Doubts& doubts) {
 }
 
 /// A region that holds by the pressure on it, where no weight does; dashpots in series with springs
-/// whose structure starts displaced.
-void look_at_start(const Structure& structure, const Region& region, Doubts& doubts) {
+/// whose structure starts displaced; springs that yield in modes.
+void look_at_links(const Structure& structure, const Region& region, Doubts& doubts) {
   const std::string owner = "structure " + structure.name + ", group " + region.group + ": ";
   const auto across = static_cast<std::size_t>(region.nonlinear.circle[2]);
   if (region.nonlinear.friction > 0 && structure.gravity[across] == 0) {
@@ -178,6 +178,13 @@ void look_at_start(const Structure& structure, const Region& region, Doubts& dou
     doubts.add(owner +
                "its dashpots in series with springs start let go, as long after the displacement "
                "was given: these springs carry nothing of it");
+  }
+  if (structure.modal && structure.modal->damping_ratios.empty() && structure.damping.beta > 0 &&
+      region.nonlinear.option() != nullptr) {
+    doubts.add(owner +
+               "yields in modes, whose stiffness damping (beta) acts on it as well: it moves less "
+               "than at full order; give -" +
+               structure.name + "_modal_damping or -" + structure.name + "_model full");
   }
   if (region.compression_only && !(structure.gravity[2] < 0)) {
     doubts.add(owner +
@@ -202,7 +209,7 @@ std::vector<std::string> scene_doubts(const Scene& scene) {
   for (const Structure& structure : scene.structures) {
     for (const Region& region : structure.regions) {
       look_at_region("structure " + structure.name, region, doubts);
-      look_at_start(structure, region, doubts);
+      look_at_links(structure, region, doubts);
     }
     if (structure.soil && structure.soil->table.empty()) {
       doubts.look_at("structure " + structure.name, soil_velocity,

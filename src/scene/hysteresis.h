@@ -54,6 +54,9 @@ struct Hysteresis {
   /// Energy [J] that it can lose before its strength is gone; infinite: strength stays.
   double lasting_energy = std::numeric_limits<double>::infinity();
   double deterioration_exponent = 1;
+  /// Part of the elongations that is elastic, over the force, and no part of the ductility: bending
+  /// in series with a law in shear, within `positive` and `negative` already [m/N].
+  double flexibility = 0;
 
   double first_slope() const {
     const Skeleton& given = positive.breaks.empty() ? negative : positive;

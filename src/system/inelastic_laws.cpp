@@ -297,6 +297,7 @@ Law law_of_region(const Structure& structure, const Mesh& mesh, int region) {
 
 Hysteresis in_series(const Hysteresis& law, double elastic) {
   Hysteresis result = law;
+  result.flexibility = 1 / elastic;
   for (Skeleton* skeleton : {&result.positive, &result.negative}) {
     double before = 0;
     for (SkeletonBreak& corner : skeleton->breaks) {

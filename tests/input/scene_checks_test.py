@@ -137,6 +137,14 @@ class Probes(Run):
         self.doubt([*CHAIN, "-m_link2_dashpot", "10,10,10", "-m_link2_dashpot_stiffness", "1e3,1e3,1e3", "-m_initial_displacement",
                     "0.01,0,0", *PROBE, "1,0,0"], "group link2: its dashpots in series with springs start let go")
 
+    def test_springs_that_yield_in_modes_beside_beta(self):
+        words = [*CHAIN, "-m_link2_yield_force", "10,10,10", "-m_damping_beta", 1e-3, *PROBE, "1,0,0"]
+        reduced = ["-m_model", "modal", "-m_modal_vectors", 2]
+        said = "group link2: yields in modes, whose stiffness damping (beta) acts on it as well"
+        self.assertIn("-m_modal_damping", *[line for line in self.doubts([*words, *reduced]) if said in line])
+        for more in ([], [*reduced, "-m_damping_beta", 0], [*reduced, "-m_damping_beta", 0, "-m_modal_damping", 0.02]):
+            self.assertFalse([line for line in self.doubts([*words, *more]) if said in line], more)
+
     def test_loads_whose_sum_is_zero_are_a_start(self):
         lines = self.doubts([*CHAIN, "-preload", "static", "-loads", "left,right", "-left_on", "m:first",
                              "-left_force", "-100,0,0", "-right_on", "m:second", "-right_force",

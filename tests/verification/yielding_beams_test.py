@@ -58,9 +58,18 @@ class OneBeam(unittest.TestCase):
             self.assertAlmostEqual(found.max() / top, 1, delta=1e-5)
             found = run.summary["yielding"][f"one:line:shear_{axis}"]
             self.assertEqual((found["elements"], found["yielded"]), (1, 1))
-            self.assertAlmostEqual(found["ductility"] / (top * stiffness / force), 1, delta=1e-5)
+            sheared = (top - force * LENGTH**3 / (12 * BENDS)) / LENGTH  # its force is that of the flat skeleton
+            self.assertAlmostEqual(found["ductility"] / (sheared * STIFF / force), 1, delta=1e-5)
             self.assertAlmostEqual(found["energy_lost"] / run.energy["plastic"], 1, delta=1e-9)
 
+    def test_ductility_is_of_the_shear_strain(self):
+        """Pushed beyond the first corner slowly, a slender beam: its sway is mostly bending, its ductility the section's."""
+        force, hardening, push = 4e6, 0.2, 5.6e6
+        strain = (force + (push - force) / hardening) / STIFF
+        run = Recorded(self, beam("-one_clamp", "x_min,x_max:x+z+rx+ry+rz", "-one_line_shear_skeleton_y",
+                                  pairs(STIFF, force, (100, force * (1 + 99 * hardening))), "-one_line_shear_rule", "peak", "-loads",
+                                  "push", "-push_on", "one:x_max", "-push_force", f"0,{push},0", "-preload", "static", end=1e-3))
+        self.assertAlmostEqual(run.summary["yielding"]["one:line:shear_y"]["ductility"] / (strain * STIFF / force), 1, delta=1e-3)
 
     def test_without_flexibility_in_shear(self):
         words = ["euler_beam" if word == "beam" else word for word in beam("-one_line_shear_skeleton_y", pairs(STIFF, 4e6))]

@@ -17,6 +17,7 @@ double first_elongation(const Skeleton& skeleton) {
 
 HystereticLaw::HystereticLaw(const Hysteresis& law)
     : stiffness_(law.first_slope()),
+      flexibility_(law.flexibility),
       first_plus_(first_elongation(law.positive)),
       first_minus_(first_elongation(law.negative)),
       path_(make_path(law)) {}
@@ -42,6 +43,12 @@ void HystereticLaw::advance(double elongation, std::span<double> memory, double 
     // The path begins where it leaves its first line.
     if (was_elastic) path_->follow(0, memory[elongation_now], memory.subspan(of_the_law), 1);
     yield(elongation, memory, strength);
+    if (flexibility_ > 0) {
+      const double rest = 1 - flexibility_ * stiffness_;
+      const double own = elongation - flexibility_ * memory[on_path];
+      note(rest * first_plus_, own, memory[most_plus]);
+      note(rest * first_minus_, -own, memory[most_minus]);
+    }
   }
   memory[elongation_now] = elongation;
   memory[moved] = 1;

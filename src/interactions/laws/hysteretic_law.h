@@ -40,8 +40,8 @@ class HystereticLaw {
   double elongation(std::span<const double> memory) const { return memory[elongation_now]; }
   /// Sum of D_n [J].
   double lost(std::span<const double> memory) const { return memory[lost_so_far]; }
-  /// Largest elongation over that of the first break of its direction, by the strength of its step;
-  /// 0 before any.
+  /// Largest elongation over that of the first break of its direction, by the strength of its step,
+  /// both less the elastic part in series; 0 before any.
   double ductility(std::span<const double> memory) const {
     return std::max(memory[most_plus], memory[most_minus]);
   }
@@ -73,6 +73,7 @@ class HystereticLaw {
   void yield(double elongation, std::span<double> memory, double strength) const;
 
   double stiffness_;
+  double flexibility_;     ///< of the elastic part in series, see Hysteresis
   double first_plus_ = 0;  ///< elongations of the first breaks; 0: carries nothing
   double first_minus_ = 0;
   std::unique_ptr<HysteresisPath> path_;

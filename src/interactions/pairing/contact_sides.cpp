@@ -70,8 +70,11 @@ class SideFinder {
                   build_contact_face(mesh, structure.regions, group(s)),
                   shell_thickness(structure)};
     if (side.face.facets.empty() && side.face.undecided.empty()) {
-      throw UserError(side_option(contact_, name) + ": group '" + s.group +
-                      "' has no faces of solids or shells, no edges of shells and no beams");
+      throw UserError(
+          side_option(contact_, name) + ": group '" + s.group +
+          "' has no faces of solids or shells, no edges of shells and no beams; its nodes can "
+          "be a stop: -" +
+          contact_.name + "_along");
     }
     const bool decided = side.face.undecided.empty();
     if (std::ranges::all_of(decided ? side.face.nodes : group(s).nodes,
