@@ -112,10 +112,10 @@ struct Head {
 template <typename Stream, typename Reports>
 void pass_reports(Stream& stream, Reports& reports) {
   stream.list(reports, [&](auto& report) {
-    pass_each(stream, report.contact, report.pairs, report.matched, report.unmatched_nodes,
-              report.smallest_gap, report.largest_gap, report.geometric_gap, report.half_thickness,
-              report.overlapping, report.carried, report.left_behind, report.farthest_behind,
-              report.inner_facets, report.normal, report.tangent_axes);
+    pass_each(stream, report.contact, report.passes, report.pairs, report.matched,
+              report.unmatched_nodes, report.smallest_gap, report.largest_gap, report.geometric_gap,
+              report.half_thickness, report.overlapping, report.carried, report.left_behind,
+              report.farthest_behind, report.inner_facets, report.normal, report.tangent_axes);
     stream.array(report.patch_pairs);
     pass_each(stream, report.filler_area, report.filler_thickness);
   });
