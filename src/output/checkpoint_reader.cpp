@@ -68,8 +68,7 @@ class CheckpointReader {
         refuse(text.str());
       }
       if (file_->text("/", "ground_motion") != identity.ground_motion) {
-        refuse(
-            "written under other motions or loads; give the same records and tables or start anew");
+        refuse("written under another ground motion or other loads; give the same or start anew");
       }
       const double frequency = file_->number("/", "beam_frequency");
       if (frequency != identity.beam_frequency) {

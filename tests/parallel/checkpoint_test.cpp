@@ -182,7 +182,7 @@ TEST_F(CheckpointFile, OfAnotherSceneIsRefusedOnEveryRank) {
   says(other, mesh, "written with the time step 0.001");
   other = identity;
   other.ground_motion = "4567";
-  says(other, mesh, "other motions or loads");
+  says(other, mesh, "another ground motion");
   says(identity, distribute(comm, mixed_box(3.1)), "structure box has its nodes elsewhere");
   GlobalMesh freer = mixed_box();
   freer.free_components[5] ^= 0x38;
