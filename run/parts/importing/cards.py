@@ -94,14 +94,19 @@ class Guard:
 GUARD = Guard()
 
 
+def split_lines(text: str) -> list:
+    """Lines of a text, which end with \\n, \\r or both alone: str.splitlines ends them at 0x85 and the like as well."""
+    return re.split("\r\n|\n|\r", text)
+
+
 def lines_of(path: Path, seen=()):
-    """Lines of a text as (place, line), which end with \\n, \\r or both alone. Throws InputFault where it is none."""
+    """Lines of a text as (place, line). Throws InputFault where it is none."""
     text = GUARD.content(path).decode("latin-1")
     if path.resolve() in seen:
         raise InputFault(f"{path}: includes itself")
     if "\0" in text[:4096]:
         raise InputFault(f"{path} line 1: not a text")
-    lines = re.split("\r\n|\n|\r", text)
+    lines = split_lines(text)
     found = [(f"{path.name} line {count}", line.rstrip()) for count, line in enumerate(lines, 1)]
     for place, line in found:
         if len(line) > LINE:

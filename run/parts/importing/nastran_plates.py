@@ -3,18 +3,9 @@
 The mean over all directions of a plane stiffness has two numbers, U1 = (3 Q11 + 3 Q22 + 2 Q12 + 4 Q66) / 8 and
 U4 = (Q11 + Q22 + 6 Q12 - 4 Q66) / 8, which turning its axes does not change: so angles of layers do not matter."""
 
-import math
-from dataclasses import dataclass
-
 from .model import InputFault
 from .nastran_cards import Card
-
-
-@dataclass(slots=True)
-class Layer:
-    stiffness: tuple  # U1, U4
-    density: float
-    thickness: float
+from .plates import Layer, isotropic
 
 
 def stiffness_of(card: Card) -> tuple:
@@ -31,12 +22,7 @@ def stiffness_of(card: Card) -> tuple:
         young, shear, poisson = (card.real(k) for k in (1, 2, 3))
         if not card.text(1):
             young = 2 * shear * (1 + poisson)
-        elif not card.text(3):
-            poisson = young / (2 * shear) - 1 if shear else 0.0
-        if not -1 < poisson < 0.5:
-            poisson = 0.3
-        q11 = q22 = young / (1 - poisson**2)
-        q12, q66 = poisson * q11, (1 - poisson) * q11 / 2
+        return isotropic(young, shear, poisson if card.text(3) or not card.text(1) else None)[0]
     return (3 * q11 + 3 * q22 + 2 * q12 + 4 * q66) / 8, (q11 + q22 + 6 * q12 - 4 * q66) / 8
 
 
@@ -59,22 +45,3 @@ def layers_of(card: Card, materials: dict) -> tuple:
     if not total > 0:
         raise InputFault(f"{card.place}: {card.name} {card.text(0)} has no layer with a thickness")
     return layers, card.real(1, -total / 2) + total / 2
-
-
-def equal_plate(layers: list, bending: list | None = None) -> tuple:
-    """Young's modulus, Poisson's ratio, density and thickness of the isotropic plate of equal mean stiffness in plane and
-    in bending, and of equal mass. `bending`: its two numbers where they do not follow from the layers."""
-    total = sum(layer.thickness for layer in layers)
-    plane = [sum(layer.stiffness[k] * layer.thickness for layer in layers) for k in (0, 1)]
-    if bending is None:
-        bending, low = [0.0, 0.0], -total / 2
-        for layer in layers:
-            high = low + layer.thickness
-            bending = [bending[k] + layer.stiffness[k] * (high**3 - low**3) / 3 for k in (0, 1)]
-            low = high
-    if not (plane[0] > 0 and bending[0] > 0):
-        return 0.0, 0.0, 0.0, total
-    thickness = math.sqrt(12 * bending[0] / plane[0])
-    poisson = max(-0.9, min(plane[1] / plane[0], 0.49))
-    mass = sum(layer.density * layer.thickness for layer in layers)
-    return plane[0] / thickness * (1 - poisson**2), poisson, mass / thickness, thickness

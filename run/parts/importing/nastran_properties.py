@@ -6,7 +6,8 @@ from dataclasses import replace
 from . import sections
 from .model import InputFault, Material, Property, Reading, Section
 from .nastran_cards import Card
-from .nastran_plates import Layer, equal_plate, layers_of, stiffness_of
+from .nastran_plates import layers_of, stiffness_of
+from .plates import Layer, equal_plate
 
 SHAPES = {"ROD": 1, "TUBE": 2, "BAR": 2, "BOX": 4, "I": 6}
 

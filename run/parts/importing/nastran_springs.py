@@ -121,9 +121,13 @@ class SpringReader(Reading):
 
     def finish(self) -> None:
         for node, (six, card) in self.scalar_masses.items():
-            if max(six[:3]) - min(six[:3]) > 1e-9 * max(map(abs, six[:3])):
-                self.lose("MASS THAT DIFFERS BY DIRECTION", "a mass is the same along all axes; allowed, the largest holds", card.place)
-            self.model.masses.append(PointMass(node, max(six[:3]), tuple(six[3:]), name="cmass", place=card.place))
+            self._keep_mass(node, six, max(map(abs, six[:3])), "cmass", card)
+
+    def _keep_mass(self, node: int, six: list, scale: float, name: str, card: Card) -> None:
+        """The point mass of six numbers along and about the axes; `scale` of the differences that are round-off."""
+        if max(six[:3]) - min(six[:3]) > 1e-9 * scale:
+            self.lose("MASS THAT DIFFERS BY DIRECTION", "a mass is the same along all axes; allowed, the largest holds", card.place)
+        self.model.masses.append(PointMass(node, max(six[:3]), tuple(six[3:]), name=name, place=card.place))
 
     def _matrix_mass(self, card: Card) -> None:
         """Of the six by six numbers of CONM1 a mass that is the same along all axes, and inertia about them."""
@@ -132,9 +136,7 @@ class SpringReader(Reading):
         scale = max(map(abs, diagonal)) or 1.0
         if card.int(2, 0) or any(abs(value) > 1e-9 * scale for row in rows for value in row[:-1]):
             self.lose("PRODUCTS OF CONM1", "masses have no products and no axes of their own; allowed, its diagonal holds", card.place)
-        if max(diagonal[:3]) - min(diagonal[:3]) > 1e-9 * scale:
-            self.lose("MASS THAT DIFFERS BY DIRECTION", "a mass is the same along all axes; allowed, the largest holds", card.place)
-        self.model.masses.append(PointMass(card.int(1), max(diagonal[:3]), tuple(diagonal[3:]), name="conm1", place=card.place))
+        self._keep_mass(card.int(1), diagonal, scale, "conm1", card)
 
     def _mass(self, card: Card) -> bool | None:
         node, system = card.int(1), card.int(2, 0)

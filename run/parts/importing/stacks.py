@@ -1,17 +1,7 @@
 """Shells that lie on the same nodes: the program has one there, of the stiffness and mass of all."""
 
 from .model import SHELL, Material, Model, Property
-from .nastran_plates import Layer, equal_plate
-
-
-def _plane(material: Material) -> tuple:
-    """Stiffness in plane, along and across, and Poisson's ratio."""
-    poisson = material.poisson
-    if poisson is None:
-        poisson = material.young / (2 * material.shear) - 1 if material.shear else 0.0
-    poisson = poisson if -1 < poisson < 0.5 else 0.3
-    along = material.young / (1 - poisson**2)
-    return (along, poisson * along), poisson
+from .plates import Layer, equal_plate, isotropic
 
 
 def unstack(model: Model) -> None:
@@ -42,7 +32,7 @@ def _together(model: Model, keys: list, own: list, place: str):
     key = ("shells on each other", *keys)
     if key not in model.properties:
         materials = [model.materials[one.material] for one in own]
-        planes = [_plane(material) for material in materials]
+        planes = [isotropic(one.young, one.shear, one.poisson) for one in materials]
         if max(ratio for _, ratio in planes) - min(ratio for _, ratio in planes) > 1e-6:
             model.cards.lose("SHELLS OF DIFFERENT MATERIALS ON EACH OTHER", "a shell has one Poisson's ratio; allowed, the one that keeps the "
                              "stiffness in plane", place)

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from parts.tables import write_rows
 
+from .cards import split_lines
 from .formats import FORMATS, read
 from .model import InputFault
 from .nastran_lines import holds_mass
@@ -50,7 +51,7 @@ def format_of(path: Path) -> str | None:
     if b"\0" in head:
         return None
     found = None
-    for line in head.decode("latin-1").splitlines():
+    for line in split_lines(head.decode("latin-1")):
         kind = next((kind for kind, begin in BEGINNINGS if re.match(begin, line, re.IGNORECASE)), None)
         if kind == "dyna" or (kind and found is None):
             found = kind
@@ -68,7 +69,7 @@ def has_mass(path: Path, kind: str) -> str:
             return "yes" if holds_mass(path) else "no"
         if kind in MASSES:
             text = path.read_bytes().decode("latin-1")
-            return "yes" if any(re.match(MASSES[kind], line, re.IGNORECASE) for line in text.splitlines()) else "no"
+            return "yes" if any(re.match(MASSES[kind], line, re.IGNORECASE) for line in split_lines(text)) else "no"
     except Exception:  # noqa: BLE001: what is wrong with the deck the reader says
         pass
     return "?"
