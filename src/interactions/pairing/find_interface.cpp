@@ -48,11 +48,7 @@ class PairFinder {
       report_.passes = both ? 2 : 1;
       pair(sides_.secondary, sides_.primary, interface);
       if (both) {
-        const InterfaceReport one = report_;
         pair(sides_.primary, sides_.secondary, interface);
-        report_.unmatched_nodes = one.unmatched_nodes;  // of the secondary
-        report_.left_behind = one.left_behind;
-        report_.farthest_behind = one.farthest_behind;
         if (!contact_.filler && contact_.sliding == 0) drop_repeated(first, interface, report_);
       } else {
         watch_other_pass(interface);
@@ -211,6 +207,7 @@ class PairFinder {
         finish(nodes, i, std::move(open), interface);
         sliding->add_row(i, interface.constraints);
       }
+      if (&nodes == &sides_.primary) continue;  // the secondary's are reported
       ++report_.unmatched_nodes;
       if (result.behind < 0) {
         ++report_.left_behind;
