@@ -1,5 +1,6 @@
 # Kernels: what takes the time of a step, compiled once for each vector unit and joined in one program, which chooses at
-# its start (src/common/vector_unit.h). Everything else is compiled for the first unit. docs/install.md has the words.
+# its start (src/common/vector_unit.h). Everything else is compiled for the first unit.
+# docs/manual/install.md has the words.
 include(${CMAKE_CURRENT_LIST_DIR}/best_unit.cmake)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
   set(units v2 v3 v4)

@@ -1,5 +1,5 @@
 """Statistics of sets of runs: moments of spectra, intervals of probabilities, lognormal fragility curves, samples of
-what is not known exactly. Formulas and sources are in docs/fragility.md."""
+what is not known exactly. Formulas and sources are in docs/manual/fragility.md."""
 
 from dataclasses import dataclass
 

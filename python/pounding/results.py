@@ -225,7 +225,7 @@ def require_schema(name: str, found) -> None:
 
 
 def low_pass(values, time, frequency: float):
-    """The low-pass of docs/results.md: two poles of Butterworth forwards and backwards, both passes together
+    """The low-pass of docs/manual/results.md: two poles of Butterworth forwards and backwards, both passes together
     leave 1/sqrt(2) at `frequency` [Hz]. Returns the values as they are where their samples hold no such filter."""
     if len(values) < 2 or frequency * (interval := time[1] - time[0]) > 0.25 * (1 + 1e-9):
         return values

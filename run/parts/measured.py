@@ -79,7 +79,7 @@ def measured(name: str, folder: Path) -> str:
 
 def pages_of(docs: Path) -> dict:
     """Name of a table -> its page."""
-    return {found[2]: page for page in sorted(docs.glob("*.md"))
+    return {found[2]: page for page in sorted(docs.rglob("*.md"))
             for found in MARKED.finditer(page.read_text(encoding="utf-8"))}
 
 

@@ -8,7 +8,7 @@
 #include "scene/scene.h"
 
 /// Checks of a structure's mesh for faults, in view of the whole scene. Serial; the thresholds are
-/// in docs/input-checks.md.
+/// in docs/reference/input-checks.md.
 namespace pounding {
 
 /// Throws UserError where matrices are to be written of a structure that matrices do not hold

@@ -8,7 +8,7 @@
 #include "mesh/global_mesh.h"
 
 /// Doubts about a model whose parts are each in order, and that cannot be meant as a whole. One
-/// line each; the thresholds are in docs/input-checks.md.
+/// line each; the thresholds are in docs/reference/input-checks.md.
 namespace pounding {
 
 /// Doubts that whole meshes show: a mat on soil that is not level, contacts that go through a

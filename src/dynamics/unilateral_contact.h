@@ -29,8 +29,8 @@ namespace pounding {
 /// falls but for the ground: |v| <= r = sqrt(v^2 + k ubar^2 / a), which rises per step by at most
 /// dt m |iota| |a_g| / a (energy identity of dynamics/energy_balance.h). A gap then changes no
 /// faster than sum_k |L_k| r_k. Uniform damping stiffens k in `a`, softens that of ubar, and adds
-/// its branches, s a_i k (ubar - y_i)^2, see docs/theory/damping.md. About a rest u_0 that it
-/// leaves alone, ubar - u_0 replaces ubar and the weight less k u_0 for the weight. Local.
+/// its branches, s a_i k (ubar - y_i)^2, see docs/reference/theory/damping.md. About a rest u_0
+/// that it leaves alone, ubar - u_0 replaces ubar and the weight less k u_0 for the weight. Local.
 class CoordinateRates {
  public:
   /// `rows`: L T over the owned coordinates, shape (gaps, coordinates). `ground_acceleration`:

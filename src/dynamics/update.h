@@ -68,8 +68,8 @@ constexpr std::size_t max_filters = 9;
 /// A run that starts from a rest u_0 has one filter more, with k = 1, t = 0 and s a = -1, whose
 /// memory (1 - s) K u_0 stays: the others then act on the change of K u since the rest, where
 /// W_i = K u_0.
-/// Stable if and only if M - dt^2/4 s (1 + sum a_i) K is positive definite; docs/theory/damping.md
-/// has the energy that proves it.
+/// Stable if and only if M - dt^2/4 s (1 + sum a_i) K is positive definite;
+/// docs/reference/theory/damping.md has the energy that proves it.
 template <typename Value>
 struct Filters {
   std::size_t count = 0;

@@ -119,9 +119,9 @@ void check_mesh_file(const std::string& option, const std::filesystem::path& fil
   }
   const std::string ending = file.extension().string();
   if (contains(models, ending)) {
-    throw UserError(
-        "option " + option + ": files with the ending '" + ending +
-        "' are not meshes of Gmsh; run/import makes a scene and a .msh of it (docs/import.md)");
+    throw UserError("option " + option + ": files with the ending '" + ending +
+                    "' are not meshes of Gmsh; run/import makes a scene and a .msh of it "
+                    "(docs/manual/import.md)");
   }
   if (!is_geometry(file) && !contains(meshes, ending)) {
     throw UserError("option " + option + ": files with the ending '" + ending +

@@ -33,7 +33,7 @@ std::size_t largest_krylov_space(std::size_t count);
 /// those that there are, and another block seeks the rest. Start blocks are the same for any number
 /// of ranks.
 /// SLEPc's Krylov-Schur, one vector at a time, took 190 s in place of 58 s for 400 modes of 115,362
-/// dofs (docs/performance.md); few modes are left to it (`lowest_modes`).
+/// dofs (docs/measurements/performance.md); few modes are left to it (`lowest_modes`).
 /// Throws UserError where fewer converge. Collective.
 Eigenpairs lowest_eigenpairs(const LinearSystem& system, const Mesh& mesh,
                              const ShiftedSolver& solver, std::size_t count);

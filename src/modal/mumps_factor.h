@@ -10,8 +10,8 @@ namespace pounding {
 /// Factor L D L^T of a symmetric matrix less a shift, by MUMPS (Amestoy, Duff, L'Excellent and
 /// Koster, SIAM J. Matrix Anal. Appl. 23 (2001) 15) without PETSc between: on several ranks PETSc
 /// builds the exchange of the solution anew for each block of right-hand sides, which took half of
-/// the time of a large basis (docs/performance.md). The options -lowest_st_mat_mumps_icntl_* hold
-/// as they do with PETSc.
+/// the time of a large basis (docs/measurements/performance.md). The options
+/// -lowest_st_mat_mumps_icntl_* hold as they do with PETSc.
 class MumpsFactor {
  public:
   /// A - shift I of an AIJ matrix, both of whose triangles are there; it is not kept. Throws

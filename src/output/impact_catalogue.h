@@ -148,7 +148,7 @@ class ImpactCatalogue {
   std::vector<Impact> impacts_;
 };
 
-/// `impacts.csv`: one line per episode, its columns as in docs/results.md; `digits`:
+/// `impacts.csv`: one line per episode, its columns as in docs/manual/results.md; `digits`:
 /// significant ones. Throws UserError if the file cannot be written.
 void write_impacts(const std::string& path, const std::vector<std::string>& contacts,
                    std::span<const Impact> impacts, int digits);

@@ -12,7 +12,8 @@
 
 namespace pounding {
 
-/// Path that a law takes back from its skeleton and towards it again, see docs/nonlinear.md.
+/// Path that a law takes back from its skeleton and towards it again, see
+/// docs/reference/nonlinear.md.
 enum class HystereticRule : std::uint8_t {
   kinematic,  ///< the elastic range moves
   isotropic,  ///< the elastic range grows, both ways at once

@@ -20,7 +20,7 @@ struct DampingFilter {
 /// frequency |z| and the damping ratio -Re z / |z|. The largest deviation of that ratio over the
 /// band is as small as the number of filters allows. Causality makes fast motions stiffer than slow
 /// ones: s = 1 / |G| at one frequency, where modes keep their place. Sources:
-/// docs/theory/damping.md.
+/// docs/reference/theory/damping.md.
 struct UniformDamping {
   double ratio = 0;      ///< xi [-]
   double lowest = 1;     ///< lower end of the band [Hz]

@@ -220,7 +220,7 @@ class MatrixSystem {
                         std::string(motion_names[rows_[row].component]) + " of " +
                         node_text(rows_[row]) +
                         ") has no mass, and a step condenses nothing: condense it out of the "
-                        "matrices (docs/matrices.md), or give it a mass");
+                        "matrices (docs/manual/matrices.md), or give it a mass");
       }
     }
   }

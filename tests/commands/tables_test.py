@@ -24,7 +24,7 @@ class Tables(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder, cls.docs = tempfile.mkdtemp(prefix="pounding-"), tempfile.mkdtemp(prefix="pounding-")
-        shutil.copy(os.path.join(program.SOURCE, "docs", "pair.md"), cls.docs)
+        shutil.copy(os.path.join(program.SOURCE, "docs", "measurements", "pair.md"), cls.docs)
         cls.result = tables("frequencies", "time_steps", "--docs", cls.docs, "--output", cls.folder)
 
     def rows(self):
@@ -39,7 +39,7 @@ class Tables(unittest.TestCase):
         for one in found:
             self.assertIn(one[3].strip(), self.result.stdout)
             self.assertEqual(measured.LINE.match(one[3].splitlines()[0])[1], one[2])
-        before = Path(program.SOURCE, "docs", "pair.md").read_text(encoding="utf-8")
+        before = Path(program.SOURCE, "docs", "measurements", "pair.md").read_text(encoding="utf-8")
         self.assertEqual(measured.MARKED.sub("", page), measured.MARKED.sub("", before))
 
     def test_frequencies(self):

@@ -1,4 +1,4 @@
-"""run/new, and docs/tutorial.md: every command of the page, run in an empty folder."""
+"""run/new, and docs/manual/tutorial.md: every command of the page, run in an empty folder."""
 import os
 import re
 import subprocess
@@ -10,7 +10,7 @@ import program
 
 PROCESSORS = 2  # runs on two ranks
 
-PAGE = os.path.join(program.SOURCE, "docs", "tutorial.md")
+PAGE = os.path.join(program.SOURCE, "docs", "manual", "tutorial.md")
 
 
 def commands():
@@ -74,7 +74,7 @@ class Tutorial(unittest.TestCase):
         dry = program.run(["-options_file", self.place / "two-buildings.yaml", "-dry_run", "-modes", 1, *words], 1)
         self.assertEqual(dry.returncode, 0, dry.stderr)
         costs = [float(text) for text in re.findall(r"costs ([\d.]+) times the steps", dry.stdout)]
-        self.assertEqual([round(cost) for cost in costs], [35, 34], "docs/tutorial.md says how many times")
+        self.assertEqual([round(cost) for cost in costs], [35, 34], "docs/manual/tutorial.md says how many times")
 
 
 class New(unittest.TestCase):

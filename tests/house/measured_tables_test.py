@@ -32,7 +32,7 @@ class MeasuredTables(unittest.TestCase):
                 self.assertTrue(all(row.startswith("|") for row in table), page)
 
     def test_the_page_of_performance_has_no_others_and_stays_short(self):
-        text = (DOCS / "performance.md").read_text(encoding="utf-8")
+        text = (DOCS / "measurements" / "performance.md").read_text(encoding="utf-8")
         self.assertLessEqual(text.count("\n"), MOST_LINES)
         self.assertEqual([line for line in measured.MARKED.sub("", text).splitlines() if line.startswith("|")], [])
 

@@ -74,7 +74,8 @@ class NamedFiles(unittest.TestCase):
     def test_schema_numbers_are_those_of_the_code(self):
         """The page of files tells the number of every layout."""
         numbers = re.findall(r"constexpr int (\w+) = (\d+);", text_of("src/io/schema.h"))
-        told = re.search(r"Today they are (.*?`checkpoint\.h5`)", text_of("docs/files.md"), re.DOTALL).group(1)
+        told = re.search(r"Today they are (.*?`checkpoint\.h5`)", text_of("docs/reference/files.md"),
+                         re.DOTALL).group(1)
         parts = re.split(r"(\d+) for ", told)
         of_file = {name: number for number, names in zip(parts[1::2], parts[2::2])
                    for name in re.findall(r"\w+(?=\.json|\.h5)|basis", names)}

@@ -1,4 +1,4 @@
-"""docs/scene.md lists every option of the option table, with its unit, default and range, and no other."""
+"""docs/reference/scene.md lists every option of the option table, with its unit, default and range, and no other."""
 import os
 import re
 import subprocess
@@ -6,7 +6,7 @@ import unittest
 
 import program
 
-PAGE = os.path.join(program.SOURCE, "docs", "scene.md")
+PAGE = os.path.join(program.SOURCE, "docs", "reference", "scene.md")
 
 # Named bounds of the table, in the words of the page; "any" is not written.
 RANGES = {"any": "", "positive": "> 0", "not_negative": ">= 0", "at_least_1": ">= 1", "fraction": "(0, 1]",

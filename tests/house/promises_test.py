@@ -1,4 +1,4 @@
-"""Every promise of docs/promises.md names tests that exist, and what a test is called is read from the
+"""Every promise of docs/measurements/promises.md names tests that exist, and what a test is called is read from the
 sources: methods of unittest classes, TEST macros, and tests that CMake adds for a program."""
 import ast
 import functools
@@ -8,7 +8,7 @@ import unittest
 
 import program
 
-PAGE = os.path.join(program.SOURCE, "docs", "promises.md")
+PAGE = os.path.join(program.SOURCE, "docs", "measurements", "promises.md")
 TESTS = os.path.join(program.SOURCE, "tests")
 
 

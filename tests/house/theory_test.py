@@ -1,4 +1,4 @@
-"""The identities and bounds of docs/theory in numbers, on random small systems, apart from the program."""
+"""The identities and bounds of docs/reference/theory in numbers, on random small systems, apart from the program."""
 import itertools
 import unittest
 

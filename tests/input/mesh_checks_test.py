@@ -184,7 +184,8 @@ class Groups(MeshCase):
     def test_formats_that_run_import_reads_say_so(self):
         for ending in (".inp", ".unv", ".med", ".cdb", ".k"):
             mesh = self.with_file("*NODE\n1, 0, 0, 0\n", ending)
-            self.refuse(self.cube(mesh, "body", "base"), "-t_mesh", f"'{ending}'", "run/import", "docs/import.md")
+            self.refuse(self.cube(mesh, "body", "base"), "-t_mesh", f"'{ending}'", "run/import",
+                            "docs/manual/import.md")
 
     NAMES = ((3, 1, "tower"), (2, 2, "tower"), (2, 3, "base"))
     BRICK = (5, 1, 1, range(1, 9))

@@ -1,6 +1,6 @@
-"""A release has one version everywhere, and the packages that docs/install.md names are those that the workflow makes. The
-package file for Spack has every library that CMake looks for, and hands CMake options that it has; Spack itself is not
-needed: the file is run with words of its language that take notes."""
+"""A release has one version everywhere, and the packages that docs/manual/install.md names are those that the workflow makes.
+The package file for Spack has every library that CMake looks for, and hands CMake options that it has; Spack itself is
+not needed: the file is run with words of its language that take notes."""
 import re
 import unittest
 from pathlib import Path
@@ -69,7 +69,7 @@ class Release(unittest.TestCase):
         images = jobs["package"]["strategy"]["matrix"]["image"]
         self.assertEqual([one["image"] for one in jobs["installed"]["strategy"]["matrix"]["include"]], images)
         files = {f"pounding_{version}-{image.replace(':', '')}_amd64.deb" for image in images}
-        page = (TOP / "docs" / "install.md").read_text()
+        page = (TOP / "docs" / "manual" / "install.md").read_text()
         self.assertEqual(set(re.findall(r"pounding_[\w.-]+_amd64\.deb", page)), files)
         self.assertLess(page.index("## Downloading"), page.index("## Building"))
         self.assertIn("installed", jobs["release"]["needs"])

@@ -92,7 +92,7 @@ class Matrices(unittest.TestCase):
 
     def script_of_the_docs(self, language, place, interpreter):
         """Frequencies and effective masses that a script on the page prints for the exported matrices."""
-        with open(os.path.join(program.SOURCE, "docs", "matrices.md")) as file:
+        with open(os.path.join(program.SOURCE, "docs", "manual", "matrices.md")) as file:
             script = file.read().split(f"```{language}\n")[1].split("```")[0]
         self.assertIn("results/matrices/s1/", script)
         result = subprocess.run([*interpreter, script.replace("results/matrices/", place + "/")],

@@ -24,7 +24,7 @@ CUT = 400   # Hz, the highest frequency of the spectra
 
 
 def filtered(values, interval, cut):
-    """The formula of docs/results.md, sample by sample."""
+    """The formula of docs/manual/results.md, sample by sample."""
     w = math.tan(math.pi * cut * interval) / (math.sqrt(2) - 1) ** 0.25
     scale = 1 + math.sqrt(2) * w + w * w
     b, a1, a2 = w * w / scale, 2 * (1 - w * w) / scale, -(1 - math.sqrt(2) * w + w * w) / scale

@@ -2,7 +2,7 @@
 
 S = K + i omega C - omega^2 M + sum_j X_j i omega / (1 + i omega / p_j + q_j / (i omega)) with symmetric K, C, M, X_j without
 negative eigenvalues, p_j > 0 and q_j >= 0 can only take energy. For given rates p_j, q_j the rest is a convex problem, which is
-solved; docs/theory/links.md has all of it.
+solved; docs/reference/theory/links.md has all of it.
 """
 
 import math

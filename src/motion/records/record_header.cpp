@@ -101,7 +101,7 @@ bool is_title(std::string_view text) {
   throw UserError(at_line(file, line.number) + "a line of words ('" + line.text.substr(0, 40) +
                   "') below numbers: those from line " + std::to_string(first.line) +
                   " to it seem to be of a header, not the record's; give the values alone, or a " +
-                  "format that docs/records.md lists");
+                  "format that docs/reference/records.md lists");
 }
 
 void read_rows(const std::string& file, const std::vector<TextLine>& lines, std::size_t begin,
@@ -264,7 +264,7 @@ void RecordHeader::require_acceleration() const {
   if (counts_line_ > 0) {
     throw UserError(at_line(file_, counts_line_) +
                     "the values are counts of a recorder, or want a factor; multiply them and take "
-                    "this line out, or give a format that docs/records.md lists");
+                    "this line out, or give a format that docs/reference/records.md lists");
   }
   if (acceleration_ || !(other_quantity_ || (velocity_unit_ && stated_units().empty()))) return;
   throw UserError(at_line(file_, other_line_) +

@@ -274,7 +274,7 @@ void refuse_numbers_of_header(const std::string& file, const std::vector<NumberR
   throw UserError(
       at_line(file, rows[0].line) + "the numbers down to line " + std::to_string(rows[last].line) +
       " are written with other decimals than those below: they seem to be of a header, "
-      "not the record's; give the values alone, or a format that docs/records.md lists");
+      "not the record's; give the values alone, or a format that docs/reference/records.md lists");
 }
 
 void refuse_offset(const std::string& file, const std::vector<double>& values) {

@@ -27,7 +27,7 @@ FILES = [
     Case("a device without an end as a record", ["-motion_x_record", "/dev/zero"], ["/dev/zero", "device"]),
     Case("a device without an end as a target", ["-motion_x_record", "none", "-motion_y_target", "/dev/zero",
                                                  "-motion_y_pga", "1"], ["/dev/zero", "device"]),
-    record("counts of a recorder", "units: counts\n" + ROWS, ["counts", "docs/records.md"]),
+    record("counts of a recorder", "units: counts\n" + ROWS, ["counts", "docs/reference/records.md"]),
     record("a title below numbers", "A TITLE\n1 2 3\n4 5 6\nthe values in g follow\n" + ROWS,
            ["line of words", "header"]),
     record("commas of which nothing tells", "3,1\n2,5\n4,2\n", ["decimal comma"], "-motion_x_time_step", "0.01"),

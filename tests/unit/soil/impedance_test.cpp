@@ -111,7 +111,7 @@ Radiation radiation(double r) {
   return found;
 }
 
-/// Parts of the published radiation that one internal mass has, as docs/theory/links.md states them.
+/// Parts of the published radiation that one internal mass has, as docs/reference/theory/links.md states them.
 TEST(Rectangle, ImaginaryPartBesideThePublishedRadiation) {
   const auto expect = [](double r, const std::array<double, 6>& low,
                          const std::array<double, 6>& high) {
