@@ -1,12 +1,13 @@
-"""docs/reference/scene.md lists every option of the option table, with its unit, default and range, and no other."""
+"""docs/reference/scene lists every option of the option table, with its unit, default and range, and no other."""
 import os
+import pathlib
 import re
 import subprocess
 import unittest
 
 import program
 
-PAGE = os.path.join(program.SOURCE, "docs", "reference", "scene.md")
+CHAPTERS = sorted(pathlib.Path(program.SOURCE, "docs", "reference", "scene").glob("*.md"))
 
 # Named bounds of the table, in the words of the page; "any" is not written.
 RANGES = {"any": "", "positive": "> 0", "not_negative": ">= 0", "at_least_1": ">= 1", "fraction": "(0, 1]",
@@ -98,8 +99,7 @@ class OptionsDocumented(unittest.TestCase):
         cls.rows = option_rows(cls.source)
         cls.petsc_source = source("unknown_options.cpp")
         cls.petsc_rows = PETSC_ROW.findall(cls.petsc_source)
-        with open(PAGE) as file:
-            cls.page = file.read()
+        cls.page = "\n".join(chapter.read_text() for chapter in CHAPTERS)
         cls.own, cls.petsc, cls.twice = documented(cls.page)
 
     def test_every_row_of_the_table_is_read(self):

@@ -1,6 +1,6 @@
 """Cross-sections of beams by their dimensions. Axis 1 and 2 of the figures are z and y of the program: a height is
 along axis z, a width along y. Shear areas are given as factors of the area by formats that have factors of their own;
-where they have none those of the program's own sections are taken (docs/reference/scene.md)."""
+where they have none those of the program's own sections are taken (docs/reference/scene/materials.md)."""
 
 import math
 import re

@@ -1,4 +1,4 @@
-"""The file of soil that the option <structure>_soil_table takes; docs/reference/scene.md has its form."""
+"""The file of soil that the option <structure>_soil_table takes; docs/reference/scene/soil.md has its form."""
 
 from pathlib import Path
 
