@@ -23,8 +23,10 @@ namespace {
 void run_words(MPI_Comm comm, std::span<const std::string> words,
                std::optional<PetscSession>& petsc) {
   const CommandLine line = read_command_line(words);
-  if (line.help || line.version) {
-    const std::string text = line.help ? help_text(line.help_about) : version_text();
+  if (line.asks()) {
+    const std::string text = line.help        ? help_text(line.help_about)
+                             : line.help_json ? help_json()
+                                              : version_text();
     if (rank_of(comm) == 0) std::fputs(text.c_str(), stdout);
     return;
   }

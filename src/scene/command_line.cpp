@@ -59,10 +59,11 @@ CommandLine read_command_line(std::span<const std::string> words) {
   });
   line.help = asked != words.end();
   if (line.help && asked + 1 != words.end() && !is_option(asked[1])) line.help_about = asked[1];
+  line.help_json = std::ranges::find(words, "-help_json") != words.end();
   line.version = std::ranges::any_of(words, [](const auto& word) {
     return is_one_of(word, {"-version", "--version"});
   });
-  for (std::size_t i = 0; i < words.size() && !line.help && !line.version; ++i) {
+  for (std::size_t i = 0; i < words.size() && !line.asks(); ++i) {
     const std::string& word = words[i];
     if (!is_option(word)) refuse_stray(word);
     refuse_joined(word);

@@ -13,9 +13,13 @@ namespace pounding {
 struct CommandLine {
   bool help = false;               ///< -help, --help or -h
   std::string help_about;          ///< the word behind it
+  bool help_json = false;          ///< -help_json
   bool version = false;            ///< -version or --version
   std::vector<std::string> files;  ///< of every -options_file, in their order
   OptionsDatabase options;         ///< all others; of two with the same name the last one
+
+  /// It asks for a text, and for no run.
+  bool asks() const { return help || help_json || version; }
 };
 
 /// Reads the words after the program's name: `-name value`, or `-name` alone for a flag; a value

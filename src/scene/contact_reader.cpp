@@ -48,9 +48,6 @@ std::vector<GapPatch> read_patches(OptionReader& options, const OptionReader::Na
 constexpr std::string_view filler_option = "<contact>_filler";
 constexpr std::string_view unloading = "<contact>_filler_unloading";
 constexpr std::string_view crushing_option = "<contact>_crushing";
-constexpr std::string_view crushing_stiffness = "<contact>_crushing_stiffness";
-constexpr std::string_view crushing_depth = "<contact>_crushing_depth";
-constexpr std::string_view crushing_area = "<contact>_crushing_area";
 
 std::vector<Filler::Point> read_filler_table(OptionReader& options,
                                              const OptionReader::Names& names) {
@@ -76,38 +73,25 @@ std::vector<Filler::Point> read_filler_table(OptionReader& options,
   return points;
 }
 
-/// Refuses options that go with one that is not given.
-void forbid_parts(const OptionReader& options, std::string_view option,
-                  const OptionReader::Names& names) {
-  for (const OptionRow& row : option_table()) {
-    if (row.pattern.starts_with(std::string(option) + "_")) {
-      options.forbid(row.pattern, names,
-                     "goes with -" + option_name(option, names) + ", which is not given");
-    }
-  }
+std::string goes_with(std::string_view option, const OptionReader::Names& names) {
+  return "goes with -" + option_name(option, names) + ", which is not given";
 }
 
 /// A strip of the faces: elastic up to its strength, which it keeps to its end.
 std::optional<Filler> read_crushing(OptionReader& options, const OptionReader::Names& names) {
   if (!options.given(crushing_option, names)) {
-    forbid_parts(options, crushing_option, names);
+    options.forbid_all<Crushing>(names, goes_with(crushing_option, names), crushing_option);
     return std::nullopt;
   }
-  const double strength = options.real(crushing_option, names);
-  const double stiffness = options.real(crushing_stiffness, names);
-  Filler strip;
-  strip.in_faces = true;
-  strip.thickness = options.real(crushing_depth, names);
-  if (!(strength / stiffness < strip.thickness)) {
+  Crushing strip;
+  options.read(strip, names);
+  if (!(strip.elastic_depth() < strip.depth)) {
     std::ostringstream text;
-    text << "the strip is elastic for " << strength / stiffness
+    text << "the strip is elastic for " << strip.elastic_depth()
          << " m, its strength over its stiffness; give more";
-    options.refuse(crushing_depth, names, text.str());
+    options.refuse("<contact>_crushing_depth", names, text.str());
   }
-  strip.table = {{strength / (stiffness * strip.thickness), strength}, {1, strength}};
-  strip.unloading = stiffness * strip.thickness;
-  if (options.given(crushing_area, names)) strip.area = options.real(crushing_area, names);
-  return strip;
+  return strip.filler();
 }
 
 constexpr std::string_view stop_along = "<contact>_along";
@@ -128,11 +112,7 @@ InitialGap read_gap(OptionReader& options, const std::string& contact, bool is_w
   } else if (is_wall) {
     options.refuse("<contact>_gap", names, "a wall has no geometry, give its distance");
   }
-  gap.deviation = options.real("<contact>_gap_deviation", names);
-  if (gap.deviation > 0) {
-    gap.length = options.real("<contact>_gap_length", names);
-    gap.seed = options.integer("<contact>_gap_seed", names);
-  }
+  options.read(gap, names);
   gap.patches = read_patches(options, names);
   return gap;
 }
@@ -140,26 +120,20 @@ InitialGap read_gap(OptionReader& options, const std::string& contact, bool is_w
 std::optional<Filler> read_filler(OptionReader& options, const std::string& contact) {
   const OptionReader::Names names{contact};
   if (!options.given(filler_option, names) || options.text(filler_option, names) == "none") {
-    forbid_parts(options, filler_option, names);
+    options.forbid_all<Filler>(names, goes_with(filler_option, names), filler_option);
     return read_crushing(options, names);
   }
   options.forbid(crushing_option, names,
                  "not beside -" + option_name(filler_option, names) +
                      ": a joint has a filler, or faces that are crushed");
-  forbid_parts(options, crushing_option, names);
+  options.forbid_all<Crushing>(names, goes_with(crushing_option, names), crushing_option);
   Filler filler;
   filler.table = read_filler_table(options, names);
-  filler.unloading = options.real(unloading, names);
+  options.read(filler, names);
   if (filler.unloading < filler.steepest() * (1 - 1e-12)) {
     std::ostringstream text;
     text << "the table is steeper, " << filler.steepest() << " Pa somewhere";
     options.refuse(unloading, names, text.str());
-  }
-  if (options.given("<contact>_filler_thickness", names)) {
-    filler.thickness = options.real("<contact>_filler_thickness", names);
-  }
-  if (options.given("<contact>_filler_area", names)) {
-    filler.area = options.real("<contact>_filler_area", names);
   }
   return filler;
 }
@@ -195,14 +169,12 @@ std::optional<Vector3> point_of_side(const std::string& side) {
 std::optional<Stop> read_stop(OptionReader& options, const std::string& contact) {
   const OptionReader::Names names{contact};
   if (!options.given(stop_along, names)) {
-    for (const std::string_view option : {stop_stiffness, stop_dashpot}) {
-      options.forbid(option, names,
-                     "it makes a stop of a contact that has a direction; give -" +
-                         option_name(stop_along, names));
-    }
+    options.forbid_all<Stop>(names, "it makes a stop of a contact that has a direction; give -" +
+                                        option_name(stop_along, names));
     return std::nullopt;
   }
   Stop stop;
+  options.read(stop, names);
   const std::string word = options.text(stop_along, names);
   if (word != "line") {
     const auto along = point_of_side(word);
@@ -210,8 +182,6 @@ std::optional<Stop> read_stop(OptionReader& options, const std::string& contact)
     if (!(length > 0) || !std::isfinite(length)) options.refuse(stop_along, names);
     stop.along = Vector3{(*along)[0] / length, (*along)[1] / length, (*along)[2] / length};
   }
-  if (options.given(stop_stiffness, names)) stop.stiffness = options.real(stop_stiffness, names);
-  stop.dashpot = options.real(stop_dashpot, names);
   if (stop.dashpot > 0 && !(stop.stiffness > 0)) {
     options.refuse(stop_dashpot, names,
                    "it goes with -" + option_name(stop_stiffness, names) + ", which is not given");
@@ -221,15 +191,14 @@ std::optional<Stop> read_stop(OptionReader& options, const std::string& contact)
 
 void check_stop(const OptionReader& options, const Contact& contact, bool exports) {
   const OptionReader::Names names{contact.name};
-  for (const char* option :
-       {"<contact>_passes", "<contact>_gap_deviation", "<contact>_gap_patches", "<contact>_sliding",
-        "<contact>_filler", "<contact>_filler_unloading", "<contact>_filler_thickness",
-        "<contact>_filler_area", "<contact>_crushing", "<contact>_crushing_stiffness",
-        "<contact>_crushing_depth", "<contact>_crushing_area"}) {
-    options.forbid(option, names,
-                   "-" + option_name(stop_along, names) +
-                       " makes it a stop between nodes, which have no faces");
+  const std::string why =
+      "-" + option_name(stop_along, names) + " makes it a stop between nodes, which have no faces";
+  for (const char* option : {"<contact>_passes", "<contact>_gap_deviation", "<contact>_gap_patches",
+                             "<contact>_sliding"}) {
+    options.forbid(option, names, why);
   }
+  options.forbid_all<Filler>(names, why);
+  options.forbid_all<Crushing>(names, why);
   const std::vector<double>& gaps = contact.gap.values;
   if (gaps.empty() || gaps.size() > 2) {
     options.refuse("<contact>_gap", names,

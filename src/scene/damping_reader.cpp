@@ -71,13 +71,10 @@ std::optional<UniformDamping> read_uniform_damping(OptionReader& options,
   constexpr std::string_view uniform = "<structure>_damping_uniform";
   constexpr std::string_view band = "<structure>_damping_band";
   constexpr std::string_view filters = "<structure>_damping_filters";
-  constexpr std::string_view reference = "<structure>_damping_reference";
   const Names names{structure};
   if (!options.given(uniform, names)) {
-    for (const std::string_view pattern : {band, filters, reference}) {
-      options.forbid(pattern, names,
-                     "goes with -" + option_name(uniform, names) + ", which is not given");
-    }
+    options.forbid_all<UniformDamping>(
+        names, "goes with -" + option_name(uniform, names) + ", which is not given", uniform);
     return std::nullopt;
   }
   if (options.real(uniform, names) == 0 && gives_rayleigh(options, names)) return std::nullopt;
@@ -99,7 +96,7 @@ std::optional<UniformDamping> read_uniform_damping(OptionReader& options,
   }
   UniformDamping damping =
       fit_uniform_damping(ratio, ends[0], ends[1], options.integer(filters, names));
-  if (options.given(reference, names)) damping.reference = options.real(reference, names);
+  options.read(damping, names);
   return damping;
 }
 

@@ -1,45 +1,17 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <string>
+
+#include <nlohmann/json.hpp>
 
 #include "scene/option_table.h"
 
 namespace pounding {
 namespace {
 
-const char* title_of(OptionBlock block) {
-  switch (block) {
-    case OptionBlock::run:
-      return "The run";
-    case OptionBlock::structure:
-      return "Each structure";
-    case OptionBlock::region:
-      return "Each physical group of a structure's mesh that has elements";
-    case OptionBlock::material:
-      return "Materials";
-    case OptionBlock::section:
-      return "Cross-sections of beams";
-    case OptionBlock::contact:
-      return "Contacts";
-    case OptionBlock::motion:
-      return "Ground motion";
-    case OptionBlock::support:
-      return "Supports, parts of the ground that move on their own";
-    case OptionBlock::support_motion:
-      return "Motion of a support along an axis";
-    case OptionBlock::support_rotation:
-      return "Rotation of a support about an axis";
-    case OptionBlock::load:
-      return "Loads, forces with a history of their own";
-    case OptionBlock::probe:
-      return "Probes";
-    case OptionBlock::force:
-      return "Forces";
-    case OptionBlock::equipment:
-      return "Equipment on floors";
-    case OptionBlock::spectra:
-      return "Floor response spectra";
-  }
-  return "";
+const OptionOwner& owner_of(const OptionRow& row) {
+  return option_owners()[static_cast<std::size_t>(row.block)];
 }
 
 std::string preset_of(const OptionRow& row) {
@@ -79,7 +51,7 @@ std::string help_text(const std::string& about) {
       "pounding: response of floors when two buildings hit each other in an earthquake\n"
       "\n"
       "  mpirun -n 2 pounding -options_file case.yaml [-name value ...]\n"
-      "  pounding -help [WORD] | -version\n"
+      "  pounding -help [WORD] | -help_json | -version\n"
       "\n"
       "Options come from YAML files (nested keys join with _: s1: {slab: {element: hex8}} is\n"
       "-s1_slab_element hex8), from the files that they name as include, and from the command\n"
@@ -90,7 +62,7 @@ std::string help_text(const std::string& about) {
   for (const OptionRow& row : option_table()) {
     const std::string line = std::string(row.pattern).append(" ").append(row.help);
     if (line.find(about) == std::string::npos) continue;
-    if (first || row.block != block) text.append("\n").append(title_of(row.block)).append("\n");
+    if (first || row.block != block) text.append("\n").append(owner_of(row).title).append("\n");
     first = false;
     block = row.block;
     append(text, row);
@@ -107,6 +79,29 @@ std::string help_text(const std::string& about) {
     width += pattern.size() + 2;
   }
   return text + "\n";
+}
+
+std::string help_json() {
+  using Json = nlohmann::ordered_json;
+  constexpr std::array kinds{"text", "names", "choice", "boolean", "integer", "real", "reals"};
+  const auto bound = [](double number) { return std::isfinite(number) ? Json(number) : Json(); };
+  Json options = Json::array();
+  for (const OptionRow& row : option_table()) {
+    const Preset& preset = row.preset;
+    options.push_back({{"name", row.pattern},
+                       {"block", owner_of(row).name},
+                       {"kind", kinds[static_cast<std::size_t>(row.kind)]},
+                       {"unit", row.unit},
+                       {"required", preset.required},
+                       {"default", preset.has_value ? Json(preset.text) : Json()},
+                       {"absent", preset.has_value ? "" : preset.text},
+                       {"range", row.range.text()},
+                       {"low", bound(row.range.low)},
+                       {"high", bound(row.range.high)},
+                       {"form", row.form},
+                       {"help", row.help}});
+  }
+  return options.dump(1) + "\n";
 }
 
 }  // namespace pounding

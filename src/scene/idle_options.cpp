@@ -132,14 +132,8 @@ class IdleOptions {
     }
     look_at_names(OptionBlock::run, {Names{}});
     look_at_names(OptionBlock::spectra, {Names{}});
-    look_at_names(OptionBlock::structure, alone(listed.structures));
     look_at_names(OptionBlock::region, regions);
-    look_at_names(OptionBlock::contact, alone(listed.contacts));
-    look_at_names(OptionBlock::support, alone(listed.supports));
-    look_at_names(OptionBlock::load, alone(listed.loads));
-    look_at_names(OptionBlock::probe, alone(listed.probes));
-    look_at_names(OptionBlock::force, alone(listed.forces));
-    look_at_names(OptionBlock::equipment, alone(listed.equipment));
+    for (const auto& [block, names] : listed) look_at_names(block, alone(names));
   }
 
   std::vector<std::string> lines() const { return lines_; }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/types.h"
+#include "scene/option_row.h"
 
 namespace pounding {
 
@@ -26,6 +27,24 @@ struct LoadFunction {
   std::string file;            ///< of a table; empty: it is given here
   std::vector<double> times;   ///< of a table, increasing [s]
   std::vector<double> values;  ///< of a table [-]
+
+  bool is_harmonic() const { return kind == Kind::harmonic; }
+  bool rises() const { return kind == Kind::ramp; }
+  bool sets_in() const { return is_harmonic() || rises() || kind == Kind::step; }
+
+  template <typename Visitor>
+  static void describe(Visitor& option) {
+    using namespace option_words;
+    // clang-format off
+    option("<load>_function", word("constant|step|ramp|harmonic", "constant"), "history: 1 all the time, before the run as well; 0, then 1 from start on; from 0 at start to 1 after rise; a sine from start on");
+    option("<load>_table", text("file", absent("optional"), "a file"), "history: a text file of two columns, time in s and value, linear between; before the first and after the last time their values");
+    option("<load>_values", text("s,-", absent("optional"), "pairs t,value; t,value with increasing t"), "history: such a table in place");
+    option(&LoadFunction::start, "<load>_start", real("s", "0", not_negative), "step, ramp, harmonic: time at which it sets in", needs(&LoadFunction::sets_in, "the history of load <load> has no such number"));
+    option(&LoadFunction::rise, "<load>_rise", real("s", absent("required with a ramp"), positive), "ramp: time from 0 to 1", needs(&LoadFunction::rises, "the history of load <load> has no such number"));
+    option(&LoadFunction::frequency, "<load>_frequency", real("Hz", absent("required with a harmonic load"), positive), "harmonic: its frequency", needs(&LoadFunction::is_harmonic, "the history of load <load> has no such number"));
+    option(&LoadFunction::phase, "<load>_phase", real("rad", "0"), "harmonic: phase at start", needs(&LoadFunction::is_harmonic, "the history of load <load> has no such number"));
+    // clang-format on
+  }
 };
 
 /// Forces on a physical group of a structure, all with one history. [SI, along global axes]
@@ -41,6 +60,22 @@ struct Load {
   Vector3 body_force{0, 0, 0};     ///< per volume of its elements [N/m3]
   double factor = 1;               ///< on all of these [-]
   LoadFunction function;
+
+  template <typename Visitor>
+  static void describe(Visitor& option) {
+    using namespace option_words;
+    // clang-format off
+    option("<load>_on", text("group", required, "structure:group"), "the group that it acts on");
+    option(&Load::force, "<load>_force", reals("N", absent("optional"), "three numbers along x, y, z"), "force on each node of the group");
+    option(&Load::moment, "<load>_moment", reals("N m", absent("optional"), "three numbers about x, y, z"), "moment on each node of the group");
+    option(&Load::line_force, "<load>_line_force", reals("N/m", absent("optional"), "three numbers along x, y, z"), "force per length of the lines of the group; of beams with the moments at their ends that it has when they are held");
+    option(&Load::surface_force, "<load>_surface_force", reals("N/m2", absent("optional"), "three numbers along x, y, z"), "force per area of the surfaces of the group");
+    option(&Load::pressure, "<load>_pressure", real("N/m2", absent("optional")), "pressure onto the surfaces of the group: into the solid behind them, of shells against the normal of the order of their nodes");
+    option(&Load::body_force, "<load>_body_force", reals("N/m3", absent("optional"), "three numbers along x, y, z"), "force per volume of the elements of the group");
+    option(&Load::factor, "<load>_factor", real("-", "1"), "factor on all of these");
+    // clang-format on
+    option.part(&Load::function);
+  }
 };
 
 /// Forces that a run records.
@@ -66,7 +101,24 @@ struct ForceItem {
   /// Forces of single elements, in place of a total.
   bool of_elements() const { return kind == ForceKind::members || kind == ForceKind::shells; }
 
-  bool has_level() const { return kind == ForceKind::storey || kind == ForceKind::cut; }
+  bool is_total() const { return !of_elements(); }
+  bool is_cut() const { return kind == ForceKind::cut; }
+  bool has_group() const { return of_elements() || is_cut(); }
+  bool has_level() const { return kind == ForceKind::storey || is_cut(); }
+
+  template <typename Visitor>
+  static void describe(Visitor& option) {
+    using namespace option_words;
+    // clang-format off
+    option(&ForceItem::structure, "<force>_structure", text("name", required, "the name of a structure"), "the structure that they are of");
+    option(&ForceItem::kind, "<force>_kind", word("reactions|storey|members|shells|cut", required), "reactions: forces of the ground on it; storey: forces through a level; members: at the ends of beams, bars and springs; shells: forces and moments per length at their centres; cut: forces of a group through a plane");
+    option(&ForceItem::level, "<force>_level", real("m", absent("storey and cut only")), "z of the level; of a cut its distance from the origin along the normal", needs(&ForceItem::has_level, "only with -<force>_kind storey or cut"));
+    option(&ForceItem::normal, "<force>_normal", reals("-", absent("left out: 0,0,1"), "three numbers x,y,z, not all zero"), "cut: normal of its plane, which points to the side that the force acts on", needs(&ForceItem::is_cut, "only with -<force>_kind cut"));
+    option(&ForceItem::about, "<force>_about", reals("m", absent("left out: the origin, of a storey or cut the point of its plane nearest to it"), "three numbers x,y,z"), "point that the moments are about", needs(&ForceItem::is_total, "only with -<force>_kind reactions, storey or cut"));
+    option(&ForceItem::group, "<force>_group", text("group", absent("members, shells and cut only"), "a physical group"), "the elements", needs(&ForceItem::has_group, "only with -<force>_kind members, shells or cut"));
+    option(&ForceItem::points, "<force>_at", text("m", absent("left out: peaks of all of them, no history"), "points x,y,z; x,y,z"), "the element of the group nearest to each point, with its history", needs(&ForceItem::of_elements, "only with -<force>_kind members or shells"));
+    // clang-format on
+  }
 
   /// Point of the moments [m]: of a level the foot of the origin on it unless given.
   Vector3 point() const {

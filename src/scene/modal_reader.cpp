@@ -13,9 +13,6 @@ constexpr std::string_view model = "<structure>_model";
 constexpr std::string_view vectors = "<structure>_modal_vectors";
 constexpr std::string_view candidates = "<structure>_modal_candidates";
 constexpr std::string_view cutoff = "<structure>_modal_cutoff";
-constexpr std::string_view attachment = "<structure>_modal_attachment";
-constexpr std::string_view residual = "<structure>_modal_residual";
-constexpr std::string_view patches = "<structure>_modal_patches";
 constexpr std::string_view damping = "<structure>_modal_damping";
 constexpr std::string_view basis = "<structure>_modal_basis";
 constexpr std::string_view ranks = "<structure>_modal_ranks";
@@ -50,48 +47,27 @@ void refuse_couplings(const OptionReader& options, const Structure& structure) {
 std::optional<ModalModel> read_modal_model(OptionReader& options, const Structure& structure) {
   const Names names{structure.name};
   if (options.choice(model, names) == "full") {
-    for (const std::string_view pattern :
-         {vectors, candidates, cutoff, attachment, patches, damping, basis, ranks}) {
-      options.forbid(pattern, names,
-                     "goes with -" + option_name(model, names) + " modal, which is not given");
-    }
+    options.forbid_all<ModalModel>(
+        names, "goes with -" + option_name(model, names) + " modal, which is not given");
     return std::nullopt;
   }
   refuse_couplings(options, structure);
   ModalModel modal;
-  if (options.given(vectors, names)) {
-    options.forbid(cutoff, names,
-                   "give either this or -" + option_name(vectors, names) + ", not both");
-    modal.modes = options.integer(vectors, names);
-    if (options.given(candidates, names)) {
-      modal.candidates = options.integer(candidates, names);
-      if (modal.candidates < modal.modes) {
-        options.refuse(candidates, names,
-                       "at least as many as -" + option_name(vectors, names) + " " +
-                           std::to_string(modal.modes) + ", which are chosen from them");
-      }
-    }
-  } else if (options.given(cutoff, names)) {
-    options.forbid(candidates, names,
-                   "goes with -" + option_name(vectors, names) + ", which is not given");
-    modal.cutoff = options.real(cutoff, names);
-  } else {
+  options.read(modal, names);
+  if (modal.candidates > 0 && modal.candidates < modal.modes) {
+    options.refuse(candidates, names,
+                   "at least as many as -" + option_name(vectors, names) + " " +
+                       std::to_string(modal.modes) + ", which are chosen from them");
+  }
+  if (modal.modes == 0 && modal.cutoff == 0) {
     throw UserError("option -" + option_name(model, names) + " modal: give -" +
                     option_name(vectors, names) + " (number of lowest modes) or -" +
                     option_name(cutoff, names) + " (every mode below it, in Hz)");
-  }
-  modal.residual = options.boolean(residual, names);
-  modal.attachment = options.boolean(attachment, names);
-  if (!modal.attachment) {
-    options.forbid(patches, names, "not with -" + option_name(attachment, names) + " false");
-  } else {
-    modal.patches = options.integer(patches, names);
   }
   if (options.given(damping, names)) {
     if (structure.uniform_damping) {
       options.forbid(damping, names, "not with -" + structure.name + "_damping_uniform");
     }
-    modal.damping_ratios = options.reals(damping, names);
     const double factor = read_damping_factor(options, structure.name);
     for (double& ratio : modal.damping_ratios) {
       ratio *= factor;
@@ -101,8 +77,6 @@ std::optional<ModalModel> read_modal_model(OptionReader& options, const Structur
       }
     }
   }
-  modal.basis_file = options.path(basis, names);
-  modal.ranks = options.integer(ranks, names);
   if (modal.ranks > 1 && modal.basis_file.empty()) {
     options.refuse(
         ranks, names,

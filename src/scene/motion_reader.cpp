@@ -75,8 +75,7 @@ class AxisReader {
     motion.file = text("record");
     const std::string unit = options_.choice(pattern("unit"), names_);
     motion.unit = unit == "auto" ? "" : unit;
-    motion.time_step = options_.real(pattern("time_step"), names_);
-    motion.column = options_.integer(pattern("column"), names_);
+    options_.read(motion, names_, pattern(""));
     if (!given("target")) forbid({"seed", "duration", "envelope"}, "target");
     return motion;
   }
@@ -84,11 +83,7 @@ class AxisReader {
   SyntheticMotion read_synthetic() {
     forbid({"unit", "time_step", "column"}, "record");
     SyntheticMotion motion;
-    motion.target = text("target");
-    motion.seed = options_.integer(pattern("seed"), names_);
-    motion.duration = options_.real(pattern("duration"), names_);
-    const std::vector<double> envelope = options_.reals(pattern("envelope"), names_, 2);
-    motion.envelope = {envelope[0], envelope[1]};
+    options_.read(motion, names_, pattern(""));
     if (motion.envelope[0] > motion.envelope[1]) {
       options_.refuse(pattern("envelope"), names_, "t1 is above t2");
     }

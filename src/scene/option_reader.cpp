@@ -11,7 +11,7 @@ namespace {
 
 /// Fault of a number, or null. Beyond these sizes lies no quantity of a building in any unit, and
 /// products of a few of them leave the range of a double.
-const char* fault_of(double number, const Range& range) {
+const char* fault_of(double number, const AdmittedRange& range) {
   constexpr double largest = 1e30;
   if (!range.contains(number)) return "out of range";
   const double size = std::abs(number);
@@ -57,11 +57,23 @@ std::string OptionReader::value(std::string_view pattern, const Names& names) co
 }
 
 void OptionReader::keep(std::string_view pattern, const Names& names) {
-  const std::string name = option_name(pattern, names);
-  if (std::ranges::find(in_force_, name, &std::pair<std::string, std::string>::first) ==
-      in_force_.end()) {
-    in_force_.emplace_back(name, value(pattern, names));
+  const OptionRow& row = option_row(pattern);
+  auto owner = std::ranges::find_if(
+      in_force_, [&](const Owner& one) { return one.block == row.block && one.names == names; });
+  if (owner == in_force_.end()) {
+    owner = in_force_.insert(owner, {row.block, names, {}});
   }
+  owner->values.emplace(&row, value(pattern, names));
+}
+
+std::vector<std::pair<std::string, std::string>> OptionReader::in_force() const {
+  std::vector<std::pair<std::string, std::string>> options;
+  for (const Owner& owner : in_force_) {
+    for (const auto& [row, value] : owner.values) {
+      options.emplace_back(option_name(row->pattern, owner.names), value);
+    }
+  }
+  return options;
 }
 
 std::vector<Vector3> OptionReader::points(std::string_view pattern, const Names& names) {
@@ -70,7 +82,7 @@ std::vector<Vector3> OptionReader::points(std::string_view pattern, const Names&
     const auto numbers = parse_reals(item);
     if (!numbers || numbers->size() != 3) refuse(pattern, names, "'" + item + "' is not a point");
     for (const double number : *numbers) {
-      if (const char* fault = fault_of(number, Range{})) refuse(pattern, names, fault);
+      if (const char* fault = fault_of(number, AdmittedRange{})) refuse(pattern, names, fault);
     }
     points.push_back({(*numbers)[0], (*numbers)[1], (*numbers)[2]});
   }
@@ -106,6 +118,12 @@ std::string OptionReader::text(std::string_view pattern, const Names& names) {
 std::string OptionReader::path(std::string_view pattern, const Names& names) {
   std::string result = text(pattern, names);
   return result == "none" ? "" : result;
+}
+
+void OptionReader::take_text(std::string_view pattern, const Names& names, std::string& member) {
+  const OptionRow& row = option_row(pattern);
+  member = row.kind == OptionKind::choice ? choice(pattern, names) : text(pattern, names);
+  if (row.preset.text == "none" && member == "none") member.clear();
 }
 
 std::size_t OptionReader::choice_number(std::string_view pattern, const Names& names) {
@@ -171,7 +189,7 @@ std::vector<double> OptionReader::reals(std::string_view pattern, const Names& n
   const auto numbers = parse_reals(value(pattern, names));
   if (!numbers) refuse(pattern, names, "not finite numbers between commas");
   if (count != 0 && numbers->size() != count) refuse(pattern, names, "wrong count of numbers");
-  const Range& range = option_row(pattern).range;
+  const AdmittedRange& range = option_row(pattern).range;
   for (const double number : *numbers) {
     if (const char* fault = fault_of(number, range)) refuse(pattern, names, fault);
   }

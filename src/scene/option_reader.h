@@ -1,12 +1,18 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "common/types.h"
 #include "scene/option_table.h"
+#include "scene/row_collector.h"
 #include "scene/scene.h"
 
 namespace pounding {
@@ -19,6 +25,15 @@ class OptionReader {
   using Names = std::vector<std::string>;
 
   explicit OptionReader(const OptionsDatabase& database) : database_(database) {}
+
+  /// Reads every option that a struct describes with a member: one that is not given and has no
+  /// value by default leaves its member as it is, unless it is owed.
+  template <typename Object, typename... Prefix>
+  void read(Object& object, const Names& names = {}, const Prefix&... prefix);
+  /// Refuses every option that a struct describes, but for `except`.
+  template <typename Object, typename... Prefix>
+  void forbid_all(const Names& names, const std::string& why, std::string_view except = "",
+                  const Prefix&... prefix) const;
 
   bool given(std::string_view pattern, const Names& names = {}) const;
 
@@ -50,10 +65,22 @@ class OptionReader {
   void forbid(std::string_view pattern, const Names& names, const std::string& why) const;
 
   const OptionsDatabase& database() const { return database_; }
-  /// Options in force, in the order of reading.
-  const std::vector<std::pair<std::string, std::string>>& in_force() const { return in_force_; }
+  /// Options in force: owners in the order of reading, those of each in the order of the help.
+  std::vector<std::pair<std::string, std::string>> in_force() const;
+
+  /// Reads an option into a member; a choice into its place among the words, of two into a flag.
+  template <typename Value>
+  void take(std::string_view pattern, const Names& names, Value& member);
 
  private:
+  /// Options in force of the block of an owner: of their rows in the table the values.
+  struct Owner {
+    OptionBlock block;
+    Names names;
+    std::map<const OptionRow*, std::string> values;
+  };
+
+  void take_text(std::string_view pattern, const Names& names, std::string& member);
   /// The value in force, trimmed.
   std::string value(std::string_view pattern, const Names& names) const;
   void keep(std::string_view pattern, const Names& names);
@@ -61,8 +88,98 @@ class OptionReader {
   std::size_t choice_number(std::string_view pattern, const Names& names);
 
   const OptionsDatabase& database_;
-  std::vector<std::pair<std::string, std::string>> in_force_;
+  std::vector<Owner> in_force_;
 };
+
+/// Visitor of a description that reads into the members of an object.
+template <typename Object>
+class MemberReader {
+ public:
+  MemberReader(OptionReader& options, const OptionReader::Names& names, Object& object)
+      : options_(options), names_(names), object_(object) {}
+
+  template <typename Value, typename... Last>
+  void operator()(Value Object::*member, std::string_view pattern, const OptionShape& /*shape*/,
+                  std::string_view /*help*/, const Last&... last) {
+    if ((applies(pattern, last) && ...)) options_.take(pattern, names_, object_.*member);
+  }
+  template <typename Part, typename Value, typename... Last>
+  void operator()(Part Object::*part, Value Part::*member, std::string_view pattern,
+                  const OptionShape& /*shape*/, std::string_view /*help*/, const Last&... last) {
+    if ((applies(pattern, last) && ...)) options_.take(pattern, names_, object_.*part.*member);
+  }
+  template <typename... Last>
+  void operator()(std::string_view /*pattern*/, const Last&... /*last*/) {}
+  template <typename Part>
+  void part(Part Object::*member) {
+    options_.read(object_.*member, names_);
+  }
+  template <typename Part, typename... Prefix>
+  void part(const Prefix&... /*prefix*/) {}
+
+ private:
+  bool applies(std::string_view /*pattern*/, const OptionMarks& marks) const {
+    if constexpr (requires { object_.family(); }) {
+      return marks.families.empty() || marks.families.contains(object_.family());
+    }
+    return true;
+  }
+  bool applies(std::string_view pattern, const OptionNeeds<Object>& needs) const {
+    if ((object_.*needs.holds)()) return true;
+    if (!needs.why.empty()) options_.forbid(pattern, names_, option_name(needs.why, names_));
+    return false;
+  }
+
+  OptionReader& options_;
+  const OptionReader::Names& names_;
+  Object& object_;
+};
+
+template <typename Object, typename... Prefix>
+void OptionReader::read(Object& object, const Names& names, const Prefix&... prefix) {
+  MemberReader<Object> reader(*this, names, object);
+  Object::describe(reader, prefix...);
+}
+
+template <typename Object, typename... Prefix>
+void OptionReader::forbid_all(const Names& names, const std::string& why, std::string_view except,
+                              const Prefix&... prefix) const {
+  RowCollector collector;
+  Object::describe(collector, prefix...);
+  for (const OptionRow& row : collector.rows) {
+    if (row.pattern != except) forbid(row.pattern, names, why);
+  }
+}
+
+template <typename Value>
+void OptionReader::take(std::string_view pattern, const Names& names, Value& member) {
+  const OptionRow& row = option_row(pattern);
+  const bool owed = row.preset.has_value || row.preset.text.starts_with("required");
+  if (!owed && !given(pattern, names)) return;
+  if constexpr (std::is_enum_v<Value>) {
+    member = choice_of<Value>(pattern, names);
+  } else if constexpr (std::is_same_v<Value, std::string>) {
+    take_text(pattern, names, member);
+  } else if constexpr (std::is_same_v<Value, bool>) {
+    member = row.kind == OptionKind::choice ? choice_number(pattern, names) == 1
+                                            : boolean(pattern, names);
+  } else if constexpr (std::is_same_v<Value, int>) {
+    member = row.kind == OptionKind::choice ? static_cast<int>(choice_number(pattern, names))
+                                            : integer(pattern, names);
+  } else if constexpr (std::is_same_v<Value, double>) {
+    member = real(pattern, names);
+  } else if constexpr (std::is_same_v<Value, std::vector<std::string>>) {
+    member = list(pattern, names);
+  } else if constexpr (std::is_same_v<Value, std::vector<double>>) {
+    member = reals(pattern, names);
+  } else if constexpr (std::is_same_v<Value, std::vector<Vector3>>) {
+    member = points(pattern, names);
+  } else if constexpr (requires { member.emplace(); }) {
+    take(pattern, names, member.emplace());
+  } else {
+    std::ranges::copy(reals(pattern, names, member.size()), member.begin());
+  }
+}
 
 /// Factor by which a study varies the damping of a structure that is otherwise the same: its
 /// readers multiply their values by it.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <initializer_list>
-#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -9,96 +7,28 @@
 #include <string_view>
 #include <vector>
 
-#include "elements/element_traits.h"
+#include "scene/option_row.h"
 
-/// The one place where the options of a scene are declared: reader, help, resolved options and the
-/// check for unknown names all work from this table.
+/// The table of options, made of the descriptions of a scene's structs: help, resolved options and
+/// the checks for unknown and idle names all work from it.
 namespace pounding {
 
 /// Options as PETSc flattens them: name without the leading '-' -> value ("" for a bare flag).
 using OptionsDatabase = std::map<std::string, std::string>;
 
-/// Block that an option belongs to; each but `run`, `motion` and `spectra` repeats per user's name,
-/// and the options of a support's motion per axis as well.
-enum class OptionBlock {
-  run,
-  structure,
-  region,
-  material,
-  section,
-  contact,
-  motion,
-  support,
-  support_motion,
-  support_rotation,
-  load,
-  probe,
-  force,
-  equipment,
-  spectra
-};
-
-enum class OptionKind { text, names, choice, boolean, integer, real, reals };
-
-/// Interval of the admitted values; infinite bounds mean "any finite value".
-struct Range {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool low_open = false;
-  bool high_open = false;
-
-  bool contains(double number) const;
-  std::string text() const;  ///< "> 0", "(0, 1]", "any"
-};
-
-/// Preset, which holds when the user is silent: a value, or nothing (`text` says when it is owed).
-struct Preset {
-  bool has_value = false;
-  bool required = false;
-  std::string_view text;
-};
-
-/// Set of values of an enumeration, a bit each.
-template <typename Enumeration>
-class SetOf {
- public:
-  constexpr SetOf() = default;
-  constexpr SetOf(std::initializer_list<Enumeration> values) {
-    for (const Enumeration value : values) bits_ |= bit(value);
-  }
-  constexpr bool empty() const { return bits_ == 0; }
-  constexpr bool contains(Enumeration value) const { return (bits_ & bit(value)) != 0; }
-
- private:
-  static constexpr unsigned bit(Enumeration value) { return 1U << static_cast<unsigned>(value); }
-
-  unsigned bits_ = 0;
-};
-
-using Families = SetOf<ElementFamily>;
-
-/// Comparison of two runs by their options: of the meshes, contacts, probes and shares that pieces
-/// of meshes were written for; of the physics with that of the scene file; of the numbers of an
-/// ensemble with those already computed; of a run with the one that it continues (the time step
-/// itself is compared, not its options).
-enum class Comparison { pieces, scene, ensemble, restart };
-
-using Comparisons = SetOf<Comparison>;
-
-struct OptionRow {
+/// A kind of owner of options.
+struct OptionOwner {
   OptionBlock block;
-  std::string_view pattern;  ///< with placeholders: <structure>_<group>_element
-  OptionKind kind;
-  std::string_view unit;
-  Preset preset;
-  Range range;            ///< of the number, or of each number of a list
-  std::string_view form;  ///< choice: the words, separated by '|'; reals, text: the shape expected
-  std::string_view help;
-  Families families{};  ///< region: elements whose option it is, refused of others; none: all
-  Comparisons free{};   ///< run, spectra: in which it may have another value
-
-  bool is_for(ElementFamily family) const { return families.empty() || families.contains(family); }
+  std::string_view name;
+  std::string_view title;  ///< above its options in the help
+  std::string_view list;   ///< option that lists the user's names of them; empty: there is none
 };
+
+/// Every kind, in the order of OptionBlock.
+std::span<const OptionOwner> option_owners();
+
+/// Names that the user's lists have, by their kind.
+using ListedNames = std::map<OptionBlock, std::vector<std::string>>;
 
 /// Every option, in the order of the help.
 std::span<const OptionRow> option_table();
@@ -130,29 +60,9 @@ bool may_differ(std::string_view name, Comparison comparison);
 /// the admitted PETSc and SLEPc names; `about`: of the options that have it in name or line alone.
 std::string help_text(const std::string& about = "");
 
+/// The text of `pounding -help_json`, for editors and other programs: a list with an object for
+/// each option, of its name, owner, kind, unit, default (or null, and when it is owed),
+/// range, words or form, and help.
+std::string help_json();
+
 }  // namespace pounding
-
-/// Words in which the rows of all option tables are written.
-namespace pounding::option_words {
-
-using Block = OptionBlock;
-using Kind = OptionKind;
-
-inline constexpr double infinity = std::numeric_limits<double>::infinity();
-inline constexpr Range any{};
-inline constexpr Range positive{0, infinity, true, false};
-inline constexpr Range not_negative{0, infinity, false, false};
-inline constexpr Range at_least_1{1, infinity, false, false};
-inline constexpr Range damping_ratio{0, 1, false, true};
-inline constexpr Range patch_count{0, 10000, false, false};
-inline constexpr Range csv_digits{6, 17, false, false};
-
-constexpr Preset value(std::string_view text) {
-  return {true, false, text};
-}
-/// No value; `when` says when it is owed, or the meaning of its absence.
-constexpr Preset absent(std::string_view when) {
-  return {false, false, when};
-}
-
-}  // namespace pounding::option_words

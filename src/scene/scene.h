@@ -1,369 +1,21 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdint>
 #include <optional>
 #include <string>
-#include <variant>
+#include <utility>
 #include <vector>
 
-#include "common/types.h"
-#include "elements/element_traits.h"
+#include "scene/contact.h"
 #include "scene/equipment.h"
-#include "scene/filler.h"
-#include "scene/hysteresis.h"
 #include "scene/load.h"
-#include "scene/soil.h"
-#include "scene/uniform_damping.h"
+#include "scene/probe.h"
+#include "scene/structure.h"
+#include "scene/support.h"
 
 /// Plain structs of the user's scene, in SI units, validated; made by scene/scene_reader and
 /// constant afterwards. Identical on every rank.
 namespace pounding {
-
-struct Material {
-  std::string name;
-  double young = 0;    ///< Young's modulus [Pa]
-  double poisson = 0;  ///< Poisson's ratio [-]
-  double density = 0;  ///< [kg/m3]
-};
-
-/// Cross-section of a beam. Local x runs along the beam; local z is `z_axis` made orthogonal to x.
-struct Section {
-  std::string name;
-  double area = 0;       ///< [m2]
-  double inertia_y = 0;  ///< second moment about local y: bending in the local x-z plane [m4]
-  double inertia_z = 0;  ///< second moment about local z: bending in the local x-y plane [m4]
-  double torsion = 0;    ///< St-Venant torsion constant [m4]
-  Vector3 z_axis{0, 0, 1};
-  /// Shear areas for forces along local y and z [m2]; 0: no flexibility in shear.
-  double shear_area_y = 0;
-  double shear_area_z = 0;
-};
-
-/// Rayleigh damping C = alpha M + beta K.
-struct Rayleigh {
-  double alpha = 0;  ///< [1/s]
-  double beta = 0;   ///< [s]
-};
-
-/// Extent over which a region spreads its values: at each of its points the whole, or per length of
-/// its lines or area of its surfaces.
-enum class Spread : std::uint8_t { none, length, area };
-
-/// A physical group of the mesh and the element that the user gives it.
-struct Region {
-  std::string group;
-  ElementType element = ElementType::hex8;
-  Material material;
-  std::optional<Section> section;  ///< beams
-  double resolved_frequency = 0;   ///< beams: the highest of the spectra, see elements/beam2.h
-                                   ///< [rad/s]
-  /// Beams into which each line of the mesh is cut; 0: as many as its waves need.
-  int parts = 1;
-  double area = 0;                   ///< bars [m2]
-  double thickness = 0;              ///< shells [m]
-  double rotary_inertia_factor = 0;  ///< shells [-], see elements/flat_shell.h
-  double drilling_factor = 1;        ///< of the drilling stiffness of shells [-]
-  double added_mass = 0;             ///< shells [kg/m2], beams and bars [kg/m]
-  double mass = 0;                   ///< point masses, at each node of the group [kg]
-  Vector3 rotary_inertia{0, 0, 0};   ///< point masses [kg m2]
-  /// Grounded springs: `stiffness` and `dashpot` are per length or area then.
-  Spread spread = Spread::none;
-  std::array<double, 6> stiffness{};  ///< springs: along and about x, y, z [N/m, N m]
-  std::array<double, 6> dashpot{};    ///< springs [N s/m, N m s]
-  bool compression_only = false;      ///< grounded springs: along z they push up only
-  NonlinearSpring nonlinear;          ///< springs and bars
-  YieldingSection yielding;           ///< beams
-  YieldingShell yielding_shell;       ///< shells
-  /// An element law adds to the forces K u of its elements; see InelasticElements. Not in reduced
-  /// structures, see yields_by_links.
-  bool inelastic = false;
-  std::optional<Rayleigh> damping;  ///< in place of the structure's
-  /// Displacement [m] and velocity [m/s] of its nodes at t = 0, in place of the structure's.
-  std::optional<Vector3> initial_displacement;
-  std::optional<Vector3> initial_velocity;
-  std::optional<Foundation> foundation;  ///< soil: empty until the mesh is read, see lay_foundation
-};
-
-/// Elements whose force in one direction is none: tension-only bars, compression-only springs.
-inline bool is_one_way(const Region& region) {
-  return region.element == ElementType::tension_bar || region.compression_only;
-}
-
-/// Beams that bend by shear as well.
-inline bool is_flexible_in_shear(const Region& region) {
-  return region.element == ElementType::beam && region.section->shear_area_y > 0;
-}
-
-/// Elements whose stiffness, or some of it, is no part of K: one-way ones, springs and bars that
-/// yield.
-inline bool follows_law(const Region& region) {
-  return is_one_way(region) || region.nonlinear.yields();
-}
-
-/// Elements whose force is not K u, whether or not K holds their first slope.
-inline bool is_nonlinear(const Region& region) {
-  return follows_law(region) || region.nonlinear.option() != nullptr || region.yielding.any() ||
-         region.yielding_shell.any();
-}
-
-/// Beams of a reduced structure whose sections yield: its modes hold them as elastic, and links the
-/// difference.
-inline bool yields_by_links(const Region& region) {
-  return region.yielding.any() && !region.inelastic;
-}
-
-/// The option that makes a region nonlinear.
-inline const char* law_option(const Region& region) {
-  if (region.yielding.any()) return region.yielding.option();
-  if (region.yielding_shell.any()) return region.yielding_shell.option();
-  if (region.compression_only) return "<structure>_<group>_compression_only";
-  const char* const option = region.nonlinear.option();
-  return option != nullptr ? option : "<structure>_<group>_tension_only";
-}
-
-/// A structure represented by its lowest modes and by attachment vectors.
-struct ModalModel {
-  int modes = 0;           ///< number of modes; 0: all below the cut-off
-  int candidates = 0;      ///< number of lowest modes to choose them from; 0: no others
-  double cutoff = 0;       ///< [Hz]
-  bool attachment = true;  ///< static responses to unit forces at the contact dofs as well
-  bool residual = true;    ///< and to the motion of the ground
-  int patches = 0;         ///< or to forces on so many patches of them; 0: on every one
-  std::vector<double> damping_ratios;  ///< of mode 1, 2, ..., the last one of all that follow;
-                                       ///< empty: the structure's Rayleigh damping
-  std::string basis_file;              ///< where the basis is kept; empty: nowhere
-  int ranks = 1;                       ///< that compute the basis together, if there are so many
-};
-
-/// A physical group fixed to the ground.
-struct Clamp {
-  std::string group;
-  std::uint8_t components = 0x3f;  ///< one bit each: 0-2 translations, 3-5 rotations
-};
-
-/// A stable time step that is wanted, and its largest cost.
-struct StepTarget {
-  double time_step = 0;  ///< [s]
-  double change = 0;     ///< largest part by which a frequency may fall [-]
-  double frequency = 0;  ///< of those up to here, which count [Hz]
-  double shells = 0;     ///< step [s] that shells get rotational inertia for; 0: none
-};
-
-/// How nodes move together.
-enum class RigidKind : std::uint8_t {
-  body,       ///< a physical group, as one rigid body
-  diaphragm,  ///< level floors, each rigid in its plane
-  join,       ///< each node of a group and the nearest one of another, as a rigid body
-  pin,        ///< nodes of a group that lie on each other, in their displacements
-  level,      ///< nodes of a group at one height, in their displacements
-  tie         ///< nodes of a group follow the nearest facet of another
-};
-
-/// A physical group that moves together.
-struct RigidGroup {
-  RigidKind kind = RigidKind::body;
-  std::string group;
-  std::string other;     ///< of a join or tie: where the nearest node or facet is looked for
-  bool implied = false;  ///< a mat on soil: nobody asked, and it may be part of a larger body
-
-  std::string name() const { return other.empty() ? group : group + ":" + other; }
-  /// Components that follow one rigid motion, one bit each; not given for ties.
-  std::uint8_t components() const {
-    if (kind == RigidKind::diaphragm) return 0x23;
-    return kind == RigidKind::pin || kind == RigidKind::level ? 0x07 : 0x3f;
-  }
-};
-
-/// The option that makes a group move together.
-inline const char* rigid_option(RigidKind kind) {
-  constexpr const char* options[] = {"<structure>_rigid",  "<structure>_diaphragm",
-                                     "<structure>_join",   "<structure>_pin",
-                                     "<structure>_levels", "<structure>_tie"};
-  return options[static_cast<int>(kind)];
-}
-
-/// Faces of solids through which waves leave a structure, see mesh/global_mesh.h.
-struct AbsorbingFace {
-  std::string group;
-  bool is_base = false;  ///< the motion from below enters through it
-};
-
-struct Structure {
-  std::string name;
-  std::string matrices;  ///< folder, see system/matrix_system.h; empty: of its elements
-  std::string mesh;      ///< .geo or .msh
-  std::vector<std::pair<std::string, std::string>> mesh_set;  ///< parameters of a .geo
-  std::vector<std::string> ignored_groups;                    ///< of the mesh, left out on purpose
-  bool allow_loose = false;  ///< pieces and coincident nodes that nothing joins
-  std::vector<Clamp> clamps;
-  std::vector<RigidGroup> rigid_groups;
-  std::vector<AbsorbingFace> absorbing;
-  std::vector<Region> regions;
-  Rayleigh damping;
-  std::optional<UniformDamping> uniform_damping;  ///< in place of Rayleigh damping, which is 0 then
-  std::optional<ModalModel> modal;                ///< nothing: the finite-element model itself
-  std::optional<Soil> soil;               ///< under its mat; one of the regions is its element
-  bool p_delta = false;                   ///< weight at rest turns with the columns
-  double mass_scaling = 0;                ///< step [s] for which stiff elements get mass; 0: none
-  std::optional<StepTarget> step_target;  ///< its step is `mass_scaling` until one is designed
-  Vector3 initial_displacement{0, 0, 0};  ///< of every free node [m]
-  Vector3 initial_velocity{0, 0, 0};      ///< of every free node [m/s]
-  std::string initial_state;              ///< file of those of single nodes; empty: none
-  Vector3 gravity{0, 0, 0};               ///< constant body acceleration [m/s2]
-
-  /// Some node starts away from its place, or in motion; a file may say either.
-  bool starts_displaced() const {
-    return initial_displacement != Vector3{0, 0, 0} || !initial_state.empty() ||
-           std::ranges::any_of(regions, [](const Region& region) {
-             return region.initial_displacement.has_value();
-           });
-  }
-  bool starts_in_motion() const {
-    return initial_velocity != Vector3{0, 0, 0} || !initial_state.empty() ||
-           std::ranges::any_of(
-               regions, [](const Region& region) { return region.initial_velocity.has_value(); });
-  }
-  /// Bound of the factor on K for the fastest motions [-].
-  double stiffening() const { return uniform_damping ? uniform_damping->at_once() : 1; }
-  /// The motion enters it as a wave from below.
-  bool is_driven_from_below() const {
-    return std::ranges::any_of(absorbing, &AbsorbingFace::is_base);
-  }
-  /// The damping of a region's elements.
-  Rayleigh damping_of(const Region& region) const { return region.damping.value_or(damping); }
-};
-
-/// One side of a contact: a physical group (surface or shell edge) of a structure, or a rigid wall
-/// that follows the ground (structure "wall", primary side only). Of a stop the nodes of a group,
-/// or the one nearest to a point "x,y,z".
-struct ContactSide {
-  std::string structure;
-  std::string group;
-  bool is_wall() const { return structure == "wall"; }
-};
-
-/// A part of a face, on the tangent axes, where the joint has a gap of its own: debris or formwork
-/// left in.
-struct GapPatch {
-  std::array<double, 2> low{};   ///< corner of a rectangle, or the middle of a disc [m]
-  std::array<double, 2> high{};  ///< corner beyond it, or the same middle [m]
-  double radius = 0;             ///< of a disc [m]; 0: a rectangle
-  double gap = 0;                ///< in place of all that the joint has elsewhere [m]
-
-  /// Whether a place on the tangent axes [m] is in it; its border is.
-  bool holds(const std::array<double, 2>& place) const {
-    if (radius > 0) return std::hypot(place[0] - low[0], place[1] - low[1]) <= radius;
-    return low[0] <= place[0] && place[0] <= high[0] && low[1] <= place[1] && place[1] <= high[1];
-  }
-};
-
-/// Initial gap: from the geometry, one number, two values (linear along the first tangent axis) or
-/// four (the corners of the face, going round). Tangent axes: the global axes other than the one
-/// closest to the contact normal, in the order x, y, z. Corners: (min t1, min t2), (max t1, min
-/// t2), (max t1, max t2), (min t1, max t2).
-struct InitialGap {
-  std::vector<double> values;     ///< empty: from geometry; else 1, 2 or 4 values [m]
-  double deviation = 0;           ///< of a random part over the face [m]; 0: none
-  double length = 1;              ///< over which that part is correlated [m]
-  int seed = 1;                   ///< of that part
-  std::vector<GapPatch> patches;  ///< of two that share a place the last counts
-};
-
-/// Makes a contact a stop between nodes of its sides.
-struct Stop {
-  /// Unit vector along which the primary lies beyond the secondary; nothing: the line between them.
-  std::optional<Vector3> along;
-  double stiffness = 0;  ///< beyond the gap, of each pair of nodes [N/m]; 0: it is hard
-  double dashpot = 0;    ///< beside that, while it presses [N s/m]
-};
-
-struct Contact {
-  std::string name;
-  ContactSide secondary;
-  ContactSide primary;
-  InitialGap gap;
-  int passes = 1;                ///< 2: the nodes of the primary side are constrained as well;
-                                 ///< 0: where the faces ask for it
-  bool gap_at_rest = false;      ///< the gap is that of the rest that the run starts from
-  bool gap_assumed_so = false;   ///< that follows from the gap, it was not given
-  double friction = 0;           ///< Coulomb's coefficient [-]
-  double sliding = 0;            ///< how far the faces may slide along each other, pairs being
-                                 ///< found anew; 0: pairs stay those of the start [m]
-  std::optional<Filler> filler;  ///< between the faces until they meet, or a strip of them
-  std::optional<Stop> stop;      ///< its sides are nodes, not faces: one gap, or one each way
-
-  /// A stop that gives way: its rows are springs, and none of hard contact.
-  bool is_elastic() const { return stop && stop->stiffness > 0; }
-  /// A strip of its faces is crushed where they strike.
-  bool crushes() const { return filler && filler->in_faces; }
-};
-
-/// A recorded accelerogram in a file.
-struct RecordedMotion {
-  std::string file;
-  std::string unit;  ///< "", "g", "m/s2", "cm/s2" or "mm/s2"; "": the file's own header says it
-  double time_step =
-      0;           ///< [s]; needed for files without a time column or header; 0: from the file
-  int column = 0;  ///< of the acceleration, or component of the file, 1-based; 0: the only one
-};
-
-/// A synthetic accelerogram matched to a 5 % target spectrum.
-struct SyntheticMotion {
-  std::string target;  ///< CSV of frequency [Hz], pseudo-acceleration / PGA [-]
-  int seed = 1;
-  double duration = 25;                   ///< [s]
-  std::array<double, 2> envelope{2, 15};  ///< end of the rise, start of the decay [s]
-};
-
-/// Ground motion in one direction: scaled to a peak ground acceleration, or by a factor.
-struct MotionComponent {
-  std::variant<RecordedMotion, SyntheticMotion> source;
-  double pga = 0;    ///< [m/s2]; 0: as recorded times `scale`
-  double scale = 1;  ///< [-]
-};
-
-/// A physical group of a structure whose clamped nodes are on a support, or all ground of the
-/// structure.
-struct SupportedGroup {
-  std::string structure;
-  std::string group;  ///< empty: all clamped nodes, and the ground of springs, dashpots and soil
-
-  bool is_all_ground() const { return group.empty(); }
-};
-
-/// Soil around a rigid foundation that lies below the surface.
-struct Embedment {
-  double depth = 0;       ///< of its underside [m]
-  double velocity = 0;    ///< of shear waves in the soil around it [m/s]
-  double half_width = 0;  ///< half a side of it, or its radius [m]
-
-  double travel() const { return depth / velocity; }  ///< of a wave from it to the surface [s]
-};
-
-/// A part of the ground that moves on its own, as one rigid body, with all that is clamped to it;
-/// or all the ground of a structure, springs included.
-struct Support {
-  std::string name;
-  std::vector<SupportedGroup> groups;
-  double delay = 0;         ///< with which the scene's motion arrives [s]
-  Vector3 factor{1, 1, 1};  ///< on that motion; 0: it is at rest
-  /// Motion of its own along x, y, z, in place of that; rotations about them [rad/s2].
-  std::array<std::optional<MotionComponent>, 6> motion;
-  Vector3 point{0, 0, 0};  ///< about which it turns [m]
-  /// It moves as a massless embedded foundation does in the waves that move the surface.
-  std::optional<Embedment> embedment;
-};
-
-/// One component of the motion of a support beside that of the scene's ground: displacement along
-/// an axis (0-2) or rotation (3-5).
-struct SupportColumn {
-  int support = 0;
-  int component = 0;
-  Vector3 point{0, 0, 0};  ///< about which it turns [m]
-};
 
 /// How the stiffness is applied: as a sparse matrix, element by element without one, or as suits
 /// the mesh (element by element where enough elements have a kernel of their own).
@@ -382,30 +34,22 @@ enum class FieldsFormat { xdmf, vtkhdf, both };
 
 enum class Resampling { linear, band_limited };
 
-struct Probe {
-  std::string name;
-  std::string structure;
-  std::vector<Vector3> points;  ///< each snaps to the nearest node [m]
-  std::string group;            ///< or all nodes of a physical group
-  bool average = true;          ///< one averaged channel set, or one per node
-  bool floor = false;           ///< the level of a floor, between which drifts are
-};
-
-/// Links whose force is recorded over their elongation: those of a region, or the filler of a
-/// contact.
-struct Loop {
-  std::string name;             ///< structure:group, or that of the contact
-  std::string structure;        ///< of the region
-  std::string group;            ///< of the region
-  std::string contact;          ///< or the contact
-  std::vector<Vector3> points;  ///< the element nearest to each; empty: all of them [m]
-};
-
 struct SpectraRequest {
   std::vector<double> damping_ratios;  ///< [-]
   std::vector<double> frequencies;     ///< [Hz], increasing
   double start = 0;                    ///< of the samples that count for spectra and peaks [s]
   double peak_frequency = 0;           ///< of the low-pass before peaks of acceleration [Hz]
+
+  template <typename Visitor>
+  static void describe(Visitor& option) {
+    using namespace option_words;
+    // clang-format off
+    option(&SpectraRequest::damping_ratios, "spectra_damping", reals("-", "0.05", "a comma-separated list of numbers", damping_ratio), "damping ratios of the oscillators", free_on_restart);
+    option("spectra_frequencies", text("Hz", "0.5:400:200log", "start:stop:COUNTlog, start:stop:COUNTlin (COUNT 2 to 100000) or an increasing list", positive), "frequencies of the oscillators", free_on_restart);
+    option(&SpectraRequest::start, "spectra_start", real("s", "0", not_negative), "time from which spectra and peak values count: the oscillators are at rest then", free_on_restart);
+    option(&SpectraRequest::peak_frequency, "peak_frequency", real("Hz", "0", not_negative), "peaks of acceleration are those after a low-pass at this frequency; 0: the highest of spectra_frequencies", free_on_restart);
+    // clang-format on
+  }
 };
 
 /// A reduction that was run for the sake of an accepted error, and had a larger one.
@@ -479,6 +123,66 @@ struct Scene {
   /// Amplitudes over the first corner of each law, whose loops are written in place of a run [-].
   std::vector<double> law_cycles;
   std::string output;  ///< result folder
+
+  template <typename Visitor>
+  static void describe(Visitor& option) {
+    using namespace option_words;
+    // clang-format off
+    option(&Scene::title, "title", text("text", "", "text"), "one line that names the run", free_but_in_scene);
+    option("structures", names(required), "the buildings");
+    option("contacts", names("none"), "the places where they may hit");
+    option("probes", names("none"), "where the motion is recorded");
+    option("loops", names("none"), "links whose force is recorded over their elongation: structure:group of links that yield or damp or of beams that yield, or a contact with a filler or faces that are crushed");
+    option("loops_at", text("m", absent("left out: all of them"), "points x,y,z; x,y,z"), "of each group in loops, the element nearest to each point only");
+    option("forces", names("none"), "forces that are recorded: reactions, storeys, members, shells, cuts");
+    option("supports", names("none"), "parts of the ground that move otherwise than the motion says");
+    option("loads", names("none"), "forces on groups of structures beside gravity and the motion of the ground");
+    option("equipment", names("none"), "items of equipment whose capacity is set beside the spectra of their floors");
+    option(&Scene::end_time, "end_time", real("s", required, positive), "duration of the run", free_of_steps);
+    option(&Scene::courant, "courant", real("-", "0.9", fraction), "fraction of the stable time step that is used", free_of_steps);
+    option(&Scene::time_step, "time_step", real("s", "0", not_negative), "time step; 0: courant x the stable one, or a shorter one that resolves vibrations up to the last of spectra_frequencies", free_of_steps);
+    option(&Scene::allow_unstable, "allow_unstable", flag(false), "accept a time step above the stable one (for studies)", free_of_steps);
+    option(&Scene::omega_max_tolerance, "omega_max_tolerance", real("-", "1e-3", closed(1e-10, 0.1)), "part by which omega_max may be too large, and the stable step too small, where 1e-10 would take long", free_of_steps);
+    option(&Scene::modes, "modes", integer("-", "12", not_negative), "lowest modes computed per structure", free_but_in_scene);
+    option(&Scene::modes_solver, "modes_solver", word("auto|direct|iterative", "auto"), "how they are found at full order: with a factorisation, by an iteration with multigrid, or by that where the factor would take too much memory", free_but_in_scene);
+    option(&Scene::write_modes, "write_modes", flag(false), "write their shapes to modes.h5, and modes.xdmf for ParaView", free_everywhere);
+    option(&Scene::write_model, "write_model", flag(false), "write the meshes with groups, supports, contacts and probes to model.xdmf and model.h5 for ParaView", free_everywhere);
+    option("gravity", real("m/s2", "0", not_negative), "acceleration of gravity, along -z, of every structure without one of its own");
+    option(&Scene::preload, "preload", word("none|static", "none"), "static: the run starts from the equilibrium under gravity, contacts closed where they carry");
+    option(&Scene::preload_solver, "preload_solver", word("auto|direct|iterative", "auto"), "how the equilibrium is solved: by a factorisation, by conjugate gradients, or as the memory allows", free_in_pieces);
+    option(&Scene::gap_tolerance, "gap_tolerance", real("-", "1e-12", not_negative), "contact where gap <= gap_tolerance x model size", free_in_pieces);
+    option(&Scene::impact_merge_time, "impact_merge_time", real("s", "1e-3", not_negative), "contacts separated by less are one impact", free_in_pieces);
+    option(&Scene::force_window, "force_window", real("s", "1e-3", positive), "time over which the largest force of an impact is taken: its largest impulse within it, over it", free_in_pieces);
+    option(&Scene::output_interval, "output_interval", real("s", "5e-5", positive), "time between two samples of the probes", free_in_pieces);
+    option(&Scene::gap_interval, "gap_interval", real("s", "0", not_negative), "time between two samples of the gaps, not a number in between unless they were looked at anyway; 0: with every sample of the probes", free_in_pieces);
+    option(&Scene::energy_interval, "energy_interval", integer("steps", "100", at_least_1), "steps between two lines of the energy balance; each takes one more product with the stiffness", free_in_pieces);
+    option(&Scene::mesh_time_limit, "mesh_time_limit", real("s", "600", positive), "time that Gmsh may take for one mesh", free_everywhere);
+    option(&Scene::law_cycles, "law_cycles", reals("-", "0", "amplitudes over the first corner", not_negative), "in place of a run: takes every law of the scene through cycles of these amplitudes and writes laws.csv; 0: none");
+    option(&Scene::dry_run, "dry_run", flag(false), "check the model, print the cost of a run, and stop", free_everywhere);
+    option(&Scene::vector_unit, "vector_unit", word("auto|v2|v3|v4", "auto"), "whose kernels compute: v2 (SSE4.2), v3 (AVX2 and FMA), v4 (AVX-512), or the best that every rank has", free_everywhere);
+    option(&Scene::progress_interval, "progress_interval", real("s", "2", positive), "phases of the start-up that take longer say how far they are, twice as late each time; in a log the steps as well", free_everywhere);
+    option(&Scene::output, "output", text("folder", "results", "a folder"), "result folder", free_everywhere);
+    option(&Scene::csv_digits, "csv_digits", integer("-", "9", digit_count), "significant digits of the numbers in spectra.csv, impacts.csv, energy.csv and forces.csv; 17: to the bit", free_everywhere);
+    option(&Scene::fields_interval, "fields_interval", real("s", "0", not_negative), "time between two frames of the motion of all nodes in fields.h5, for ParaView; 0: none", free_but_on_restart);
+    option(&Scene::fields_start, "fields_start", real("s", "0", not_negative), "time of the first frame", free_but_on_restart);
+    option(&Scene::fields_end, "fields_end", real("s", "0", not_negative), "no frame is later; 0: until the end of the run", free_but_on_restart);
+    option(&Scene::fields_format, "fields_format", word("xdmf|vtkhdf|both", "both"), "how ParaView finds the frames in fields.h5: by fields.xdmf, by fields.vtkhdf (ParaView 5.12 and later), or by either", free_everywhere);
+    option(&Scene::checkpoint_interval, "checkpoint_interval", real("s", "0", not_negative), "wall time between two checkpoints; 0: one only when a signal stops the run", free_everywhere);
+    option(&Scene::checkpoint_steps, "checkpoint_steps", integer("steps", "0", not_negative), "steps between two checkpoints; 0: none", free_everywhere);
+    option("ensemble", text("file", "none", "a CSV file or none"), "many runs at once: a table whose first line names options of the scene, with a line of values for each run; writes ensemble.h5 and ensemble.csv", free_in_ensemble);
+    option(&Scene::export_matrices, "export_matrices", text("folder", "none", "a folder or none"), "writes the matrices of every structure there, with contact, influence and probe rows", free_but_in_pieces);
+    option(&Scene::restart, "restart", text("file", "none", "a checkpoint.h5 or none"), "checkpoint to continue from, with the history.h5 beside it", free_everywhere);
+    option(&Scene::partition_by, "partition", word("auto|elements|structures", "auto"), "parts shared out among the ranks: elements, whole structures, or whichever costs a step less", free_but_in_pieces);
+    option(&Scene::mesh_pieces, "mesh_pieces", text("folder", "none", "a folder or none"), "meshes cut before, of which every rank reads its piece alone", free_everywhere);
+    option(&Scene::write_mesh_pieces, "write_mesh_pieces", integer("ranks", "0", closed(0, 99999)), "cuts the meshes for so many ranks into the folder mesh_pieces, and stops; 0: does not", free_everywhere);
+    option(&Scene::stiffness, "stiffness", word("auto|assembled|element", "auto"), "how K is applied: as a matrix, element by element, or as suits the mesh", free_in_pieces);
+    option("fidelity_target", real("-", absent("optional"), fraction), "rms error of the floor spectra beside full order that is accepted (0.05: 5 %); the program takes as few modes as it finds to be enough, or full order", free_of_fidelity);
+    option(&Scene::fidelity_window, "fidelity_window", real("s", "0", not_negative), "part of the run around its strongest impact that is stepped at full order as well, by which the error of reduced structures is estimated; 0: none", free_of_fidelity);
+    option(&Scene::motion_from_below, "motion_input", word("base|below", "base"), "place of the motion: the ground under every support, or a wave that enters from below through the faces of absorbing_base");
+    option("motion_level", real("-", "1", positive), "factor on the motion along all axes, after its pga or scale", free_in_pieces);
+    option(&Scene::resampling, "resampling", word("linear|band_limited", "linear"), "how records are upsampled to the time step", free_in_pieces);
+    // clang-format on
+  }
 };
 
 }  // namespace pounding

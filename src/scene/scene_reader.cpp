@@ -33,15 +33,14 @@ class SceneReader {
   explicit SceneReader(const OptionsDatabase& database) : options_(database) {}
 
   ReadScene read() {
-    scene_.title = options_.text("title");
-    listed_ = {read_names("structures"), read_names("contacts"), read_names("probes"),
-               read_names("supports"),   read_names("forces"),   read_names("loads"),
-               read_names("equipment")};
-    require_apart(listed_.structures);
+    for (const OptionOwner& owner : option_owners()) {
+      if (!owner.list.empty()) listed_[owner.block] = read_names(owner.list);
+    }
+    require_apart(listed_.at(OptionBlock::structure));
     refuse_unknown_options(options_.database(), listed_);
     mention_structures_left_out();
     read_run();
-    for (const std::string& name : listed_.structures) {
+    for (const std::string& name : listed_.at(OptionBlock::structure)) {
       scene_.structures.push_back(read_structure(options_, name));
       stiffness_factors_.push_back(read_stiffness_factor(options_, scene_.structures.back()));
       if (!options_.given("<structure>_gravity", {name})) {
@@ -52,27 +51,31 @@ class SceneReader {
       require_own_basis(scene_.structures.back());
       require_full_order(scene_.structures.back());
     }
-    for (const std::string& name : listed_.contacts) scene_.contacts.push_back(read_contact(name));
+    for (const std::string& name : listed_.at(OptionBlock::contact)) {
+      scene_.contacts.push_back(read_contact(name));
+    }
     for (std::size_t d = 0; d < 3; ++d) {
       scene_.motion[d] = read_motion(options_, direction_names[d]);
       if (!scene_.motion[d]) continue;
       (scene_.motion[d]->pga > 0 ? scene_.motion[d]->pga : scene_.motion[d]->scale) *= level_;
     }
     check_absorbing(options_, scene_);
-    for (const std::string& name : listed_.supports) {
+    for (const std::string& name : listed_.at(OptionBlock::support)) {
       scene_.supports.push_back(read_support(options_, name));
     }
     check_supports(options_, scene_);
-    for (const std::string& name : listed_.loads) {
+    for (const std::string& name : listed_.at(OptionBlock::load)) {
       scene_.loads.push_back(read_load(options_, scene_, name));
     }
-    for (const std::string& name : listed_.probes) scene_.probes.push_back(read_probe(name));
+    for (const std::string& name : listed_.at(OptionBlock::probe)) {
+      scene_.probes.push_back(read_probe(name));
+    }
     read_loops();
-    for (const std::string& name : listed_.forces) {
+    for (const std::string& name : listed_.at(OptionBlock::force)) {
       scene_.forces.push_back(read_force(options_, scene_, name));
     }
     read_spectra();
-    for (const std::string& name : listed_.equipment) {
+    for (const std::string& name : listed_.at(OptionBlock::equipment)) {
       scene_.equipment.push_back(read_equipment(options_, scene_, name));
     }
     for (const auto& doubts : {idle_options(options_, scene_, listed_), scene_doubts(scene_)}) {
@@ -98,52 +101,14 @@ class SceneReader {
   }
 
   void read_run() {
-    scene_.end_time = options_.real("end_time");
-    scene_.courant = options_.real("courant");
+    options_.read(scene_);
     if (options_.given("fidelity_target")) {
       scene_.fidelity.target = options_.real("fidelity_target");
     }
-    scene_.fidelity_window = options_.real("fidelity_window");
-    scene_.time_step = options_.real("time_step");
-    scene_.allow_unstable = options_.boolean("allow_unstable");
-    scene_.omega_max_tolerance = options_.real("omega_max_tolerance");
-    scene_.progress_interval = options_.real("progress_interval");
-    scene_.mesh_time_limit = options_.real("mesh_time_limit");
-    scene_.modes = options_.integer("modes");
-    scene_.modes_solver = options_.choice_of<SolverChoice>("modes_solver");
-    scene_.write_modes = options_.boolean("write_modes");
-    scene_.write_model = options_.boolean("write_model");
     gravity_ = read_gravity();
-    scene_.preload = options_.choice("preload") == "static";
-    scene_.preload_solver = options_.choice_of<SolverChoice>("preload_solver");
-    scene_.gap_tolerance = options_.real("gap_tolerance");
-    scene_.impact_merge_time = options_.real("impact_merge_time");
-    scene_.force_window = options_.real("force_window");
-    scene_.csv_digits = options_.integer("csv_digits");
-    scene_.output_interval = options_.real("output_interval");
-    scene_.gap_interval = options_.real("gap_interval");
-    scene_.energy_interval = options_.integer("energy_interval");
-    scene_.dry_run = options_.boolean("dry_run");
-    scene_.vector_unit = options_.choice("vector_unit");
-    scene_.law_cycles = options_.reals("law_cycles");
     std::erase(scene_.law_cycles, 0.0);
-    scene_.output = options_.text("output");
-    scene_.fields_interval = options_.real("fields_interval");
-    scene_.fields_start = options_.real("fields_start");
-    scene_.fields_end = options_.real("fields_end");
-    scene_.fields_format = options_.choice_of<FieldsFormat>("fields_format");
-    scene_.checkpoint_interval = options_.real("checkpoint_interval");
-    scene_.checkpoint_steps = options_.integer("checkpoint_steps");
     ensemble_ = options_.path("ensemble");
-    scene_.export_matrices = options_.path("export_matrices");
-    scene_.restart = options_.path("restart");
-    scene_.partition_by = options_.choice_of<PartitionBy>("partition");
-    scene_.mesh_pieces = options_.path("mesh_pieces");
-    scene_.write_mesh_pieces = options_.integer("write_mesh_pieces");
-    scene_.stiffness = options_.choice_of<StiffnessMethod>("stiffness");
-    scene_.motion_from_below = options_.choice("motion_input") == "below";
     level_ = options_.real("motion_level");
-    scene_.resampling = options_.choice_of<Resampling>("resampling");
   }
 
   /// A list of the user's names, none of them used before. Two that differ in upper and lower case
@@ -218,7 +183,7 @@ class SceneReader {
   /// A name forgotten in the list of structures looks like a scene that takes some of another's.
   void mention_structures_left_out() {
     for (const std::string& name : complete_names(options_.database(), OptionBlock::structure)) {
-      if (std::ranges::count(listed_.structures, name) == 0) {
+      if (std::ranges::count(listed_.at(OptionBlock::structure), name) == 0) {
         scene_.warnings.push_back("structure " + name +
                                   " is defined and left out: it is not in -structures");
       }
@@ -240,7 +205,7 @@ class SceneReader {
 
   void require_structure(std::string_view pattern, const Names& names,
                          const std::string& structure) const {
-    const std::vector<std::string>& known = listed_.structures;
+    const std::vector<std::string>& known = listed_.at(OptionBlock::structure);
     if (std::ranges::find(known, structure) == known.end()) {
       options_.refuse(pattern, names,
                       "there is no structure '" + structure + "'" + suggestion(structure, known));
@@ -310,9 +275,7 @@ class SceneReader {
     contact.primary = options_.text("<contact>_primary", {name}) == "wall"
                           ? ContactSide{"wall", ""}
                           : read_side("<contact>_primary", name);
-    const std::string passes = options_.choice("<contact>_passes", {name});
-    contact.passes = passes == "auto" ? 0 : passes[0] - '0';
-    contact.friction = options_.real("<contact>_friction", {name});
+    options_.read(contact, {name});
     if (contact.primary.is_wall() && contact.passes == 2) {
       options_.refuse("<contact>_passes", {name}, "a wall has no nodes");
     }
@@ -324,7 +287,6 @@ class SceneReader {
       contact.filler = read_filler(options_, name);
     }
     read_gap_state(contact);
-    contact.sliding = options_.real("<contact>_sliding", {name});
     if (contact.sliding > 0 && contact.primary.is_wall()) {
       options_.refuse("<contact>_sliding", {name}, "a wall is endless; leave it out");
     }
@@ -339,20 +301,13 @@ class SceneReader {
   Probe read_probe(const std::string& name) {
     Probe probe;
     probe.name = name;
-    probe.structure = options_.text("<probe>_structure", {name});
+    options_.read(probe, {name});
     require_structure("<probe>_structure", {name}, probe.structure);
-    const bool at = options_.given("<probe>_at", {name});
-    if (at == options_.given("<probe>_group", {name})) {
+    const bool at = !probe.points.empty();
+    if (at == !probe.group.empty()) {
       throw UserError("probe " + name + ": give " + (at ? "only " : "") + "one of -" + name +
                       "_at and -" + name + "_group");
     }
-    if (at) {
-      probe.points = options_.points("<probe>_at", {name});
-    } else {
-      probe.group = options_.text("<probe>_group", {name});
-    }
-    probe.average = options_.boolean("<probe>_average", {name});
-    probe.floor = options_.boolean("<probe>_floor", {name});
     if (probe.floor && !probe.average) {
       options_.refuse("<probe>_floor", {name},
                       "a floor is one record; not with -" + name + "_average false");
@@ -393,7 +348,7 @@ class SceneReader {
   }
 
   void read_spectra() {
-    scene_.spectra.damping_ratios = options_.reals("spectra_damping");
+    options_.read(scene_.spectra);
     const auto frequencies = parse_increasing(options_.text("spectra_frequencies"));
     if (!frequencies || !option_row("spectra_frequencies").range.contains(frequencies->front())) {
       options_.refuse("spectra_frequencies", {});
@@ -403,9 +358,7 @@ class SceneReader {
     }
     scene_.spectra.frequencies = *frequencies;
     resolve_frequency(frequencies->back());
-    scene_.spectra.peak_frequency = options_.real("peak_frequency");
     if (scene_.spectra.peak_frequency == 0) scene_.spectra.peak_frequency = frequencies->back();
-    scene_.spectra.start = options_.real("spectra_start");
     const double last_start =
         scene_.end_time - 2 * std::max(scene_.output_interval, scene_.time_step);
     if (scene_.spectra.start > 0 && !(scene_.spectra.start <= last_start)) {

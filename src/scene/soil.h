@@ -2,10 +2,12 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/types.h"
 #include "elements/element_properties.h"
+#include "scene/option_row.h"
 #include "soil/foundation.h"
 
 namespace pounding {
@@ -34,6 +36,28 @@ struct Soil {
   bool frequency_dependence = true;
   std::string table;                 ///< file; empty: a half-space
   std::optional<FittedSoil> fitted;  ///< once the file is read; see read_soil_file
+
+  static constexpr std::string_view no_half_space =
+      "is of a half-space, and -<structure>_soil_table gives soil in its place; leave one of them "
+      "out";
+  bool is_half_space() const { return table.empty(); }
+
+  template <typename Visitor>
+  static void describe(Visitor& option) {
+    using namespace option_words;
+    const auto half_space = needs(&Soil::is_half_space, no_half_space);
+    // clang-format off
+    option(&Soil::mat, "<structure>_soil_mat", text("group", "none", "a physical group or none"), "rigid mat on soil: its node nearest to the middle of the group carries springs, dashpots and internal masses of a half-space");
+    option(&Soil::table, "<structure>_soil_table", text("file", "none", "a file of run/soil or none"), "soil: springs, dashpots, masses and hidden motions of the mat, in place of those of a half-space, as run/soil fits them to impedances over the frequency");
+    option(&Soil::ground, &HalfSpace::shear_velocity, "<structure>_soil_vs", real("m/s", absent("required with soil_mat, unless there is a soil_table"), positive), "soil: speed of shear waves", half_space);
+    option(&Soil::ground, &HalfSpace::density, "<structure>_soil_density", real("kg/m3", absent("required with soil_mat, unless there is a soil_table"), positive), "soil: density", half_space);
+    option(&Soil::ground, &HalfSpace::poisson, "<structure>_soil_poisson", real("-", absent("required with soil_mat, unless there is a soil_table"), half_open(0, 0.5)), "soil: Poisson's ratio", half_space);
+    option(&Soil::disk, "<structure>_soil_shape", word("rectangle|disk", "rectangle"), "soil: shape of the mat's underside", half_space);
+    option("<structure>_soil_size", reals("m", absent("left out: that of the group"), "two sides along x and y, or a diameter", positive), "soil: size of the mat's underside");
+    option(&Soil::embedment, "<structure>_soil_embedment", real("m", "0", not_negative), "soil: depth of the underside of a rectangle below the surface", half_space);
+    option(&Soil::frequency_dependence, "<structure>_soil_frequency_dependence", flag(true), "soil: internal masses; without them static springs, and dashpots of a0 = 1", half_space);
+    // clang-format on
+  }
 };
 
 /// Place of a mat in its mesh.

@@ -27,12 +27,8 @@ std::optional<Soil> read_soil(OptionReader& options, const Structure& structure)
   const Names names{structure.name};
   constexpr std::string_view mat = "<structure>_soil_mat";
   if (!options.given(mat, names) || options.text(mat, names) == "none") {
-    for (const OptionRow& row : option_table()) {
-      if (row.pattern.starts_with("<structure>_soil_") && row.pattern != mat) {
-        options.forbid(row.pattern, names,
-                       "goes with -" + option_name(mat, names) + ", which is not given");
-      }
-    }
+    options.forbid_all<Soil>(names,
+                             "goes with -" + option_name(mat, names) + ", which is not given", mat);
     return std::nullopt;
   }
   if (!structure.matrices.empty()) {
@@ -41,34 +37,17 @@ std::optional<Soil> read_soil(OptionReader& options, const Structure& structure)
                        "_matrices; write its springs into the matrices and leave it out");
   }
   Soil soil;
-  soil.mat = options.text(mat, names);
-  constexpr std::string_view table = "<structure>_soil_table";
-  soil.table = options.text(table, names);
-  if (soil.table == "none") soil.table.clear();
-  if (!soil.table.empty()) {
-    for (const OptionRow& row : option_table()) {
-      if (!row.pattern.starts_with("<structure>_soil_") || row.pattern == mat ||
-          row.pattern == table) {
-        continue;
-      }
-      options.forbid(row.pattern, names,
-                     "is of a half-space, and -" + option_name(table, names) +
-                         " gives soil in its place; leave one of them out");
-    }
+  options.read(soil, names);
+  if (!soil.is_half_space()) {
+    options.forbid("<structure>_soil_size", names, option_name(Soil::no_half_space, names));
     return soil;
   }
-  soil.ground.shear_velocity = options.real("<structure>_soil_vs", names);
-  soil.ground.density = options.real("<structure>_soil_density", names);
-  soil.ground.poisson = options.real("<structure>_soil_poisson", names);
-  soil.disk = options.choice("<structure>_soil_shape", names) == "disk";
   soil.sides = read_sides(options, names, soil.disk);
-  soil.embedment = options.real("<structure>_soil_embedment", names);
   if (soil.disk && soil.embedment > 0) {
     options.refuse("<structure>_soil_embedment", names,
                    "only rectangles have factors of embedment; give 0, or a rectangle of the same "
                    "area");
   }
-  soil.frequency_dependence = options.boolean("<structure>_soil_frequency_dependence", names);
   return soil;
 }
 

@@ -36,11 +36,6 @@ void forbid_others(const OptionReader& options, const std::string& element, cons
   }
 }
 
-Vector3 read_vector(OptionReader& options, std::string_view pattern, const Names& names) {
-  const std::vector<double> values = options.reals(pattern, names, 3);
-  return {values[0], values[1], values[2]};
-}
-
 /// A name that Gmsh's language takes for a variable.
 bool is_parameter(const std::string& name) {
   return std::isdigit(static_cast<unsigned char>(name[0])) == 0 &&
@@ -111,9 +106,10 @@ Material read_material(OptionReader& options, const Names& region) {
   const std::string_view pattern = "<structure>_<group>_material";
   const std::string name = options.text(pattern, region);
   require_defined(options, pattern, region, "material_<material>_young", name);
-  return {name, options.real("material_<material>_young", {name}),
-          options.real("material_<material>_poisson", {name}),
-          options.real("material_<material>_density", {name})};
+  Material material;
+  material.name = name;
+  options.read(material, {name});
+  return material;
 }
 
 /// Solids and shells have no mass but that of their material.
@@ -136,16 +132,12 @@ Section read_section(OptionReader& options, const Names& region) {
   if (options.given("section_<section>_profile", names)) {
     options.text("section_<section>_profile", names);  // its numbers are among the options already
   }
-  section.area = options.real("section_<section>_area", names);
-  section.inertia_y = options.real("section_<section>_inertia_y", names);
-  section.inertia_z = options.real("section_<section>_inertia_z", names);
-  section.torsion = options.real("section_<section>_torsion", names);
+  options.read(section, names);
   if (options.given("section_<section>_shear_area", names)) {
     const std::vector<double> areas = options.reals("section_<section>_shear_area", names, 2);
     section.shear_area_y = areas[0];
     section.shear_area_z = areas[1];
   }
-  section.z_axis = read_vector(options, "section_<section>_z_axis", names);
   if (section.z_axis == Vector3{0, 0, 0}) {
     options.refuse("section_<section>_z_axis", names, "no direction");
   }
@@ -166,12 +158,6 @@ int read_parts(OptionReader& options, const Names& names) {
   return static_cast<int>(*count);
 }
 
-void read_point_mass(OptionReader& options, const Names& names, Region& region) {
-  region.mass = options.real("<structure>_<group>_mass", names);
-  region.rotary_inertia = read_vector(options, "<structure>_<group>_rotary_inertia", names);
-  if (region.rotary_inertia != Vector3{0, 0, 0}) region.element = ElementType::point_mass6;
-}
-
 /// Reads the properties that elements with a shape need.
 void read_solid(OptionReader& options, const Names& names, Region& region) {
   region.material = read_material(options, names);
@@ -182,22 +168,12 @@ void read_solid(OptionReader& options, const Names& names, Region& region) {
     read_yielding_section(options, names, region);
   }
   if (is_bar(region.element)) {
-    region.area = options.real("<structure>_<group>_area", names);
     if (options.boolean("<structure>_<group>_tension_only", names)) {
       region.element = ElementType::tension_bar;
     }
     read_nonlinear_bar(options, names, region);
   }
-  if (is_beam(region.element) || is_bar(region.element)) {
-    region.added_mass = options.real("<structure>_<group>_mass_per_length", names);
-  }
-  if (is_shell(region.element)) {
-    region.thickness = options.real("<structure>_<group>_thickness", names);
-    region.added_mass = options.real("<structure>_<group>_mass_per_area", names);
-    region.rotary_inertia_factor = options.real("<structure>_<group>_rotary_inertia_factor", names);
-    region.drilling_factor = options.real("<structure>_<group>_drilling_factor", names);
-    read_yielding_membrane(options, names, region);
-  }
+  if (is_shell(region.element)) read_yielding_membrane(options, names, region);
 }
 
 Region read_region(OptionReader& options, const Names& names, const Rayleigh& inherited) {
@@ -206,19 +182,15 @@ Region read_region(OptionReader& options, const Names& names, const Rayleigh& in
   const std::string element = options.choice("<structure>_<group>_element", names);
   region.element = element_of_word(element);
   forbid_others(options, element, names);
+  options.read(region, names);
   if (has_extent(region.element)) {
     read_solid(options, names, region);
   } else if (is_spring(region.element)) {
     read_spring(options, names, region);
-  } else {
-    read_point_mass(options, names, region);
+  } else if (region.rotary_inertia != Vector3{0, 0, 0}) {
+    region.element = ElementType::point_mass6;
   }
   region.damping = read_region_damping(options, names, region, inherited);
-  for (const auto& [pattern, start] :
-       {std::pair("<structure>_<group>_initial_displacement", &Region::initial_displacement),
-        std::pair("<structure>_<group>_initial_velocity", &Region::initial_velocity)}) {
-    if (options.given(pattern, names)) region.*start = read_vector(options, pattern, names);
-  }
   return region;
 }
 
@@ -256,14 +228,9 @@ void forbid_mass_scaling(const OptionReader& options, const Structure& structure
 void read_step_target(OptionReader& options, Structure& structure) {
   constexpr std::string_view target = "<structure>_time_step_target";
   const Names names{structure.name};
-  const double step = options.real(target, names);
-  if (step == 0) {
-    for (const std::string_view pattern :
-         {"<structure>_target_change", "<structure>_target_frequency"}) {
-      options.forbid(pattern, names, "goes with -" + option_name(target, names));
-    }
-    return;
-  }
+  StepTarget wish;
+  options.read(wish, names);
+  if (!wish.is_wanted()) return;
   const auto refuse_beside = [&](bool given, const std::string& option) {
     if (given) {
       options.refuse(target, names, "not with -" + structure.name + "_" + option);
@@ -273,15 +240,14 @@ void read_step_target(OptionReader& options, Structure& structure) {
   refuse_beside(!structure.matrices.empty(), "matrices");
   refuse_beside(structure.modal.has_value(),
                 "model modal, whose coordinates -" + structure.name + "_mass_scaling slows down");
-  structure.mass_scaling = step;
-  structure.step_target = StepTarget{step, options.real("<structure>_target_change", names),
-                                     options.real("<structure>_target_frequency", names), 0};
+  structure.mass_scaling = wish.time_step;
+  structure.step_target = wish;
 }
 
 /// The axial forces at rest belong to beams and bars whose mass nobody scales by their stiffness.
-bool read_p_delta(OptionReader& options, const Structure& structure) {
+void check_p_delta(const OptionReader& options, const Structure& structure) {
   constexpr std::string_view pattern = "<structure>_p_delta";
-  if (!options.boolean(pattern, {structure.name})) return false;
+  if (!structure.p_delta) return;
   const std::string option = "not with -" + structure.name;
   if (!structure.matrices.empty()) {
     options.refuse(pattern, {structure.name}, option + "_matrices, which hold it or not");
@@ -296,7 +262,6 @@ bool read_p_delta(OptionReader& options, const Structure& structure) {
     options.refuse(pattern, {structure.name},
                    "the structure has no beams or bars, whose axial forces it is about");
   }
-  return true;
 }
 
 /// Matrices do not know the nodes that move together.
@@ -359,20 +324,10 @@ void forbid_damping_of_regions(const OptionReader& options, const Structure& str
 Structure read_structure(OptionReader& options, const std::string& name) {
   Structure structure;
   structure.name = name;
-  structure.mesh = options.text("<structure>_mesh", {name});
+  options.read(structure, {name});
   structure.mesh_set = read_mesh_set(options, name);
   structure.clamps = read_clamps(options, name);
   structure.rigid_groups = read_rigid_groups(options, name);
-  structure.ignored_groups = options.list("<structure>_ignore", {name});
-  structure.allow_loose = options.boolean("<structure>_allow_loose", {name});
-  structure.matrices = options.path("<structure>_matrices", {name});
-  structure.mass_scaling = options.real("<structure>_mass_scaling", {name});
-  structure.initial_displacement = read_vector(options, "<structure>_initial_displacement", {name});
-  structure.initial_velocity = read_vector(options, "<structure>_initial_velocity", {name});
-  structure.initial_state = options.path("<structure>_initial_state", {name});
-  if (options.given("<structure>_gravity", {name})) {
-    structure.gravity = read_vector(options, "<structure>_gravity", {name});
-  }
   structure.uniform_damping = read_uniform_damping(options, name);
   if (!structure.uniform_damping) structure.damping = read_structure_damping(options, name);
   const std::set<std::string> groups = region_groups(options.database(), name);
@@ -392,7 +347,7 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   if (!structure.matrices.empty()) {
     forbid_damping_of_regions(options, structure);
   }
-  structure.p_delta = read_p_delta(options, structure);
+  check_p_delta(options, structure);
   structure.soil = read_soil(options, structure);
   if (structure.soil) structure.regions.push_back(soil_region(*structure.soil));
   make_mat_rigid(structure);

@@ -39,16 +39,13 @@ std::optional<MotionComponent> read_rotation(OptionReader& options, const std::s
                                              const std::string& axis) {
   const OptionReader::Names names{name, axis};
   if (!options.given("<support>_rotation_<x|y|z>_record", names)) {
-    for (const char* what : {"time_step", "column", "scale"}) {
-      options.forbid(std::string("<support>_rotation_<x|y|z>_") + what, names,
-                     "goes with -" + name + "_rotation_" + axis + "_record, which is not given");
-    }
+    options.forbid_all<SupportRotationOptions>(
+        names, "goes with -" + name + "_rotation_" + axis + "_record, which is not given");
     return std::nullopt;
   }
   RecordedMotion record;
   record.file = options.text("<support>_rotation_<x|y|z>_record", names);
-  record.time_step = options.real("<support>_rotation_<x|y|z>_time_step", names);
-  record.column = options.integer("<support>_rotation_<x|y|z>_column", names);
+  options.read(record, names, std::string("<support>_rotation_<x|y|z>_"));
   MotionComponent component;
   component.source = record;
   component.scale = options.real("<support>_rotation_<x|y|z>_scale", names);
@@ -57,20 +54,11 @@ std::optional<MotionComponent> read_rotation(OptionReader& options, const std::s
 
 /// Embedment of a foundation that moves as its soil lets it, and that has no other motion.
 std::optional<Embedment> read_embedment(OptionReader& options, const Support& support) {
-  constexpr std::array<std::string_view, 2> parts{"<support>_vs", "<support>_half_width"};
   Embedment embedment;
-  embedment.depth = options.real("<support>_embedment", {support.name});
-  if (embedment.depth == 0) {
-    for (const std::string_view part : parts) {
-      options.forbid(part, {support.name},
-                     "goes with -" + support.name + "_embedment, which is not given");
-    }
-    return std::nullopt;
-  }
-  embedment.velocity = options.real(parts[0], {support.name});
-  embedment.half_width = options.real(parts[1], {support.name});
+  options.read(embedment, {support.name});
+  if (!embedment.is_deep()) return std::nullopt;
   if (!(embedment.travel() <= longest_travel)) {
-    options.refuse(parts[0], {support.name},
+    options.refuse("<support>_vs", {support.name},
                    "a wave would take more than a second from the foundation to the surface; is it "
                    "in m/s, and -" +
                        support.name + "_embedment in m?");
@@ -164,11 +152,9 @@ Support read_support(OptionReader& options, const std::string& name) {
   Support support;
   support.name = name;
   support.groups = read_groups(options, name);
-  support.delay = options.real("<support>_delay", {name});
-  const std::vector<double> factor = options.reals("<support>_factor", {name}, 3);
+  options.read(support, {name});
   for (std::size_t d = 0; d < 3; ++d) {
     const std::string axis = direction_names[d];
-    support.factor[d] = factor[d];
     support.motion[d] = read_motion(options, axis, name);
     if (!support.motion[d] && options.given("<support>_motion_<x|y|z>_record", {name, axis})) {
       support.factor[d] = 0;  // it is at rest

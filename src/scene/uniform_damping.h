@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "scene/option_row.h"
+
 namespace pounding {
 
 /// Damping filter of first order, a Maxwell branch beside the springs of K: it carries K (u - y),
@@ -29,6 +31,17 @@ struct UniformDamping {
   double reference = 0;
   std::vector<DampingFilter> filters;
   double ripple = 0;  ///< largest deviation from `ratio` over the band, relative [-]
+
+  template <typename Visitor>
+  static void describe(Visitor& option) {
+    using namespace option_words;
+    // clang-format off
+    option("<structure>_damping_uniform", real("-", absent("optional"), closed(0, 0.3)), "instead of alpha and beta: one damping ratio for every frequency of a band, which hardly shortens the step");
+    option("<structure>_damping_band", reals("Hz", "1,400", "two numbers f1,f2", positive), "uniform damping: the band");
+    option("<structure>_damping_filters", integer("-", "3", closed(1, 8)), "uniform damping: number of filters that make it; more hold the ratio more closely, or over a wider band");
+    option(&UniformDamping::reference, "<structure>_damping_reference", real("Hz", absent("left out: the first mode"), positive), "uniform damping: frequency at which the stiffness is that of the materials; slower motions find less, faster ones more");
+    // clang-format on
+  }
 
   /// s: factor of K for the slowest motions [-].
   double at_rest() const;

@@ -30,7 +30,7 @@ NameSet as_set(const std::vector<std::string>& names) {
 NameSet referenced(const OptionsDatabase& database, const ListedNames& listed,
                    std::string_view pattern) {
   NameSet names;
-  for (const std::string& structure : listed.structures) {
+  for (const std::string& structure : listed.at(OptionBlock::structure)) {
     for (const std::string& group : region_groups(database, structure)) {
       const auto entry = database.find(option_name(pattern, {structure, group}));
       if (entry != database.end()) names.insert(trimmed(entry->second));
@@ -51,11 +51,8 @@ std::vector<std::vector<std::string>> owners(const OptionsDatabase& database,
     case OptionBlock::spectra:
       result.emplace_back();
       break;
-    case OptionBlock::structure:
-      add(as_set(listed.structures));
-      break;
     case OptionBlock::region:
-      for (const std::string& structure : listed.structures) {
+      for (const std::string& structure : listed.at(OptionBlock::structure)) {
         for (const std::string& group : region_groups(database, structure)) {
           result.push_back({structure, group});
         }
@@ -69,34 +66,21 @@ std::vector<std::vector<std::string>> owners(const OptionsDatabase& database,
       add(with_complete(database, block,
                         referenced(database, listed, "<structure>_<group>_section")));
       break;
-    case OptionBlock::contact:
-      add(with_complete(database, block, as_set(listed.contacts)));
-      break;
     case OptionBlock::motion:
       add({"x", "y", "z"});
-      break;
-    case OptionBlock::support:
-      add(with_complete(database, block, as_set(listed.supports)));
       break;
     case OptionBlock::support_motion:
     case OptionBlock::support_rotation:
       for (const std::string& support :
-           with_complete(database, OptionBlock::support, as_set(listed.supports))) {
+           with_complete(database, OptionBlock::support, as_set(listed.at(OptionBlock::support)))) {
         for (const char* axis : direction_names) result.push_back({support, axis});
       }
       break;
-    case OptionBlock::load:
-      add(with_complete(database, block, as_set(listed.loads)));
+    case OptionBlock::structure:
+      add(as_set(listed.at(block)));
       break;
-    case OptionBlock::probe:
-      add(with_complete(database, block, as_set(listed.probes)));
-      break;
-    case OptionBlock::force:
-      add(with_complete(database, block, as_set(listed.forces)));
-      break;
-    case OptionBlock::equipment:
-      add(with_complete(database, block, as_set(listed.equipment)));
-      break;
+    default:
+      add(with_complete(database, block, as_set(listed.at(block))));
   }
   return result;
 }
@@ -171,8 +155,8 @@ void refuse_unknown_options(const OptionsDatabase& database, const ListedNames& 
   // Scenes that include others take some of their structures.
   ListedNames listed = in_use;
   const NameSet structures =
-      with_complete(database, OptionBlock::structure, as_set(in_use.structures));
-  listed.structures.assign(structures.begin(), structures.end());
+      with_complete(database, OptionBlock::structure, as_set(in_use.at(OptionBlock::structure)));
+  listed[OptionBlock::structure].assign(structures.begin(), structures.end());
   std::vector<std::string> known;
   for (const OptionRow& row : option_table()) {
     for (const std::vector<std::string>& names : owners(database, listed, row.block)) {

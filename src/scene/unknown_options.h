@@ -8,18 +8,6 @@
 
 namespace pounding {
 
-/// Names that `structures`, `contacts`, `probes`, `supports`, `forces`, `loads` and `equipment`
-/// list.
-struct ListedNames {
-  std::vector<std::string> structures;
-  std::vector<std::string> contacts;
-  std::vector<std::string> probes;
-  std::vector<std::string> supports{};
-  std::vector<std::string> forces{};
-  std::vector<std::string> loads{};
-  std::vector<std::string> equipment{};
-};
-
 /// Refuses the first option that the table does not explain for the listed names, naming the
 /// nearest one that it does. A structure, material, section, contact, probe, support, force, load
 /// or item of equipment that is wholly defined but not used is allowed: it may belong to a library,

@@ -1,4 +1,5 @@
 """docs/reference/scene lists every option of the option table, with its unit, default and range, and no other."""
+import json
 import os
 import pathlib
 import re
@@ -9,16 +10,6 @@ import program
 
 CHAPTERS = sorted(pathlib.Path(program.SOURCE, "docs", "reference", "scene").glob("*.md"))
 
-# Named bounds of the table, in the words of the page; "any" is not written.
-RANGES = {"any": "", "positive": "> 0", "not_negative": ">= 0", "at_least_1": ">= 1", "fraction": "(0, 1]",
-          "damping_ratio": "[0, 1)", "uniform_ratio": "[0, 0.3]", "eigen_tolerance": "[1e-10, 0.1]", "filter_count": "[1, 8]", "csv_digits": "[6, 17]",
-          "patch_count": "[0, 10000]",
-          "dashpot_power": "[0.01, 2]", "below_1": "[0, 1)", "up_to_1": "[0, 1]",
-          "poisson_ratio": "(-1, 0.5)", "soil_poisson": "[0, 0.5)", "Range{1, 2, false, false}": "[1, 2]",
-          "Range{0, 10, false, false}": "[0, 10]", "rank_count": "[0, 99999]"}
-
-ROW = re.compile(r'OptionRow\{\s*Block::(\w+),\s*"([^"]+)",\s*Kind::(\w+),\s*"([^"]*)",\s*'
-                 r'(required|value\("[^"]*"\)|absent\("[^"]*"\)),\s*(Range\{[^}]*\}|\w+),\s*("[^"]*"|\w+),\s*"[^"]*"(?:,\s*(?:\w+|\{\}))*\}')
 PETSC_ROW = re.compile(r'\{"([a-z][a-z0-9_]*\*?)", Value::\w+\}')
 NAME = r"[A-Za-z]\w*"
 
@@ -33,27 +24,19 @@ def source(name):
         return file.read()
 
 
-def words_of(form):
-    """Words between quotes, or those of a constant of element_traits.h or hysteresis.h."""
-    if form.startswith('"'):
-        return form[1:-1]
-    return re.search(form + r'\s*=\s*"([^"]*)";', source("element_traits.h") + source("hysteresis.h"))[1]
-
-
-def shown(preset):
+def shown(option):
     """A preset as the page shows it."""
-    if preset == "required":
-        return "required"
-    text = preset[preset.index('"') + 1:-2]
-    if preset.startswith("absent"):
-        return text
-    return f"`{text}`" if text else "empty"
+    if option["default"] is None:
+        return option["absent"]
+    return f"`{option['default']}`" if option["default"] else "empty"
 
 
-def option_rows(text):
-    """Pattern -> (block, kind, unit, default, range, words) of every row."""
-    return {pattern: (block, kind, unit, shown(preset), RANGES[bounds], words_of(form))
-            for block, pattern, kind, unit, preset, bounds, form in ROW.findall(text)}
+def option_rows():
+    """Pattern -> (block, kind, unit, default, range, words) of every option, as the program says them."""
+    text = subprocess.run([program.PROGRAM, "-help_json"], env=program.ENVIRONMENT, capture_output=True, text=True,
+                          timeout=60, check=True).stdout
+    return {option["name"]: (option["block"], option["kind"], option["unit"], shown(option),
+                             option["range"].replace("any", ""), option["form"]) for option in json.loads(text)}
 
 
 def tables(text):
@@ -95,24 +78,22 @@ def as_expression(pattern):
 class OptionsDocumented(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.source = source("option_table.cpp")
-        cls.rows = option_rows(cls.source)
+        if not os.path.exists(program.PROGRAM):
+            raise unittest.SkipTest("the program is not built")
+        cls.rows = option_rows()
         cls.petsc_source = source("unknown_options.cpp")
         cls.petsc_rows = PETSC_ROW.findall(cls.petsc_source)
         cls.page = "\n".join(chapter.read_text() for chapter in CHAPTERS)
         cls.own, cls.petsc, cls.twice = documented(cls.page)
 
     def test_every_row_of_the_table_is_read(self):
-        self.assertEqual(len(self.rows), len(re.findall(r"OptionRow\s*\{", self.source)))
-        self.assertGreaterEqual(len(self.rows), 90)
-        enum = re.search(r"enum class OptionBlock \{([^}]*)\}", source("option_table.h"))[1]
-        self.assertEqual({row[0] for row in self.rows.values()}, set(re.findall(r"\w+", enum)))
+        self.assertGreaterEqual(len(self.rows), 260)
+        enum = re.search(r"enum class OptionBlock \{([^}]*)\}", source("option_row.h"))[1]
+        self.assertEqual(list(dict.fromkeys(row[0] for row in self.rows.values())), re.findall(r"\w+", enum))
         self.assertEqual(len(self.petsc_rows), len(re.findall(r"Value::\w+\}", self.petsc_source)))
         self.assertGreaterEqual(len(self.petsc_rows), 15)
 
     def test_rows_are_those_of_the_help(self):
-        if not os.path.exists(program.PROGRAM):
-            self.skipTest("the program is not built")
         text = subprocess.run([program.PROGRAM, "-help"], env=program.ENVIRONMENT, capture_output=True, text=True,
                               timeout=60, check=True).stdout
         scene, petsc = text.split("Options of PETSc and SLEPc that pass through:")
@@ -140,7 +121,7 @@ class OptionsDocumented(unittest.TestCase):
             self.assertTrue(meaning, name)
 
     def test_options_named_in_the_text_exist(self):
-        known = [as_expression(name) for name in [*self.rows, *self.petsc_rows, "options_file", "include", "help",
+        known = [as_expression(name) for name in [*self.rows, *self.petsc_rows, "options_file", "include", "help", "help_json",
                                                   "h", "version"]]
         named = re.findall(r"`-([a-z]\w*)[ `]", self.page)
         self.assertGreater(len(named), 5)

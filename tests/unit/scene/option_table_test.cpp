@@ -91,10 +91,11 @@ TEST(OptionTable, RangesReadLikeMathematics) {
   EXPECT_EQ(option_row("modes").range.text(), ">= 0");
   EXPECT_EQ(option_row("material_<material>_poisson").range.text(), "(-1, 0.5)");
   EXPECT_EQ(option_row("motion_<x|y|z>_scale").range.text(), "any");
+  EXPECT_EQ(option_row("omega_max_tolerance").range.text(), "[1e-10, 0.1]");
 }
 
 TEST(OptionTable, RangesHoldTheirClosedEndsOnly) {
-  const Range range = option_row("courant").range;
+  const AdmittedRange range = option_row("courant").range;
   EXPECT_FALSE(range.contains(0));
   EXPECT_TRUE(range.contains(1e-300));
   EXPECT_TRUE(range.contains(1));
