@@ -251,7 +251,7 @@ void add_warnings(MPI_Comm comm, const Scene& scene, Model& model) {
     append(damping_warnings(*building.structure, building.modal), model.warnings);
     append(wave_doubts(*building.structure, building.beams, building.modal.modes), model.warnings);
     append(mass_doubts(comm, building), model.warnings);
-    append(reduction_doubts(scene, model.probes, building), model.warnings);
+    append(frequency_doubts(scene, model.probes, building), model.warnings);
     append(shift_warnings(*building.system, building.modal), model.warnings);
   }
   if (rank_of(comm) == 0) append(mechanism_warnings(scene, model), model.warnings);

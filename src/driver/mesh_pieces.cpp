@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* common_kind = "pounding mesh pieces 4";
+constexpr const char* common_kind = "pounding mesh pieces 5";
 constexpr const char* piece_kind = "pounding mesh piece 1";
 
 std::string common_path(const Scene& scene) {
@@ -134,6 +134,7 @@ void pass_findings(Stream& stream, Findings& findings) {
   stream.list(findings.divided, [&](auto& divided) {
     pass_each(stream, divided.group, divided.lines, divided.beams, divided.whole);
   });
+  pass_each(stream, findings.waves.frequency, findings.waves.element_size, findings.waves.group);
 }
 
 /// The one description of the common piece behind its head, for both directions.

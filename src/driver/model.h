@@ -20,6 +20,7 @@
 #include "mesh/global_mesh.h"
 #include "mesh/gmsh_reader.h"
 #include "mesh/mesh.h"
+#include "mesh/mesh_waves.h"
 #include "mesh/nodal_load.h"
 #include "mesh/probe_set.h"
 #include "modal/modal_analysis.h"
@@ -44,6 +45,7 @@ struct MeshFindings {
   std::vector<UnusedElements> unused;  ///< places that no option of the scene names
   MeshFiles files;
   std::vector<DividedLines> divided;  ///< regions whose lines were cut into beams
+  MeshWaves waves;
 };
 
 /// One structure of the scene as it was built: its mesh and its system, and all that was found out

@@ -231,29 +231,44 @@ std::vector<std::string> place_doubts(const Scene& scene, std::span<const Global
   return doubts;
 }
 
-std::vector<std::string> reduction_doubts(const Scene& scene, std::span<const ResolvedProbe> probes,
+std::vector<std::string> frequency_doubts(const Scene& scene, std::span<const ResolvedProbe> probes,
                                           const Building& building) {
-  if (!building.basis || scene.fidelity_window > 0) return {};
-  if (building.basis->modes >= building.basis->independent_dofs) return {};
+  std::vector<std::string> doubts;
   const std::string& structure = building.structure->name;
+  const MeshWaves& waves = building.findings.waves;
   const double asked = scene.spectra.frequencies.back();
-  const double end = highest_mode(*building.basis);
-  std::string of;
-  for (const ResolvedProbe& probe : probes) {
-    if (scene.structures[static_cast<std::size_t>(probe.structure)].name != structure) continue;
-    if (of.empty() && end < asked) of = "the spectra of its probes go";
-    for (const Equipment& item : scene.equipment) {
-      if (item.probe == probe.name && end < std::min(item.band[1], asked)) {
-        of = "the spectra of its probes and the band of " + item.name + " go";
+  const auto beyond = [&](double end) {
+    std::string of;
+    for (const ResolvedProbe& probe : probes) {
+      if (scene.structures[static_cast<std::size_t>(probe.structure)].name != structure) continue;
+      if (of.empty() && end < asked) of = "the spectra of its probes go";
+      for (const Equipment& item : scene.equipment) {
+        if (item.probe == probe.name && end < std::min(item.band[1], asked)) {
+          of = "the spectra of its probes and the band of " + item.name + " go";
+        }
       }
     }
+    return of;
+  };
+  const bool reduced = building.basis && scene.fidelity_window == 0 &&
+                       building.basis->modes < building.basis->independent_dofs;
+  const double modes = reduced ? highest_mode(*building.basis) : asked;
+  if (const std::string of = beyond(modes); !of.empty()) {
+    doubts.push_back(
+        sentence("structure {}: its modes end at {:.4g} Hz, {} to {:.4g} Hz: above its modes it "
+                 "follows statically, and floor spectra there are no results; give more "
+                 "-{}_modal_vectors, or measure the error with -fidelity_window",
+                 {structure, modes, of, asked, structure}));
   }
-  if (of.empty()) return {};
-  return {sentence(
-      "structure {}: its modes end at {:.4g} Hz, {} to {:.4g} Hz: above its modes it follows "
-      "statically, and floor spectra there are no results; give more -{}_modal_vectors, or "
-      "measure the error with -fidelity_window",
-      {structure, end, of, asked, structure})};
+  const double carried = waves.frequency > 0 ? waves.frequency : asked;
+  if (const std::string of = beyond(carried); !of.empty()) {
+    doubts.push_back(
+        sentence("structure {}: its mesh carries waves up to {:.3g} Hz, by elements of {:.3g} m of "
+                 "{}, {} to {:.4g} Hz: above, they are those of the mesh; a finer one shows by how "
+                 "much",
+                 {structure, carried, waves.element_size, waves.group, of, asked}));
+  }
+  return doubts;
 }
 
 std::vector<std::string> mass_doubts(MPI_Comm comm, const Building& building) {

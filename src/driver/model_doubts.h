@@ -17,9 +17,9 @@ std::vector<std::string> place_doubts(const Scene& scene, std::span<const Global
                                       const interactions::Interface& interface,
                                       std::span<const ResolvedProbe> probes);
 
-/// The doubt about a reduced structure whose modes end below the spectra of its probes, unless
-/// their error is estimated. Local.
-std::vector<std::string> reduction_doubts(const Scene& scene, std::span<const ResolvedProbe> probes,
+/// Doubts about a structure whose modes, if it is reduced and their error is not estimated, or
+/// whose mesh (mesh/mesh_waves.h) end below the spectra of its probes. Of the mesh on rank 0 only.
+std::vector<std::string> frequency_doubts(const Scene& scene, std::span<const ResolvedProbe> probes,
                                           const Building& building);
 
 /// Doubts about masses and frequencies of a structure that is built: point masses that are nothing

@@ -284,6 +284,14 @@ Facts structure_facts(const Building& building) {
   const Facts beams = beam_facts(building);
   if (!beams.values.empty()) facts.add("beams", beams.values);
   facts.text += groups.text + beams.text + rigid.text + connectivity.text;
+  if (const MeshWaves& waves = building.findings.waves; waves.frequency > 0) {
+    facts.add("mesh_waves",
+              {{"frequency", waves.frequency},
+               {"element_size", waves.element_size},
+               {"group", waves.group}},
+              "  the mesh carries waves up to {mesh_waves/frequency:.3g} Hz, by elements of "
+              "{mesh_waves/element_size:.3g} m of {mesh_waves/group}\n");
+  }
   facts.say("  stiffness: {stiffness}\n");
   facts.text += reduction.text;
   facts.add(damping_facts(building));

@@ -27,6 +27,7 @@ void check_mesh(const Scene& scene, std::size_t s, const GlobalMesh& mesh, Model
   MeshFindings& findings = model.buildings[s].findings;
   findings.connectivity = examine_connectivity(structure, mesh);
   findings.unused = check_unused(scene, structure, mesh);
+  findings.waves = mesh_waves(structure, mesh);
   check_export(scene, structure, mesh);
   if (structure.matrices.empty()) check_connectivity(scene, structure, findings.connectivity);
   append(mesh_warnings(scene, structure, mesh, findings.connectivity), model.warnings);

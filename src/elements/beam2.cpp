@@ -106,6 +106,21 @@ double half_wave(const ElementProperties& p, double frequency) {
          std::max(number(p.inertia_y, p.shear_area_z), number(p.inertia_z, p.shear_area_y));
 }
 
+double wave_frequency(const ElementProperties& p, double half_wave) {
+  const double mass = p.density * p.area + p.added_mass;
+  const double square = std::pow(std::numbers::pi / half_wave, 2);
+  const auto squared = [&](double inertia, double area) {
+    const double rigidity = p.young * inertia;
+    const double shear = area == 0 ? 0 : 1 / (shear_modulus(p) * area);
+    const double rotary = p.density * inertia;
+    const double b = mass + (rotary + mass * rigidity * shear) * square;
+    const double c = rigidity * square * square;
+    return 2 * c / (b + std::sqrt(b * b - 4 * mass * rotary * shear * c));
+  };
+  return std::sqrt(
+      std::min(squared(p.inertia_y, p.shear_area_z), squared(p.inertia_z, p.shear_area_y)));
+}
+
 double added_rotary_part(const ElementProperties& p, double length) {
   const ShearFlexibility phi = shear_flexibility(p, length);
   const double mass = p.density * p.area + p.added_mass;

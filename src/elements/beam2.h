@@ -24,6 +24,10 @@ ShearFlexibility shear_flexibility(const ElementProperties& properties, double l
 ///     E I k^4 - w^2 (rho I + m E I / (G A_s)) k^2 = w^2 m (1 - w^2 rho I / (G A_s))
 double half_wave(const ElementProperties& properties, double frequency);
 
+/// The lowest circular frequency at which half a wave of bending is so long [rad/s], in either
+/// plane, by the same equation.
+double wave_frequency(const ElementProperties& properties, double half_wave);
+
 /// Stiffness in global axes, shape (12, 12) [N/m, N, N m], of a beam with node coordinates of shape
 /// (2, 3) [m]: bending in the local x-z plane (inertia_y) and in the x-y plane (inertia_z),
 /// linear stretch (area) and twist (torsion), with G = E / (2 (1 + nu)). In one plane

@@ -77,6 +77,9 @@ class Study(unittest.TestCase):
         self.fragility("--part", "2/2", "--runner", "single", "--jobs", "2")
         said = self.fragility("--collect").stdout
         self.assertIn(f"{MEMBERS} runs: 3 samples of motion and building at 2 levels", said)
+        for end in ("Doubt: structure left: its modes end at", "Doubt: structure left: its mesh carries waves up to"):
+            self.assertIn(end, said)
+            self.assertIn(end, (self.place / "out" / "fragility.html").read_text())
         self.check_tables()
         self.check_full_order()
         before = self.tables()

@@ -180,7 +180,7 @@ class Silent(Doubts):
         words = ["-structures", "a", "-a_mesh", self.file("a.geo", HOUSES + POST), "-end_time", 0.01, "-modes", 0, "-a_clamp", "feet",
                  "-a_post_element", "beam", "-a_post_material", "S235", "-a_post_section", "HEB200", "-a_allow_loose",
                  "-section_HEB200_z_axis", "1,0,0", "-probes", "roof,cabinet", "-roof_structure", "a", "-roof_at", "0,0,3",
-                 "-roof_floor", "-cabinet_structure", "a", "-cabinet_at", "0,0,5", "-spectra_frequencies", 10,
+                 "-roof_floor", "-cabinet_structure", "a", "-cabinet_at", "0,0,5", "-spectra_frequencies", 4,
                  "-a_initial_velocity", "0.1,0,0"]
         for group in ("a_west", "a_east", "a_slab"):
             words += [f"-{group}_element", "shell", f"-{group}_thickness", 0.1, f"-{group}_material", "C30/37"]
@@ -195,11 +195,11 @@ class Silent(Doubts):
     def test_spectra_above_the_samples(self):
         motion = ["-motion_x_unit", "m/s2", "-motion_x_record", self.file("r.txt", "".join(
             f"{0.01 * i:.2f} {(-1) ** i}\n" for i in range(20)))]
-        self.assertEqual(self.doubts([*FEET, *PROBE, *motion]), [])
+        self.one([*FEET, *PROBE, *motion], "its mesh carries waves up to 37 Hz, by elements of 1 m of slab", "to 400 Hz")
         self.one([*FEET, *PROBE, *motion, "-spectra_frequencies", "1:400:9lin"], "go to 400 Hz", "samples of the motion every 0.01 s", "above 50 Hz")
         self.one([*FEET, *PROBE, *motion, "-spectra_frequencies", "1:40:9lin", "-output_interval", 0.02],
                  "go to 40 Hz", "samples of the probes every 0.02 s")
-        self.assertEqual(self.doubts([*FEET, *PROBE, *motion, "-spectra_frequencies", "1:50:9lin"]), [])
+        self.one([*FEET, *PROBE, *motion, "-spectra_frequencies", "1:50:9lin"], "its mesh carries waves", "to 50 Hz")
 
     def test_matrices_in_other_units(self):
         folder = os.path.join(self.folder, "matrices")

@@ -275,6 +275,14 @@ class Slow(unittest.TestCase):
         self.assertEqual(doubted("-spectra_frequencies", "0.1:1:10log"), [])
         self.assertEqual(doubted("-tower_modal_vectors", 300), [])  # all of them
 
+    def test_spectra_beyond_the_waves_of_the_mesh_are_doubted(self):
+        doubted = lambda *more: [line for line in Recorded(self, self.words(*more)).summary["warnings"] if "mesh carries" in line]
+        line, = doubted("-spectra_frequencies", "1:4000:20log")
+        carried = float(line.split(" up to ")[1].split()[0])
+        self.assertIn("go to 4000 Hz", line)
+        self.assertEqual(doubted("-spectra_frequencies", f"1,{0.9 * carried}"), [])
+        self.assertEqual(doubted("-spectra_frequencies", "1:4000:20log", "-probes", "none", "-forces", "none"), [])
+
 
 # Coordinates that one rank computes have the same bits on any number of them.
 SHORT = PAIR + ["-s1_initial_velocity", "0.3,0,0", "-end_time", 0.05]

@@ -64,6 +64,7 @@ class Scouted:
     probes: list
     contacts: list
     equipment: list = field(default_factory=list)  # see equipment.of_run
+    doubts: list = field(default_factory=list)  # that spectra go beyond modes or mesh
 
 
 class Runner:
@@ -122,7 +123,8 @@ class Runner:
         clear(place)
         own = str(self.scene(reduced).absolute())
         inputs = {path: found for path, found in finished.inputs_of(summary).items() if path != own}
-        return Scouted(inputs, list(summary.get("probes", {})), list(summary.get("contacts", {})), items)
+        doubts = [line for line in summary["warnings"] if "its modes end at" in line or "its mesh carries waves" in line]
+        return Scouted(inputs, list(summary.get("probes", {})), list(summary.get("contacts", {})), items, doubts)
 
     def _words(self, member, reduced: bool) -> list:
         words = ["-options_file", str(self.scene(reduced).absolute())]
