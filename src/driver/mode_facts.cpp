@@ -95,6 +95,13 @@ Facts mass_scaling_facts(const Building& building) {
   facts.say(
       "  mass scaled for a step of {time_step:.4e} s: {elements} elements, {coupled_dofs} coupled "
       "dofs, at most {largest_factor:.3e} s2 of their stiffness\n");
+  if (scaling.elements > 0 && !building.modal.modes.empty()) {
+    const Mode& mode = *std::ranges::max_element(building.modal.modes, {}, &Mode::scaled_part);
+    facts.add("largest_change", std::sqrt(1 - mode.scaled_part) - 1);
+    facts.say(
+        "    it changes these frequencies by {largest_change:.2g %} at most, that of {:.4g} Hz\n",
+        {mode.frequency});
+  }
   const bool reached = std::max(stable, system.element_time_step_bound) >= scaling.time_step;
   if (!reached && !building.design) {
     facts.say(

@@ -195,6 +195,11 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
   for (FoundPair& pair : found) {
     std::vector<double>& field = pair.vector;
     if (admissible) admissible->to_motion(field);
+    double scaled = system.coupled_mass ? system.coupled_mass->added_product(field.data()) : 0;
+    for (const LocalIndex dof : system.condensed) {  // their lent mass
+      scaled += system.lumped_mass[dof] * field[dof] * field[dof];
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &scaled, 1, MPI_DOUBLE, MPI_SUM, system.comm);
     std::vector<double> shape;
     if (keep_shapes) shape = field;
     if (!diagonal_mass) {
@@ -204,6 +209,7 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
     }
     result.modes.push_back(
         describe_mode(pair.value, motions.participation(field.data()), motions.inertia()));
+    result.modes.back().scaled_part = scaled;
     result.modes.back().shape = std::move(shape);
     result.modes.back().region = busiest_region(mesh, field);
     if (pair.value < bound) result.modes.back().location = locate_largest(mesh, field);

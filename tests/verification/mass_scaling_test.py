@@ -40,6 +40,8 @@ class Frequencies(unittest.TestCase):
         self.assertEqual(scaling["coupled_dofs"], 6 * (3 * ELEMENTS - 1))
         self.assertGreater(scaled["stable_time_step"], STEP)
         self.assertLess(plain["stable_time_step"], 0.4 * STEP)
+        falls = [after / before - 1 for before, after in zip(modal_run.frequencies(plain), modal_run.frequencies(scaled))]
+        self.assertAlmostEqual(scaling["largest_change"] / min(falls), 1, delta=0.01)
         c = scaling["largest_factor"]
         self.assertLess(c, STEP * (2 * BETA + STEP) / 4)
         for before, after in zip(modal_run.frequencies(plain), modal_run.frequencies(scaled)):

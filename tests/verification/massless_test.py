@@ -115,6 +115,10 @@ class Stick(unittest.TestCase):
                 self.assertEqual(run.summary["structures"]["s"]["condensed_dofs"], 9)
             self.assertLess(errors[1], 1e-2)
             self.assertAlmostEqual(errors[0] / errors[1], 4, delta=.4)
+            coarse = Recorded(self, self.scene(path, "-s_mass_scaling", 0.02, "-time_step", 5e-3, "-modes", 4)).summary["structures"]["s"]
+            falls = [2 * math.pi * coarse["frequencies"][at]["frequency"] / value - 1 for value, at in zip(omega, (0, 2))]
+            self.assertLess(min(falls), -1e-3)
+            self.assertAlmostEqual(coarse["mass_scaling"]["largest_change"] / min(falls), 1, delta=0.05)
             run = Recorded(self, self.scene(path, "-s_model", "modal", "-s_modal_vectors", 6, "-modes", 6, "-time_step", 5e-4))
             found = sorted(2 * math.pi * mode["frequency"] for mode in run.summary["structures"]["s"]["frequencies"])
             for value, at in zip(omega, (0, 2, 4)):
