@@ -71,6 +71,19 @@ class OneBeam(unittest.TestCase):
                                   "push", "-push_on", "one:x_max", "-push_force", f"0,{push},0", "-preload", "static", end=1e-3))
         self.assertAlmostEqual(run.summary["yielding"]["one:line:shear_y"]["ductility"] / (strain * STIFF / force), 1, delta=1e-3)
 
+    def test_unloading_is_that_of_the_section(self):
+        """Pushed far and let go slowly, a slender beam: the shear strain that stays is that of the section's rule."""
+        force, hardening, push, exponent = 4e6, 0.2, 7e6, 0.6
+        run = Recorded(self, beam("-one_clamp", "x_min,x_max:x+z+rx+ry+rz", "-one_line_shear_skeleton_y",
+                                  pairs(STIFF, force, (100, force * (1 + 99 * hardening))), "-one_line_shear_rule", "peak",
+                                  "-one_line_unloading_exponent", exponent, "-loads", "push", "-push_on", "one:x_max", "-push_force",
+                                  f"0,{push},0", "-push_values", "0,0;1,1;2,0", "-one_damping_alpha", 5, time_step=1e-3, end=2, mass=2e4))
+        found, bends = run.displacement("tip.y"), LENGTH**3 / (12 * BENDS)
+        strain = (found.max() - (1 - hardening) * force * bends) / (LENGTH + hardening * STIFF * bends)
+        top = force + hardening * (STIFF * strain - force)
+        stays = strain - top / STIFF / (top / strain / STIFF)**exponent
+        self.assertAlmostEqual(found[-1] / (stays * LENGTH), 1, delta=5e-3)
+
     def test_without_flexibility_in_shear(self):
         words = ["euler_beam" if word == "beam" else word for word in beam("-one_line_shear_skeleton_y", pairs(STIFF, 4e6))]
         program.must_refuse(self, words, "-one_line_shear_skeleton_y", "no strength in it", "-one_line_element beam", ranks=1)

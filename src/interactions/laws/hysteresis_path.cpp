@@ -149,7 +149,8 @@ double IsotropicPath::Side::strength(double way) const {
 /// in the direction of the force; p is where it would vanish. The envelope is the line from where
 /// the side was entered to its farthest point, by way of the pinch where there is one, and the
 /// skeleton beyond. a = 1 points to the origin; straight, k_u is the slope of the line that joins
-/// the farthest points of both sides. A side that carries nothing is a gap.
+/// the farthest points of both sides. A side that carries nothing is a gap. With an elastic part in
+/// series k_u and the pinch are those of the rest, F the force and e the elongation of both.
 ///
 /// Strength deteriorates at each passage through no force, by the part b of what is left,
 /// b = (D / (L - sum D))^c, with D the energy lost since the last one, L the lasting energy.
@@ -237,10 +238,16 @@ class PeakPath final : public HysteresisPath {
     }
     const bool fresh = memory[weakened] == 0 && memory[side > 0 ? beyond_plus : beyond_minus] == 0;
     const double secant = fresh ? stiffness_ : force / far;
+    const double own = own_stiffness(stiffness_);
     const double power = law_.unloading_exponent == 0
-                             ? stiffness_
-                             : stiffness_ * std::pow(secant / stiffness_, law_.unloading_exponent);
-    return std::max({power, line, law_.unloading_least * stiffness_});
+                             ? own
+                             : own * std::pow(own_stiffness(secant) / own, law_.unloading_exponent);
+    const double rule = std::max(power, law_.unloading_least * own);
+    return std::max(law_.flexibility == 0 ? rule : 1 / (1 / rule + law_.flexibility), line);
+  }
+  /// Stiffness without the elastic part in series.
+  double own_stiffness(double stiffness) const {
+    return law_.flexibility == 0 ? stiffness : 1 / (1 / stiffness - law_.flexibility);
   }
   double envelope(int side, double elongation, std::span<const double> memory) const {
     const double far = farthest(side, memory);
@@ -259,7 +266,9 @@ class PeakPath final : public HysteresisPath {
     const double entered = side * memory[side > 0 ? entered_plus : entered_minus];
     const bool beyond = memory[side > 0 ? beyond_plus : beyond_minus] > 0;
     if (law_.rule != HystereticRule::pinching || !beyond) return entered;
-    return entered + law_.pinch_elongation * (farthest(side, memory) - entered);
+    const double far = farthest(side, memory);
+    const double bent = law_.flexibility * on_skeleton(side, far, memory);  // elastic part
+    return entered + law_.pinch_elongation * (far - bent - entered) + law_.pinch_force * bent;
   }
   double next_corner(int side, double elongation, std::span<const double> memory) const {
     double next = std::numeric_limits<double>::infinity();
