@@ -163,8 +163,8 @@ std::string name_of(const std::string& item, const Candidate& link,
   const bool section = link.part == of_section || link.part == of_section_link;
   if (section) return name + "." + parts[static_cast<std::size_t>(link.component)];
   if (link.part < 0) return name;
-  if (link.bar != 0) return name + ".axial";
-  const std::string component(motion_names[static_cast<std::size_t>(link.component)]);
+  const std::string component(
+      link.bar != 0 ? "axial" : motion_names[static_cast<std::size_t>(link.component)]);
   return name + "." + component + (link.is_dashpot() ? ".dashpot" : "");
 }
 

@@ -259,7 +259,6 @@ class Export {
 /// Dashpots whose force is no matrix times the rates of their ends.
 void refuse_dashpots(const Structure& structure) {
   for (const Region& region : structure.regions) {
-    if (!is_spring(region.element)) continue;
     const bool power = region.nonlinear.dashpot_exponent != 1;
     if (!power && !region.nonlinear.has_series()) continue;
     throw UserError("option -export_matrices: structure " + structure.name + ": the dashpots of " +

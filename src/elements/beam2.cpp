@@ -180,18 +180,22 @@ void euler_beam_lumped_mass(std::span<const double> coordinates,
            lumped_mass);
 }
 
-void bar2_stiffness(std::span<const double> coordinates, const ElementProperties& properties,
-                    std::span<double> stiffness) {
+void bar2_matrix(std::span<const double> coordinates, double value, std::span<double> matrix) {
   constexpr std::size_t size = 6;
-  const auto [direction, length] = segment_between(coordinates);
-  const double k = properties.young * properties.area / length;
+  const Vector3 direction = segment_between(coordinates).direction;
   for (std::size_t i = 0; i < size; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       const double sign = (i < 3) == (j < 3) ? 1.0 : -1.0;
-      stiffness[i * size + j] = sign * k * direction[i % 3] * direction[j % 3];
+      matrix[i * size + j] = sign * value * direction[i % 3] * direction[j % 3];
     }
   }
-  mirror_lower_triangle(stiffness, size);
+  mirror_lower_triangle(matrix, size);
+}
+
+void bar2_stiffness(std::span<const double> coordinates, const ElementProperties& properties,
+                    std::span<double> stiffness) {
+  const double length = segment_between(coordinates).length;
+  bar2_matrix(coordinates, properties.young * properties.area / length, stiffness);
 }
 
 void bar2_lumped_mass(std::span<const double> coordinates, const ElementProperties& properties,

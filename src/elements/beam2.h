@@ -70,6 +70,10 @@ void euler_beam_lumped_mass(std::span<const double> coordinates,
 
 // Two-node bar, pinned at both ends: three displacements per node, force along its axis only.
 
+/// Matrix of a spring or dashpot `value` along the line of two nodes, shape (6, 6), symmetric to
+/// the bit. Throws ElementError for a zero length.
+void bar2_matrix(std::span<const double> coordinates, double value, std::span<double> matrix);
+
 /// Stiffness E A / L along the axis, shape (6, 6) [N/m], of a bar with node coordinates of shape
 /// (2, 3) [m]. Symmetric to the bit. Throws ElementError for a zero length.
 void bar2_stiffness(std::span<const double> coordinates, const ElementProperties& properties,

@@ -180,14 +180,16 @@ void element_lumped_mass(ElementType type, std::span<const double> coordinates,
   traits_of(type).lumped_mass(coordinates, properties, lumped_mass);
 }
 
-void element_dashpots(ElementType type, const ElementProperties& properties,
-                      std::span<double> damping) {
+void element_dashpots(ElementType type, std::span<const double> coordinates,
+                      const ElementProperties& properties, std::span<double> damping) {
   const ElementLayout layout = element_layout(type);
   require_size(damping.size(), layout.size() * layout.size(), "damping");
   if (type == ElementType::soil) {
     ground_spring_matrix(properties.ground_springs, &GroundSpring::dashpot, damping);
   } else if (is_spring(type)) {
     spring_matrix(layout, properties.dashpot, damping);
+  } else if (is_bar(type)) {
+    bar2_matrix(coordinates, properties.dashpot[0], damping);
   } else {
     std::ranges::fill(damping, 0.0);
   }

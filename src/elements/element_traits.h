@@ -165,10 +165,10 @@ void element_matrices(ElementType type, std::span<const double> coordinates,
                       const ElementProperties& properties, std::span<double> stiffness,
                       std::span<double> lumped_mass);
 
-/// Damping matrix of the dashpots in springs, shape (size, size) [N s/m, N m s]; all zero for every
-/// other element.
-void element_dashpots(ElementType type, const ElementProperties& properties,
-                      std::span<double> damping);
+/// Damping matrix of the dashpots in springs and bars, shape (size, size) [N s/m, N m s]; all zero
+/// for every other element. `coordinates`: of bars.
+void element_dashpots(ElementType type, std::span<const double> coordinates,
+                      const ElementProperties& properties, std::span<double> damping);
 
 /// Lumped mass alone, as `element_matrices` gives it. Throws ElementError.
 void element_lumped_mass(ElementType type, std::span<const double> coordinates,

@@ -14,13 +14,13 @@ namespace {
 constexpr double unstretched = 1e-9;  ///< elongation per unit of a support's motion, round-off
 
 /// Name of the memory of a link; all links of an element but that along x say which one they are,
-/// and the dashpot of a spring that it is no stiffness.
+/// and the dashpot of a spring or bar that it is no stiffness.
 std::string memory_name(std::size_t structure, const Link& link) {
   std::string name = "link " + std::to_string(structure) + " " + std::to_string(link.number);
   const LinkOrigin& origin = link.origin;
   if (origin.component != 0) name += " " + std::to_string(origin.component);
-  const bool dashpot = origin.region != nullptr && is_spring(origin.region->element) &&
-                       origin.part == SpringPart::dashpot;
+  const bool dashpot =
+      origin.region != nullptr && !origin.region->foundation && origin.part == SpringPart::dashpot;
   return dashpot ? name + " dashpot" : name;
 }
 

@@ -91,7 +91,8 @@ void look_at_region(const std::string& structure, const Region& region, Doubts& 
   if (region.nonlinear.radius > 0) {
     doubts.look_at(owner, pendulum_radius, region.nonlinear.radius);
   }
-  if (!has_extent(region.element)) return;
+  const bool dashpot_alone = is_bar(region.element) && !(region.area > 0);
+  if (!has_extent(region.element) || dashpot_alone) return;
   if (const std::string_view caution = traits_of(region.element).caution; !caution.empty()) {
     doubts.add(owner + ": " + std::string(caution));
   }

@@ -87,7 +87,7 @@ struct Region {
   /// Grounded springs: `stiffness` and `dashpot` are per length or area then.
   Spread spread = Spread::none;
   std::array<double, 6> stiffness{};  ///< springs: along and about x, y, z [N/m, N m]
-  std::array<double, 6> dashpot{};    ///< springs [N s/m, N m s]
+  std::array<double, 6> dashpot{};    ///< springs, of bars the first one [N s/m, N m s]
   bool compression_only = false;      ///< grounded springs: along z they push up only
   NonlinearSpring nonlinear;          ///< springs and bars
   YieldingSection yielding;           ///< beams
@@ -108,10 +108,10 @@ struct Region {
     using namespace option_words;
     // clang-format off
     option("<structure>_<group>_element", word(element_words, required), "element of the group (hex8: with incompatible modes)");
-    option("<structure>_<group>_material", text("name", absent("required but for points and springs"), "the name of a material"), "its material", for_extents);
+    option("<structure>_<group>_material", text("name", absent("required but for points, springs and bars of a dashpot alone"), "the name of a material"), "its material", for_extents);
     option("<structure>_<group>_section", text("name", absent("required for beam"), "the name of a section"), "its cross-section (beam only)", for_beams);
     option("<structure>_<group>_divide", text("-", "none", "none, auto, or a count from 2 to 1000"), "lines of the mesh are cut into so many beams of one length; auto: into as many as bending up to the highest of spectra_frequencies needs, 4 in a half wave", for_beams);
-    option(&Region::area, "<structure>_<group>_area", real("m2", absent("required for bar"), positive), "its cross-section area (bar only)", for_bars);
+    option("<structure>_<group>_area", real("m2", absent("required for bar, unless it is a dashpot alone"), positive), "its cross-section area (bar only)", for_bars);
     option("<structure>_<group>_tension_only", flag(false), "bar that buckles: it resists stretching only", for_bars);
     option(&Region::thickness, "<structure>_<group>_thickness", real("m", absent("required for shell"), positive), "its thickness (shell only)", for_shells);
     option(&Region::rotary_inertia_factor, "<structure>_<group>_rotary_inertia_factor", real("-", "0", not_negative), "shell: rotary inertia of a node at least its mass x this x element area; 0.125 frees the step from thin shells", for_shells);
@@ -121,14 +121,14 @@ struct Region {
     option(&Region::mass, "<structure>_<group>_mass", real("kg", absent("required for point_mass"), positive), "mass added at each point of the group", for_points);
     option(&Region::rotary_inertia, "<structure>_<group>_rotary_inertia", reals("kg m2", "0,0,0", "three numbers about x, y, z", not_negative), "point_mass: its rotary inertia", for_points);
     option("<structure>_<group>_stiffness", reals("N/m, N m", absent("required for springs"), "six numbers along and about x, y, z (three: no rotations)", not_negative), "of grounded_spring and spring", for_springs);
-    option("<structure>_<group>_dashpot", reals("N s/m, N m s", "0,0,0,0,0,0", "six numbers along and about x, y, z", not_negative), "dashpot beside the spring", for_springs);
+    option("<structure>_<group>_dashpot", reals("N s/m, N m s", "0,0,0,0,0,0", "six numbers along and about x, y, z (bar: one)", not_negative), "dashpot beside the spring, of a bar along its line", for_bars_and_springs);
     option("<structure>_<group>_stiffness_per_area", reals("N/m3", "0,0,0", "three numbers along x, y, z", not_negative), "grounded_spring on surfaces: its stiffness per area", for_grounded);
     option("<structure>_<group>_dashpot_per_area", reals("N s/m3", "0,0,0", "three numbers along x, y, z", not_negative), "grounded_spring on surfaces: its dashpots per area", for_grounded);
     option("<structure>_<group>_stiffness_per_length", reals("N/m2", "0,0,0", "three numbers along x, y, z", not_negative), "grounded_spring on lines: its stiffness per length", for_grounded);
     option("<structure>_<group>_dashpot_per_length", reals("N s/m2", "0,0,0", "three numbers along x, y, z", not_negative), "grounded_spring on lines: its dashpots per length", for_grounded);
     option("<structure>_<group>_compression_only", flag(false), "grounded_spring from which a mat may lift off: along z, spring and dashpot resist pressing down only", for_grounded);
-    option("<structure>_<group>_dashpot_exponent", real("-", "1", closed(0.01, 2)), "power of the rate to which its dashpots go; their unit is N (s/m)^it", for_springs);
-    option("<structure>_<group>_dashpot_stiffness", reals("N/m, N m", "0,0,0,0,0,0", "six numbers along and about x, y, z", not_negative), "spring in series with each dashpot; 0: none, it is rigid", for_springs);
+    option("<structure>_<group>_dashpot_exponent", real("-", "1", closed(0.01, 2)), "power of the rate to which its dashpots go; their unit is N (s/m)^it", for_bars_and_springs);
+    option("<structure>_<group>_dashpot_stiffness", reals("N/m, N m", "0,0,0,0,0,0", "six numbers along and about x, y, z (bar: one)", not_negative), "spring in series with each dashpot; 0: none, it is rigid", for_bars_and_springs);
     option("<structure>_<group>_series_stiffness", reals("N/m, N m", "0,0,0,0,0,0", "six numbers along and about x, y, z", not_negative), "spring in series with its spring and dashpot together; 0: none, it is rigid", for_springs);
     option("<structure>_<group>_yield_force", reals("N, N m", "0", "one number (bar), or three or six along and about x, y, z", not_negative), "force at which it yields; 0: never", for_bars_and_springs);
     option("<structure>_<group>_hardening", real("-", "0", below_1), "stiffness after yield over that before", for_bars_and_springs);

@@ -16,6 +16,7 @@ constexpr std::string_view hardening = "<structure>_<group>_hardening";
 constexpr std::string_view yield_circle = "<structure>_<group>_yield_circle";
 constexpr std::string_view sliding_friction = "<structure>_<group>_sliding_friction";
 constexpr std::string_view radius = "<structure>_<group>_pendulum_radius";
+constexpr std::string_view dashpot = "<structure>_<group>_dashpot";
 constexpr std::string_view exponent = "<structure>_<group>_dashpot_exponent";
 constexpr std::string_view dashpot_stiffness = "<structure>_<group>_dashpot_stiffness";
 constexpr std::string_view series_stiffness = "<structure>_<group>_series_stiffness";
@@ -88,11 +89,20 @@ std::array<double, 6> read_six(OptionReader& options, std::string_view pattern,
   return result;
 }
 
+/// The one number of a bar, of an option that has six of a spring.
+double read_one(OptionReader& options, std::string_view pattern, const Names& names) {
+  const std::vector<double> values = options.reals(pattern, names);
+  if (std::count(values.begin() + 1, values.end(), 0) + 1 != std::ssize(values)) {
+    options.refuse(pattern, names, "a bar takes one number");
+  }
+  return values.front();
+}
+
 /// How springs are spread, by the options given.
 Spread spread_of(const OptionReader& options, const Names& names) {
   const auto has = [&](Spread spread) {
     return options.given("<structure>_<group>_stiffness" + per_extent(spread), names) ||
-           options.given("<structure>_<group>_dashpot" + per_extent(spread), names);
+           options.given(std::string(dashpot) + per_extent(spread), names);
   };
   if (has(Spread::area) && has(Spread::length)) {
     options.refuse("<structure>_<group>_stiffness_per_length", names,
@@ -107,15 +117,13 @@ void read_spread(OptionReader& options, const Names& names, Region& region) {
   const std::string per = per_extent(region.spread);
   const std::string stiffness = "<structure>_<group>_stiffness" + per;
   for (const std::string_view other :
-       {std::string_view("<structure>_<group>_stiffness"),
-        std::string_view("<structure>_<group>_dashpot"), yield_force, hardening, yield_circle,
-        sliding_friction, radius, exponent, dashpot_stiffness, series_stiffness, law_rule,
-        law_skeleton}) {
+       {std::string_view("<structure>_<group>_stiffness"), dashpot, yield_force, hardening,
+        yield_circle, sliding_friction, radius, exponent, dashpot_stiffness, series_stiffness,
+        law_rule, law_skeleton}) {
     options.forbid(other, names, "not beside -" + option_name(stiffness, names));
   }
   std::ranges::copy(options.reals(stiffness, names, 3), region.stiffness.begin());
-  std::ranges::copy(options.reals("<structure>_<group>_dashpot" + per, names, 3),
-                    region.dashpot.begin());
+  std::ranges::copy(options.reals(std::string(dashpot) + per, names, 3), region.dashpot.begin());
   const auto is_zero = [](double value) { return value == 0; };
   if (std::ranges::all_of(region.stiffness, is_zero) &&
       std::ranges::all_of(region.dashpot, is_zero)) {
@@ -131,13 +139,13 @@ std::string axis_of(std::size_t component) {
 /// and the one dashpot in series with a spring A that pull alike: they are at rest with K1 K2 / (K1
 /// + K2), and moved at once with the series of K1 and K2 + K3. The dashpot's rate is K1 / (K1 + K2)
 /// of the one of the whole, its force (K1 + K2) / K1 times that.
-void put_in_series(double outer, double inner, double power, double& stiffness, double& dashpot,
+void put_in_series(double outer, double inner, double power, double& stiffness, double& rate,
                    double& branch) {
   branch = inner;
   if (!(outer > 0)) return;
   const double part = outer / (outer + stiffness);
   branch = inner > 0 ? part * outer * inner / (outer + stiffness + inner) : part * outer;
-  dashpot *= std::pow(part, 1 + power);
+  rate *= std::pow(part, 1 + power);
   stiffness *= part;
 }
 
@@ -195,7 +203,7 @@ void read_spring(OptionReader& options, const Names& names, Region& region) {
     read_spread(options, names, region);
   } else {
     region.stiffness = read_six(options, "<structure>_<group>_stiffness", names);
-    region.dashpot = read_six(options, "<structure>_<group>_dashpot", names);
+    region.dashpot = read_six(options, dashpot, names);
     read_nonlinear_spring(options, names, region);
   }
   if (is_grounded(region.element)) {
@@ -233,9 +241,18 @@ void read_spring(OptionReader& options, const Names& names, Region& region) {
 
 void read_nonlinear_bar(OptionReader& options, const Names& names, Region& region) {
   NonlinearSpring& bar = region.nonlinear;
-  const std::vector<double> force = options.reals(yield_force, names);
-  if (force.size() != 1) options.refuse(yield_force, names, "a bar takes one number");
-  bar.yield_force[0] = force[0];
+  region.dashpot[0] = read_one(options, dashpot, names);
+  bar.dashpot_exponent = options.real(exponent, names);
+  if (region.dashpot[0] > 0) {
+    bar.dashpot_stiffness[0] = read_one(options, dashpot_stiffness, names);
+  }
+  if (!(region.area > 0)) {
+    if (!(region.dashpot[0] > 0)) options.refuse(dashpot, names, "0, and the bar has no area");
+    for (const std::string_view other : {yield_force, hardening, law_rule, law_skeleton, slack}) {
+      options.forbid(other, names, "a bar of its dashpot alone has none; give it an area");
+    }
+  }
+  bar.yield_force[0] = read_one(options, yield_force, names);
   bar.hardening = options.real(hardening, names);
   bar.slack = options.real(slack, names);
   read_hysteresis(options, names, {region.material.young * region.area}, bar);

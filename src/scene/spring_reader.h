@@ -11,8 +11,8 @@ namespace pounding {
 /// where its numbers say so. Throws UserError.
 void read_spring(OptionReader& options, const OptionReader::Names& names, Region& region);
 
-/// Where a bar yields, and the slack of one that resists stretching only; makes it a yielding_bar.
-/// Throws UserError.
+/// The dashpot of a bar, where it yields, and the slack of one that resists stretching only; makes
+/// it a yielding_bar. Throws UserError.
 void read_nonlinear_bar(OptionReader& options, const OptionReader::Names& names, Region& region);
 
 /// End of the names of options and results that are per length or area: "_per_area"; nothing where

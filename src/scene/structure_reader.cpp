@@ -160,7 +160,16 @@ int read_parts(OptionReader& options, const Names& names) {
 
 /// Reads the properties that elements with a shape need.
 void read_solid(OptionReader& options, const Names& names, Region& region) {
-  region.material = read_material(options, names);
+  constexpr std::string_view area = "<structure>_<group>_area";
+  const bool dashpot_alone = is_bar(region.element) && !options.given(area, names) &&
+                             options.given("<structure>_<group>_dashpot", names);
+  for (const char* option : {"material", "tension_only"}) {
+    if (!dashpot_alone) break;
+    options.forbid(
+        std::string("<structure>_<group>_") + option, names,
+        "a bar of its dashpot alone has none; give -" + option_name(area, names) + " as well");
+  }
+  if (!dashpot_alone) region.material = read_material(options, names);
   require_density(options, region);
   if (is_beam(region.element)) {
     region.section = read_section(options, names);
@@ -168,6 +177,7 @@ void read_solid(OptionReader& options, const Names& names, Region& region) {
     read_yielding_section(options, names, region);
   }
   if (is_bar(region.element)) {
+    if (!dashpot_alone) region.area = options.real(area, names);
     if (options.boolean("<structure>_<group>_tension_only", names)) {
       region.element = ElementType::tension_bar;
     }
@@ -303,9 +313,9 @@ void forbid_damping_of_regions(const OptionReader& options, const Structure& str
                              "damping.mtx only; write it there and ";
   for (const Region& region : structure.regions) {
     const OptionReader::Names names{structure.name, region.group};
-    const bool dashpot = std::ranges::any_of(region.dashpot, [](double rate) { return rate > 0; });
+    const bool rates = std::ranges::any_of(region.dashpot, [](double rate) { return rate > 0; });
     for (const char* option : {"dashpot", "dashpot_per_area", "dashpot_per_length"}) {
-      if (!dashpot) break;
+      if (!rates) break;
       options.forbid(std::string("<structure>_<group>_") + option, names,
                      remedy + "give 0 or nothing here");
     }

@@ -12,21 +12,23 @@
 namespace pounding {
 namespace {
 
-/// The dashpots of all springs.
+/// The dashpots of all springs and bars.
 MatHandle dashpot_matrix(const Structure& structure, const Mesh& mesh) {
   const auto has_dashpots = [&](const ElementBlock& block) {
-    return is_spring(block.type) && interactions::has_links(structure.regions[block.region]);
+    return (is_spring(block.type) || is_bar(block.type)) &&
+           interactions::has_links(structure.regions[block.region]);
   };
   if (std::ranges::none_of(mesh.blocks, has_dashpots)) return {};
   MatHandle matrix = stiffness::create_matrix(mesh, has_dashpots);
   const std::vector<PetscInt> numbers = stiffness::global_numbers(mesh);
+  stiffness::ElementWork work;
   std::array<double, max_element_size * max_element_size> values{};
   for (const ElementBlock& block : mesh.blocks) {
     if (!has_dashpots(block)) continue;
     const ElementLayout layout = element_layout(block.type);
     const std::size_t size = layout.size();
     for (std::size_t e = 0; e < block.count(); ++e) {
-      element_dashpots(block.type,
+      element_dashpots(block.type, stiffness::gather_coordinates(mesh, block, e, work),
                        element_properties(structure.regions[block.region], block.share_of(e)),
                        {values.data(), size * size});
       const auto dofs = stiffness::element_dofs(mesh, block, e, layout);

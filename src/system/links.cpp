@@ -83,9 +83,7 @@ void Links::add_bar(const Structure& structure, const Mesh& mesh, const ElementB
   const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
   // The modes of a reduced structure have every bar taut, and their damping is the bars' as well.
   const bool reduced = structure.modal.has_value();
-  link.origin = {&region, 0,
-                 length,  reduced ? 0 : structure.damping_of(region).beta,
-                 reduced, interactions::SpringPart::stiffness};
+  const double beta = reduced ? 0 : structure.damping_of(region).beta;
   for (std::size_t d = 0; d < 3; ++d) {
     for (std::size_t end = 0; end < 2; ++end) {
       link.place[3 * end + d] = mesh.dof(nodes[end], static_cast<int>(d));
@@ -95,7 +93,11 @@ void Links::add_bar(const Structure& structure, const Mesh& mesh, const ElementB
       }
     }
   }
-  keep(mesh, block, element, link);
+  for (const auto& [component, part] : interactions::spring_links(region)) {
+    const bool held = reduced && part == interactions::SpringPart::stiffness;
+    link.origin = {&region, component, length, beta, held, part};
+    keep(mesh, block, element, link);
+  }
 }
 
 void Links::add_section(const Structure& structure, const Mesh& mesh, const ElementBlock& block,

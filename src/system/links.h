@@ -43,7 +43,7 @@ struct Link {
 /// Links of a structure: devices between two nodes, or from one to the ground, with a law that is
 /// no part of K u. Today these are the bars that resist stretching only or yield, compression-only
 /// springs along z, springs that yield, sections of beams that yield in reduced structures, the
-/// dashpots of springs, one for each component, the
+/// dashpots of springs, one for each component, and of bars, the
 /// dashpots and masses of soil in the six motions of a mat, and three dashpots at every node of
 /// absorbing faces. Links that share a node that can move live on one rank, with all that moves
 /// with their nodes (see `coupled_nodes`). Constant during a run; their state is with

@@ -14,8 +14,9 @@ import numpy
 import scipy.io
 
 import program
-from decks import contacts, in_modes, material
-from recorded import Recorded, assert_continues
+from decks import clock, contacts, in_modes, material, probes
+from loops_test import Loops, check_area
+from recorded import Recorded, assert_continues, ensemble_of
 from springs_test import SPEED, chain, point, spring
 from tension_brace_test import scene as braces
 
@@ -158,6 +159,99 @@ class AtAContact(unittest.TestCase):
             self.assertLess(bar["element_frequency_bound"], 2 * bar["omega_max"])
 
 
+def damped(braces_dashpot="", axes_dashpot="0,0,0", *more, time_step=2e-3):
+    """A mass of 100 kg on a spring to the ground: dashpots in two braces, 4 in x to 3 in y, and dashpots along the axes."""
+    words = ["-structures", "frame", "-frame_mesh", "tests/meshes/braces.geo", "-frame_mass_element", "point_mass", "-frame_mass_mass", 100, "-frame_support_element", "grounded_spring",
+             "-frame_support_stiffness", "3e4,2e4,1e4", "-frame_support_dashpot", axes_dashpot, "-frame_initial_velocity",
+             "0.5,0.2,0", *clock(time_step, 2.0, time_step / 2), "-energy_interval", 1, *probes(hung="frame@0,0,0")]
+    bars = ["-frame_clamp", "anchors", "-frame_left_element", "bar", "-frame_left_dashpot", braces_dashpot]
+    bars = bars if braces_dashpot else []
+    return [*words, "-frame_ignore", "right" if bars else "left,right", *bars, *more]
+
+
+STEEL = ["-frame_left_area", 1e-4, "-frame_left_material", "steel", *material("steel", 2e9, 0.3, 1e-9)]
+
+
+class SkewBraces(unittest.TestCase):
+    """Dashpots along the lines of bars, c in each of two: 1.28 c along x and 0.72 c along y."""
+
+    def check(self, left, right, tolerance=1e-12, ranks=program.RANKS):
+        found, turned = (Recorded(self, words, ranks) for words in (left, right))
+        for name in ("hung.x", "hung.y"):
+            u, v = turned.displacement(name), found.displacement(name)
+            self.assertLess(abs(u - v).max(), tolerance * abs(turned.displacement("hung.x")).max())
+        self.assertAlmostEqual(found.energy["devices"] / turned.energy["devices"], 1, delta=1e-9)
+        self.assertGreater(turned.energy["devices"], 0.1 * turned.energy["input"])
+        return found
+
+    def test_alone_they_are_those_along_the_axes(self):
+        for ranks in (1, 2, 3):
+            self.check(damped("250"), damped("", "320,180,0"), ranks=ranks)
+
+    def test_decrement_is_that_of_the_closed_form(self):
+        run = Recorded(self, damped("250", "0,0,0", "-frame_initial_velocity", "0.5,0,0", time_step=2e-4))
+        u = run.displacement("hung.x")[1:]
+        peaks = u[1:-1][(u[1:-1] > u[:-2]) & (u[1:-1] > u[2:])]
+        ratio = 320 / (2 * numpy.sqrt(100 * 3e4))
+        decrement = 2 * numpy.pi * ratio / numpy.sqrt(1 - ratio**2)
+        self.assertAlmostEqual(numpy.log(peaks[0] / peaks[4]) / 4 / decrement, 1, delta=1e-4)
+
+    def test_powers_and_springs_in_series(self):
+        along_x = ("-frame_initial_velocity", "0.5,0,0")
+        series = 2e4 * 2 * .8**2  # of both
+        for power in (0.4, 1, 2):
+            turned = 250 * 2 * .8**(1 + power)
+            for bars, axes in ((), ()), (("-frame_left_dashpot_stiffness", 2e4),
+                                         ("-frame_support_dashpot_stiffness", f"{series!r},0,0")):
+                self.check(damped("250", "0,0,0", *along_x, "-frame_left_dashpot_exponent", power, *bars),
+                           damped("", f"{turned!r},0,0", *along_x, "-frame_support_dashpot_exponent", power, *axes), 1e-10)
+
+    def test_beside_the_bars_own_stiffness_and_laws(self):
+        """Of two groups on the same lines, the stiffness of one and the dashpot of the other, and of one that has both."""
+        for law in ((), ("-frame_left_yield_force", 300), ("-frame_left_tension_only", "true")):
+            both = Recorded(self, damped("250", "0,0,0", *STEEL, *law))
+            axes = Recorded(self, damped("0", "320,180,0", *STEEL, *law))
+            for name in ("hung.x", "hung.y"):
+                u = axes.displacement(name)
+                self.assertLess(abs(u - both.displacement(name)).max(), 1e-12 * abs(u).max())
+
+    def test_in_all_modes(self):
+        for more in ((), STEEL, (*STEEL, "-frame_left_yield_force", 300), ("-frame_left_dashpot_exponent", 0.5)):
+            self.check(damped("250", "0,0,0", *more, *in_modes("frame", 3)), damped("250", "0,0,0", *more), 1e-9)
+
+    def test_members_of_an_ensemble_are_single_runs(self):
+        words = damped("250", "0,0,0", *in_modes("frame", 3), "-modes", 0, "-spectra_frequencies", 10)
+        peaks, residuals = ensemble_of(self, words, "frame_stiffness_factor", [1.2])
+        self.assertLess(abs(residuals).max(), 1e-12)
+        run = Recorded(self, [*words, "-frame_stiffness_factor", 1.2])
+        self.assertAlmostEqual(peaks.ravel()[0] / abs(run.displacement("hung.x")).max(), 1, delta=1e-9)
+
+    def test_exported(self):
+        with tempfile.TemporaryDirectory(prefix="pounding-") as folder:
+            program.must_run(self, damped("250", "0,0,0", "-export_matrices", folder, "-end_time", 1e-3))
+            damping = scipy.io.mmread(os.path.join(folder, "frame", "damping.mtx")).toarray()
+        self.assertLess(abs(damping - numpy.diag([320, 180, 0])).max(), 1e-11)
+
+    def test_loops_hold_what_the_ledger_took(self):
+        words = damped("250", "0,0,0", *STEEL, "-frame_left_yield_force", 300, "-loops", "frame:left", time_step=2e-4)
+        run = Loops(self, [*words, "-frame_support_stiffness", "0,0,0", "-output_interval", 2e-4,
+                           "-end_time", 0.2])
+        self.assertEqual([name.split(".", 2)[2] for name in run.names], ["axial", "axial.dashpot"] * 2)
+        check_area(self, run)
+
+    def test_refused(self):
+        for more, words in (((), "no area"), (("-frame_left_dashpot", "1,2,3"), "one number"),
+                            (("-frame_left_dashpot", 5, "-frame_left_yield_force", 5), "of its dashpot alone"),
+                            (("-frame_left_dashpot", 5, "-frame_left_material", "steel"), "frame_left_area"),
+                            (("-frame_left_dashpot", 5, "-frame_left_dashpot_exponent", 2, "-export_matrices",
+                              "/tmp/none"), "power")):
+            program.must_refuse(self, damped("0", "0,0,0", *more), words)
+
+    def test_a_continued_run_is_the_uninterrupted_one(self):
+        assert_continues(self, damped("250", "0,0,0", *STEEL, "-frame_left_yield_force", 300,
+                                      "-frame_left_dashpot_stiffness", 2e5, "-output_interval", 1e-2), 1.0, 300, 2)
+
+
 BRACED = braces(("left",), 3e4, 2e-3, 2.0)
 
 
@@ -178,6 +272,7 @@ class Braces(unittest.TestCase):
 
 ON_RANKS = {"dashpots that move each other": words(STRONG),
             "dashpots in all modes": words(STRONG, *in_modes("chain", 6)),
+            "dashpots along braces": damped("250", "0,0,0", *STEEL, "-frame_left_yield_force", 300),
             "bars that go slack in modes": [*BRACED, *in_modes("frame", 3)]}
 
 

@@ -12,6 +12,10 @@ namespace pounding::interactions {
 
 std::vector<SpringLink> spring_links(const Region& region) {
   std::vector<SpringLink> links;
+  if (is_bar(region.element)) {
+    if (region.dashpot[0] > 0) links.push_back({0, SpringPart::dashpot});
+    if (follows_law(region)) links.push_back({0, SpringPart::stiffness});
+  }
   if (!is_spring(region.element)) return links;
   for (int c = 0; c < static_cast<int>(region.dashpot.size()); ++c) {
     const auto component = static_cast<std::size_t>(c);
@@ -26,8 +30,7 @@ std::vector<SpringLink> spring_links(const Region& region) {
 }
 
 bool has_links(const Region& region) {
-  return follows_law(region) || yields_by_links(region) || region.foundation ||
-         !spring_links(region).empty();
+  return yields_by_links(region) || region.foundation || !spring_links(region).empty();
 }
 
 bool is_pressed(const LinkOrigin& origin) {
@@ -102,9 +105,7 @@ std::unique_ptr<LinkLaw> law_of(const LinkOrigin& origin, double time_step,
                                      time_step);
   }
   if (origin.part == SpringPart::gauge) return std::make_unique<GaugeLaw>();
-  if (is_spring(region.element) && origin.part == SpringPart::dashpot) {
-    return dashpot_of(origin, time_step);
-  }
+  if (origin.part == SpringPart::dashpot) return dashpot_of(origin, time_step);
   return stiff_law(origin, time_step, uniform);
 }
 

@@ -37,20 +37,21 @@ class RelievingLaw final : public Law {
 };
 
 /// Whether the elements of a region are links, or hold some: tension-only bars, compression-only
-/// springs, what yields, springs with dashpots, soil under a mat.
+/// springs, what yields, springs and bars with dashpots, soil under a mat.
 bool has_links(const Region& region);
 
 /// Part of a spring that a link is: its dashpot, what it does along its stiffness by a law, or a
 /// gauge of its elongation.
 enum class SpringPart { dashpot, stiffness, gauge };
 
-/// A link that a spring is, along or about an axis: 0 to 2 x, y, z, 3 to 5 about them.
+/// A link that a spring is, along or about an axis: 0 to 2 x, y, z, 3 to 5 about them; of a bar 0,
+/// along its line.
 struct SpringLink {
   int component = 0;
   SpringPart part = SpringPart::dashpot;
 };
 
-/// The links that each spring of a region is beside what K holds of it.
+/// The links that each spring or bar of a region is beside what K holds of it.
 std::vector<SpringLink> spring_links(const Region& region);
 
 /// Components of the links of sections are the numbers of their laws, from this one on.

@@ -39,7 +39,7 @@ TEST(Spring, BetweenNodesResistsTheirDifferenceOnly) {
   std::array<double, 6> mass{};
   element_matrices(ElementType::spring, coordinates, properties, stiffness, mass);
   std::array<double, 36> damping{};
-  element_dashpots(ElementType::spring, properties, damping);
+  element_dashpots(ElementType::spring, coordinates, properties, damping);
   const std::array<double, 6> u{1, 1, 1, 1.5, 3, 0};
   const std::array<double, 6> force{-5, -40, 30, 5, 40, -30};
   for (std::size_t i = 0; i < 6; ++i) {
@@ -57,10 +57,24 @@ TEST(Spring, BetweenNodesResistsTheirDifferenceOnly) {
 TEST(Spring, OtherElementsHaveNoDashpots) {
   ElementProperties properties;
   properties.dashpot = {1, 1, 1, 1, 1, 1};
-  std::array<double, 36> damping{};
+  std::array<double, 144> damping{};
   damping.fill(7);
-  element_dashpots(ElementType::bar, properties, damping);
-  EXPECT_EQ(damping, (std::array<double, 36>{}));
+  element_dashpots(ElementType::beam, std::array{0., 0., 0., 1., 0., 0.}, properties, damping);
+  EXPECT_EQ(damping, (std::array<double, 144>{}));
+}
+
+/// A bar's dashpot resists the rate at which its line grows, and nothing across it.
+TEST(Bar, DashpotActsAlongItsLine) {
+  const ElementProperties properties{.dashpot = {50, 7, 7, 7, 7, 7}};
+  std::array<double, 36> damping{};
+  element_dashpots(ElementType::bar, std::array{1., 2., 3., 4., 6., 3.}, properties, damping);
+  const std::array<double, 3> direction{0.6, 0.8, 0};
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      const double sign = (i < 3) == (j < 3) ? 1 : -1;
+      EXPECT_NEAR(damping[6 * i + j], sign * 50 * direction[i % 3] * direction[j % 3], 1e-14);
+    }
+  }
 }
 
 /// A quarter turn about z takes the end of an arm along x towards y, about x one along y towards z,
@@ -90,7 +104,7 @@ SoilMatrices soil_matrices(std::span<const GroundSpring> ground) {
   SoilMatrices found;
   element_matrices(ElementType::soil, std::array{0., 0., 0.}, properties, found.stiffness,
                    found.mass);
-  element_dashpots(ElementType::soil, properties, found.damping);
+  element_dashpots(ElementType::soil, {}, properties, found.damping);
   return found;
 }
 
