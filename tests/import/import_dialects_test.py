@@ -2,7 +2,9 @@
 import unittest
 
 import imported
-from import_losses_test import ABAQUS, ANSYS, DYNA
+import yaml
+from import_losses_test import ABAQUS, ANSYS, DYNA, NASTRAN, ansys_elements
+from import_sap2000_test import MODEL, table
 from imported import refused
 
 PINNED = ABAQUS.replace("3, 0., 0., 6.\n", "3, 0., 0., 6.\n4, 0., 0., 3.\n").replace("2, 2, 3\n", "2, 4, 3\n")
@@ -42,8 +44,40 @@ SAME = {
                 "1e-5      1e-5", "1e-5      3e-5"), DYNA.replace("0.01      1e-5      1e-5", "0.02      3e-5      3e-5")),
 }
 
+# Name, deck with a dashpot of 4000 N s/m from (0, 0, 3) to a clamped node 4 at (2, 1, 0).
+DAMPERS = {
+    "Nastran": ("model.bdf", NASTRAN + "GRID,4,,2.,1.,0.\nSPC1,1,123456,4\nCVISC,6,6,2,4\nPVISC,6,4.+3\n"),
+    "Abaqus": ("model.inp", ABAQUS.replace("3, 0., 0., 6.\n", "3, 0., 0., 6.\n4, 2., 1., 0.\n") + "*BOUNDARY\n4, 1, 6\n"
+               "*ELEMENT, TYPE=DASHPOTA, ELSET=OIL\n9, 2, 4\n*DASHPOT, ELSET=OIL\n\n4000.\n"),
+    "ANSYS": ("model.cdb", ANSYS.replace("N,R5.3", "        4        0        0 2.0000000000000E+000 1.0000000000000E+000\nN,R5.3")
+              + ansys_elements(14, 2, 4).replace("        1        2        0", "        1        2        7") + "R,7,0,4000\nD,4,ALL\n"),
+    "LS-DYNA": ("model.k", DYNA + "*NODE\n" + f"{4:8d}{2.0:16.1f}{1.0:16.1f}{0.0:16.1f}{7:8d}{7:8d}\n" + "*PART\noil\n"
+                + "".join(f"{v:10d}" for v in (7, 7, 7)) + "\n*SECTION_DISCRETE\n" + f"{7:10d}{0:10d}\n{0:10d}\n" + "*MAT_DAMPER_VISCOUS\n"
+                + f"{7:10d}{4e3:10.1f}\n" + "*ELEMENT_DISCRETE\n" + "".join(f"{v:8d}" for v in (9, 7, 2, 4, 0)) + "\n")}
+
 
 class Dialects(unittest.TestCase):
+    def test_dampers_along_a_skew_line_are_bars(self):
+        for what, (name, deck) in DAMPERS.items():
+            with self.subTest(what):
+                scene, _ = imported.imported(self, name, deck)
+                regions = yaml.safe_load(scene.read_text())["model"].values()
+                self.assertEqual([region for region in regions if isinstance(region, dict) and region.get("element") == "bar"],
+                                 [{"element": "bar", "dashpot": "4000.0"}])
+                imported.structure(self, scene, modes=3)
+
+    def test_exponential_dampers_of_sap2000(self):
+        """c in kN (s/m)^a, in series with a spring; the mass is in t."""
+        law = table("LINK PROPERTY DEFINITIONS 04 - DAMPER", "Link=OIL   DOF=U1   Fixed=No   NonLinear=Yes   TransKE=0   TransCE=0   "
+                    "DJ=0   TransK=9000   TransC=50   CExp=.4")
+        deck = MODEL.replace("Link=STAY   LinkType=Linear", "Link=OIL   LinkType=\"Damper - Exponential\"").replace(
+            "LinkProp=STAY", "LinkProp=OIL").replace("END TABLE DATA", law + "END TABLE DATA")
+        scene, _ = imported.imported(self, "frame.s2k", deck, "m,t,s")
+        self.assertEqual(yaml.safe_load(scene.read_text())["frame"]["oil"], {
+            "element": "bar", "dashpot": "50000.0", "dashpot_exponent": "0.4", "dashpot_stiffness": "9000000.0"})
+        imported.structure(self, scene, modes=3)
+        refused(self, "frame.s2k", deck.replace("DOF=U1   Fixed=No   NonLinear", "DOF=U2   Fixed=No   NonLinear"), "NONLINEAR LINK", units="m,t,s")
+
     def test_the_scene_is_the_same(self):
         for what, (name, deck, plain) in SAME.items():
             with self.subTest(what):

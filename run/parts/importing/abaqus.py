@@ -471,7 +471,7 @@ class Reader(Reading):
             if not self.new(f"*{family} of element", scope.full(raw.number), (dofs, value), block.place):
                 continue
             if raw.type.endswith("A"):
-                self.model.axial_springs.append(AxialSpring(raw.nodes, *both, name, family, raw.place))
+                self.model.axial_springs.append(AxialSpring(raw.nodes, *both, name, raw.place))
                 continue
             along = [whole(text, where) for text in dofs if text]
             if not along or not all(1 <= dof <= 6 for dof in along):

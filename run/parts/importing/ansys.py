@@ -291,7 +291,7 @@ class Reader(Reading):
         elif along == 0 and len(ends) < 2:
             raise InputFault(f"{place}: a spring along its line has two nodes")
         elif along == 0:
-            self.model.axial_springs.append(AxialSpring(ends, stiffness, dashpot, name, "ELEMENT 14", place))
+            self.model.axial_springs.append(AxialSpring(ends, stiffness, dashpot, name, place))
         else:
             self.model.add_spring(ends, along - 1, stiffness, dashpot, name, place)
 

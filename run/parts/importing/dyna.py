@@ -342,7 +342,7 @@ class Reader(Reading):
             nodes = tuple(node for node in (card.int(2), card.int(3)) if node)
             torsional, way = first.int(1), self.ways.get(card.int(4))
             if card.int(4) == 0 and len(nodes) == 2 and not torsional:
-                self.model.axial_springs.append(AxialSpring(nodes, *both, title, "ELEMENT_DISCRETE", card.place))
+                self.model.axial_springs.append(AxialSpring(nodes, *both, title, card.place))
                 continue
             if way is None and len(nodes) == 2:
                 way = difference(self.model.at(nodes[1], card.place), self.model.at(nodes[0], card.place))

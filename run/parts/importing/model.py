@@ -100,14 +100,15 @@ class Spring:
 
 @dataclass(slots=True)
 class AxialSpring:
-    """Along the line between its two nodes."""
+    """Along the line between its two nodes; its dashpot goes by a power of the rate, and may be in series with a spring."""
 
     nodes: tuple
     stiffness: float
     dashpot: float = 0.0
     name: str = "spring"
-    card: str = "SPRING"
     place: str = ""
+    power: float = 1.0
+    series: float = 0.0
 
 
 class Cards:

@@ -61,7 +61,7 @@ class SpringReader(Reading):
         elif not apart:
             axes = GLOBAL
         elif not any((*stiffness[1:], *dashpot[1:])):
-            self.model.axial_springs.append(AxialSpring(nodes, stiffness[0], dashpot[0], name, "CBUSH", card.place))
+            self.model.axial_springs.append(AxialSpring(nodes, stiffness[0], dashpot[0], name, card.place))
             return None
         else:
             if card.text(4) and not card.text(5) and "." not in card.text(4):
@@ -100,7 +100,7 @@ class SpringReader(Reading):
         nodes = tuple(card.int(at) for at in (2, 3) if card.text(at))
         if len(nodes) < 2 or self.model.at(nodes[0], card.place) == self.model.at(nodes[1], card.place):
             return self.lose(card.name, "springs along a line have two grid points that are apart", card.place)
-        self.model.axial_springs.append(AxialSpring(nodes, *self.reader.properties.springs[key], f"{family.lower()}_{key[1]}", card.name,
+        self.model.axial_springs.append(AxialSpring(nodes, *self.reader.properties.springs[key], f"{family.lower()}_{key[1]}",
                                                     card.place))
         return None
 

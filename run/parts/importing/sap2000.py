@@ -27,6 +27,7 @@ KEYS = (("JOINT CONSTRAINT", ()), ("JOINT", ("Joint",)), ("MATERIAL", ("Material
         ("FRAME", ("Frame",)), ("AREA SECTION PROPERTIES", ("Section",)), ("AREA", ("Area",)), ("LINK PROPERTY DEFINITIONS", ("Link", "DOF")),
         ("LINK", ("Link",)), ("CONNECTIVITY - FRAME", ("Frame",)), ("CONNECTIVITY - AREA", ("Area",)), ("CONNECTIVITY - LINK", ("Link",)),
         ("CONSTRAINT DEFINITIONS", ("Name",)), ("ACTIVE DEGREES", ("",)))
+NONLINEAR = "links are linear springs and dashpots, or dampers along their line; give their laws in the scene"
 
 
 class Reader:
@@ -58,6 +59,7 @@ class Reader:
                      "OFFSET ALONG LENGTH ASSIGNMENTS", "TENSION AND COMPRESSION LIMITS")},
                  "AREA SECTION ASSIGNMENTS": self._of_frame, "AREA AUTO MESH ASSIGNMENTS": self._of_frame,
                  "LINK PROPERTY DEFINITIONS 01 - GENERAL": self._link_kind, "LINK PROPERTY DEFINITIONS 02 - LINEAR": self._link_law,
+                 "LINK PROPERTY DEFINITIONS 04 - DAMPER": self._link_law,
                  "LINK PROPERTY ASSIGNMENTS": self._of_frame,
                  "CONNECTIVITY - FRAME": self._frame, "CONNECTIVITY - AREA": self._area, "CONNECTIVITY - LINK": self._link,
                  "JOINT RESTRAINT ASSIGNMENTS": self._restraint, "JOINT SPRING ASSIGNMENTS 1 - UNCOUPLED": self._spring,
@@ -285,8 +287,8 @@ class Reader:
     # Links.
 
     def _link_kind(self, row: Row) -> None:
-        if row.values.get("LinkType", "Linear") != "Linear":
-            self.lose(row, "NONLINEAR LINK", "links are linear springs and dashpots; give their laws in the scene")
+        if not row.values.get("LinkType", "Linear").startswith(("Linear", "Damper")):
+            self.lose(row, "NONLINEAR LINK", NONLINEAR)
         elif row.real("Mass", 0.0) or any(row.real(f"RotInert{k}", 0.0) for k in (1, 2, 3)):
             self.lose(row, "MASS OF A LINK", "links have no mass; give it to joints")
 
@@ -303,13 +305,21 @@ class Reader:
             return self.lose(row, "FIXED COMPONENT OF A LINK", "links are springs and dashpots; use a body constraint")
         stiffness, dashpot = (tuple(laws[dof].real(f"{'Trans' if dof[0] == 'U' else 'Rot'}{key}", 0.0) if dof in laws else 0.0
                                     for dof in DOFS) for key in ("KE", "CE"))
+        bent = {dof: one for dof, one in laws.items() if one.says("NonLinear")}
         nodes = [self.node(row, "JointI")]
         if row.values.get("JointJ", row.text("JointI")) != row.text("JointI"):
             nodes.append(self.node(row, "JointJ"))
         way = difference(self.model.nodes[nodes[1]], self.model.nodes[nodes[0]]) if len(nodes) == 2 else (0.0, 0.0, 0.0)
         name = assigned.text("LinkProp")
+        if bent:
+            damper = bent.get("U1")
+            if damper is None or len(laws) > 1 or not length(way) > 0 or not damper.real("TransK", 0.0) > 0:
+                return self.lose(row, "NONLINEAR LINK", NONLINEAR)
+            self.model.axial_springs.append(AxialSpring(tuple(nodes), 0.0, damper.real("TransC"), name, row.place,
+                                                        damper.real("CExp", 1.0), damper.real("TransK")))
+            return None
         if length(way) > 0 and not any(stiffness[1:]) and not any(dashpot[1:]):
-            self.model.axial_springs.append(AxialSpring(tuple(nodes), stiffness[0], dashpot[0], name, "LINK", row.place))
+            self.model.axial_springs.append(AxialSpring(tuple(nodes), stiffness[0], dashpot[0], name, row.place))
             return
         first = axis_between([(0.0, 0.0, 0.0), way], row.place) if length(way) > 0 else (0.0, 0.0, 1.0)
         frame = frame_about(first, (1.0, 0.0, 0.0) if abs(first[2]) > 1 - 1e-6 / 2 else (0.0, 0.0, 1.0), row.place)

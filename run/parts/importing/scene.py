@@ -219,26 +219,30 @@ class Scene:
                     self.mesh.mark("point", nodes, name)
 
     def _axial(self, spring) -> None:
-        """Along a global axis a spring, aslant a bar of its stiffness."""
+        """Along a global axis a spring, aslant a bar of its stiffness and dashpot."""
         way = difference(self.model.nodes[spring.nodes[1]], self.model.nodes[spring.nodes[0]])
         size = length(way)
         if size <= self.joints.near:
             raise InputFault(f"{spring.place}: a spring along the line between two nodes that coincide")
         along = [k for k in range(3) if abs(abs(way[k]) - size) <= 1e-9 * size]
-        if along:
+        if along and not spring.series:
             self.model.add_spring(spring.nodes, along[0], spring.stiffness, spring.dashpot, spring.name, spring.place)
             return
-        if spring.dashpot:
-            self.model.cards.lose(spring.card, "dashpots between two nodes act along and about global axes",
-                                  spring.place)
+        if min(spring.stiffness, spring.dashpot) < 0:
+            raise InputFault(f"{spring.place}: a spring or dashpot below zero")
+        region = {"element": BAR}
         if spring.stiffness:
-            area = spring.stiffness * size / SPRING_YOUNG
-            name = next((one for one, region in self.options.items() if region.get("material") == "springs_aslant"
-                         and abs(region["area"] - area) <= 1e-14 * area), None)
+            region |= {"material": "springs_aslant", "area": float(f"{spring.stiffness * size / SPRING_YOUNG:.13g}")}
+            self.materials["springs_aslant"] = {"young": SPRING_YOUNG, "poisson": 0, "density": SPRING_DENSITY}
+        if spring.dashpot:
+            region["dashpot"] = spring.dashpot
+            region |= {name: value for name, value in (("dashpot_exponent", spring.power), ("dashpot_stiffness", spring.series))
+                       if value != (1.0 if name == "dashpot_exponent" else 0.0)}
+        if len(region) > 1:
+            name = next((one for one, own in self.options.items() if own == region), None)
             if name is None:
                 name = self.names.free(spring.name)
-                self.materials["springs_aslant"] = {"young": SPRING_YOUNG, "poisson": 0, "density": SPRING_DENSITY}
-                self.options[name] = {"element": BAR, "material": "springs_aslant", "area": area}
+                self.options[name] = region
             self.mesh.add("line", spring.nodes, name)
 
     # Groups that mark places.

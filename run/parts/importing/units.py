@@ -97,6 +97,7 @@ def in_si(model: Model, units: Units) -> None:
         spring.dashpot = _six(spring.dashpot, units, 1)
     for spring in model.axial_springs:
         spring.stiffness *= units.force / length
-        spring.dashpot *= units.force / length * units.time
+        spring.dashpot *= units.force * (units.time / length)**spring.power
+        spring.series *= units.force / length
     model.alpha /= units.time
     model.beta *= units.time
