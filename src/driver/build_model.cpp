@@ -149,7 +149,7 @@ void find_energy_margins(MPI_Comm comm, const Scene& scene, Model& model) {
   }
 }
 
-/// Whether a structure at full order gets stiffness from its weight at rest; a reduced one has it
+/// Whether a structure at full order gets stiffness from its forces at rest; a reduced one has it
 /// in its basis.
 bool leans(const Structure& structure) {
   return structure.p_delta && !structure.modal;
@@ -222,7 +222,7 @@ void build_full(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& profi
   building.limits = limits_of(structure, system, mesh, nullptr, effort_of(scene, progress));
 }
 
-/// Axial forces of the weight at rest in structures that lean, which are assembled for it, while
+/// Axial forces of weight and loads at rest in structures that lean, which are assembled for it, while
 /// the others are built.
 void turn_weight_with_columns(MPI_Comm comm, const Scene& scene, Profile& profile, Model& model) {
   if (std::ranges::none_of(scene.structures, leans)) return;

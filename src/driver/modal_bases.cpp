@@ -257,8 +257,8 @@ void prepare(MPI_Comm comm, const GlobalMesh& whole, int owner, const Model& mod
   reduction.mesh = mesh_of_workers(comm, whole, model.meshes[reduction.s], reduction);
 }
 
-/// The structure at full order, with the axial forces that its columns have under its weight alone,
-/// without contacts; then its basis. Collective over the workers.
+/// The structure at full order, with the axial forces that its columns have under its weight and
+/// loads alone, without contacts; then its basis. Collective over the workers.
 void compute(const Model& model, Profile& profile, Reduction& reduction) {
   const Structure& structure = reduction.structure;
   Mesh& mesh = reduction.mesh;

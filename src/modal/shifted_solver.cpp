@@ -144,9 +144,9 @@ void require_no_buckling(const Structure& structure, const Mesh& mesh, const Lin
   }
   std::ostringstream text;
   text << "option -" << structure.name << "_p_delta: structure " << structure.name
-       << " buckles under its weight, by the axial forces of group " << group << "; up to "
-       << largest.force << " N press " << largest.place
-       << "; give it stiffer sections or less weight";
+       << " buckles under its weight and loads, by the axial forces of group " << group
+       << "; up to " << largest.force << " N press " << largest.place
+       << "; give it stiffer sections or less to carry";
   throw UserError(text.str());
 }
 

@@ -47,7 +47,6 @@ class SceneReader {
         scene_.structures.back().gravity = {0, 0, -gravity_};
       }
       require_one_start(scene_.structures.back());
-      require_weight(scene_.structures.back());
       require_own_basis(scene_.structures.back());
       require_full_order(scene_.structures.back());
     }
@@ -67,6 +66,7 @@ class SceneReader {
     for (const std::string& name : listed_.at(OptionBlock::load)) {
       scene_.loads.push_back(read_load(options_, scene_, name));
     }
+    for (const Structure& structure : scene_.structures) require_forces_at_rest(structure);
     for (const std::string& name : listed_.at(OptionBlock::probe)) {
       scene_.probes.push_back(read_probe(name));
     }
@@ -157,12 +157,18 @@ class SceneReader {
     }
   }
 
-  /// P-Delta is about the forces of the weight at rest.
-  void require_weight(const Structure& structure) const {
+  /// P-Delta is about the axial forces of weight and loads at rest.
+  void require_forces_at_rest(const Structure& structure) const {
     if (!structure.p_delta) return;
-    if (!scene_.preload || structure.gravity == Vector3{0, 0, 0}) {
+    const bool loaded = std::ranges::any_of(scene_.loads, [&](const Load& load) {
+      return load.structure == structure.name &&
+             (load.function.kind == LoadFunction::Kind::constant ||
+              load.function.kind == LoadFunction::Kind::table);
+    });
+    if (!scene_.preload || (structure.gravity == Vector3{0, 0, 0} && !loaded)) {
       options_.refuse("<structure>_p_delta", {structure.name},
-                      "it is about the weight at rest: give -gravity and -preload static as well");
+                      "it is about the axial forces at rest: give -preload static, and -gravity or "
+                      "loads that act before the run");
     }
   }
 

@@ -129,7 +129,7 @@ struct Structure {
   std::optional<UniformDamping> uniform_damping;  ///< in place of Rayleigh damping, which is 0 then
   std::optional<ModalModel> modal;                ///< nothing: the finite-element model itself
   std::optional<Soil> soil;               ///< under its mat; one of the regions is its element
-  bool p_delta = false;                   ///< weight at rest turns with the columns
+  bool p_delta = false;                   ///< forces at rest turn with the columns
   double mass_scaling = 0;                ///< step [s] for which stiff elements get mass; 0: none
   std::optional<StepTarget> step_target;  ///< its step is `mass_scaling` until one is designed
   Vector3 initial_displacement{0, 0, 0};  ///< of every free node [m]
@@ -184,7 +184,7 @@ struct Structure {
     option(&Structure::initial_velocity, "<structure>_initial_velocity", reals("m/s", "0,0,0", "three numbers x,y,z"), "of every free node at t = 0");
     option(&Structure::initial_state, "<structure>_initial_state", text("file", "none", "a file or none"), "displacement and velocity of single nodes at t = 0, in place of those of all: a table with a first line of names, node or x,y,z, then some of ux to rz and vx to wz");
     option(&Structure::gravity, "<structure>_gravity", reals("m/s2", absent("left out: 0,0,-gravity"), "three numbers x,y,z"), "constant body acceleration; without preload it is applied at once at t = 0");
-    option(&Structure::p_delta, "<structure>_p_delta", flag(false), "the axial forces of beams and bars at rest turn with them: weight on columns that lean; needs gravity and preload static");
+    option(&Structure::p_delta, "<structure>_p_delta", flag(false), "the axial forces of beams and bars at rest turn with them: weight and loads on columns that lean; needs preload static, and gravity or loads");
     option("<structure>_damping_alpha", real("1/s", "0", not_negative), "Rayleigh damping, mass term: C = alpha M + beta K");
     option("<structure>_damping_beta", real("s", "0", not_negative), "Rayleigh damping, stiffness term");
     option("<structure>_damping_ratio", real("-", absent("optional"), damping_ratio), "instead of alpha and beta: damping ratio at two frequencies");
