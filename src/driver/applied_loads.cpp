@@ -34,7 +34,8 @@ class LoadMaker {
     const auto group = mesh.groups.find(load.group);
     if (group == mesh.groups.end() || group->second.nodes.empty()) {
       refuse("_on " + load.structure + ":" + load.group,
-             "no element of the scene uses a node of such a group in " + structure.mesh);
+             "no element of the scene uses a node of such a group in " + structure.mesh +
+                 "; a point is " + load.structure + ":x,y,z");
     }
     group_ = &group->second;
   }
@@ -79,7 +80,8 @@ class LoadMaker {
         group_->facets, [&](const Facet& facet) { return (facet.count == 2) == lines; });
     if (any) return;
     refuse(option, "group " + load_.group + " of structure " + load_.structure + " has no " +
-                       (lines ? "lines" : "surfaces") + " to act on");
+                       (lines ? "lines" : "surfaces") + " to act on; -" + load_.name +
+                       "_force acts on its nodes");
   }
 
   void add_nodal() {

@@ -119,9 +119,7 @@ double given_interval(const Model& model, int direction) {
   return samples(model, direction).time_step;
 }
 
-constexpr double far_snap = 0.2;   // of the largest element at the node
-constexpr double far_place = 0.5;  // m, however large elements are
-constexpr std::size_t share = 4;   // one node in four
+constexpr std::size_t share = 4;  // one node in four
 
 using NodeSet = std::set<std::pair<int, GlobalIndex>>;  // structure and node
 
@@ -367,12 +365,9 @@ std::vector<std::string> probe_warnings(std::span<const ResolvedProbe> probes,
   const NodeSet touching = contact_nodes(interface);
   std::vector<std::string> warnings;
   for (const ResolvedProbe& probe : probes) {
-    if (probe.snap_distance > std::min(far_snap * probe.element_size, far_place)) {
-      warnings.push_back(sentence(
-          "probe {}: its node is {:.3g} m away from the point asked for, where elements measure "
-          "{:.3g} m; give the place of a node, or refine the mesh",
-          {probe.name, probe.snap_distance, probe.element_size}));
-    }
+    const std::string far =
+        snap_doubt("probe " + probe.name, probe.snap_distance, probe.element_size);
+    if (!far.empty()) warnings.push_back(far);
     const GlobalMesh& mesh = meshes[probe.structure];
     const std::size_t clamped = std::ranges::count_if(probe.nodes, [&](GlobalIndex node) {
       return (mesh.free_components[node] & translations) == 0;

@@ -17,6 +17,7 @@
 #include "mesh/facet_place.h"
 #include "mesh/geometry_file.h"
 #include "mesh/gmsh_process.h"
+#include "mesh/probe_set.h"
 #include "mesh/rigid_nodes.h"
 #include "mesh/soil_node.h"
 #include "mesh/tied_nodes.h"
@@ -153,17 +154,18 @@ class MeshBuilder {
 
   GlobalMesh build() {
     for (const Region& region : structure_.regions) {
-      if (!region.foundation) read_region(region);
+      if (!region.foundation && !region.at_points) read_region(region);
     }
     number_nodes();
     share_out();
     for (const auto& [name, parts] : groups_) read_group(name, parts);
+    add_point_groups(structure_, mesh_);
     mark_components();
     add_soil(structure_, mesh_);
     mark_rigid_groups();
     check_element_sizes(structure_.name, mesh_);
     check_repeated_elements(structure_.name, mesh_);
-    mesh_.unused = find_unused(raw_, mesh_, taken_);
+    std::ranges::move(find_unused(raw_, mesh_, taken_), std::back_inserter(mesh_.unused));
     return std::move(mesh_);
   }
 

@@ -1,6 +1,7 @@
 #include "mesh/probe_set.h"
 
 #include <algorithm>
+#include <iomanip>
 #include <limits>
 #include <sstream>
 
@@ -10,16 +11,21 @@
 namespace pounding {
 namespace {
 
-/// A node that a probe records, and how it was found.
-struct ProbeNode {
+/// A point that the user gave, brought to the nearest node of a mesh.
+struct SnappedPoint {
   GlobalIndex node = 0;
-  double snap_distance = 0;  ///< to the point asked for [m]
-  double element_size = 0;   ///< of the elements there [m]
+  double distance = 0;      ///< to the point asked for [m]
+  double element_size = 0;  ///< of the elements there [m]
 };
 
-ProbeNode nearest_node(const GlobalMesh& mesh, const Probe& probe, const Vector3& point) {
+SnappedPoint nearest_node(const GlobalMesh& mesh, const std::string& option,
+                          const std::string& structure, const Vector3& point) {
   constexpr double far = 0.05;        // of the extent of the mesh
   constexpr double round_off = 1e-9;  // m
+  if (mesh.node_count() == 0) {
+    throw UserError("option -" + option + ": structure " + structure +
+                    " has no element of its mesh, whose nodes could be near points");
+  }
   GlobalIndex best = 0;
   double best_distance = std::numeric_limits<double>::max();
   for (GlobalIndex node = 0; node < mesh.node_count(); ++node) {
@@ -35,18 +41,20 @@ ProbeNode nearest_node(const GlobalMesh& mesh, const Probe& probe, const Vector3
   if (size > 0) farthest = std::min(farthest, size);
   if (best_distance > farthest) {
     std::ostringstream text;
-    text << "option -" << probe.name << "_at: the point (" << point[0] << ", " << point[1] << ", "
+    text << "option -" << option << ": the point (" << point[0] << ", " << point[1] << ", "
          << point[2] << ") is " << best_distance << " m away from the nearest node of structure "
-         << probe.structure << "; give a point on the mesh";
+         << structure << "; give a point on the mesh";
     throw UserError(text.str());
   }
   return {best, best_distance, size > 0 ? size : farthest};
 }
 
-std::vector<ProbeNode> probe_nodes(const Probe& probe, const GlobalMesh& mesh) {
-  std::vector<ProbeNode> nodes;
+std::vector<SnappedPoint> probe_nodes(const Probe& probe, const GlobalMesh& mesh) {
+  std::vector<SnappedPoint> nodes;
   if (probe.group.empty()) {
-    for (const Vector3& point : probe.points) nodes.push_back(nearest_node(mesh, probe, point));
+    for (const Vector3& point : probe.points) {
+      nodes.push_back(nearest_node(mesh, probe.name + "_at", probe.structure, point));
+    }
     return nodes;
   }
   const auto found = mesh.groups.find(probe.group);
@@ -60,18 +68,18 @@ std::vector<ProbeNode> probe_nodes(const Probe& probe, const GlobalMesh& mesh) {
 }
 
 ResolvedProbe resolved(const std::string& name, int structure, const GlobalMesh& mesh,
-                       std::span<const ProbeNode> nodes) {
+                       std::span<const SnappedPoint> nodes) {
   ResolvedProbe probe;
   probe.name = name;
   probe.structure = structure;
-  for (const ProbeNode& each : nodes) {
+  for (const SnappedPoint& each : nodes) {
     probe.nodes.push_back(each.node);
     const Vector3 x = mesh.position(each.node);
     for (std::size_t d = 0; d < 3; ++d) {
       probe.position[d] += x[d] / static_cast<double>(nodes.size());
     }
-    if (each.snap_distance > probe.snap_distance) {
-      probe.snap_distance = each.snap_distance;
+    if (each.distance > probe.snap_distance) {
+      probe.snap_distance = each.distance;
       probe.element_size = each.element_size;
     }
   }
@@ -86,7 +94,7 @@ std::vector<ResolvedProbe> resolve_probes(const Scene& scene, std::span<const Gl
     std::size_t structure = 0;
     while (scene.structures[structure].name != probe.structure) ++structure;
     const GlobalMesh& mesh = meshes[structure];
-    const std::vector<ProbeNode> nodes = probe_nodes(probe, mesh);
+    const std::vector<SnappedPoint> nodes = probe_nodes(probe, mesh);
     const int index = static_cast<int>(structure);
     if (probe.average || nodes.size() == 1) {
       probes.push_back(resolved(probe.name, index, mesh, nodes));
@@ -98,6 +106,52 @@ std::vector<ResolvedProbe> resolve_probes(const Scene& scene, std::span<const Gl
     }
   }
   return probes;
+}
+
+std::string snap_doubt(const std::string& owner, double distance, double element_size) {
+  constexpr double far_snap = 0.2;   // of the largest element at the node
+  constexpr double far_place = 0.5;  // m, however large elements are
+  if (distance <= std::min(far_snap * element_size, far_place)) return "";
+  std::ostringstream text;
+  text << std::setprecision(3) << owner << ": its node is " << distance
+       << " m away from the point asked for, where elements measure " << element_size
+       << " m; give the place of a node, or refine the mesh";
+  return text.str();
+}
+
+void add_point_groups(const Structure& structure, GlobalMesh& mesh) {
+  for (const PointGroup& group : structure.point_groups) {
+    const auto refuse = [&](const std::string& why) {
+      throw UserError("option -" + group.option + ": " + why);
+    };
+    if (mesh.groups.contains(group.name)) {
+      refuse(structure.mesh + " has a group '" + group.name + "'; choose another name");
+    }
+    std::vector<GlobalIndex>& nodes = mesh.groups[group.name].nodes;
+    SnappedPoint farthest;
+    for (const Vector3& point : group.points) {
+      const SnappedPoint found = nearest_node(mesh, group.option, structure.name, point);
+      if (std::ranges::count(nodes, found.node) > 0) {
+        refuse("two of the points have the node at " + place_text(mesh.position(found.node)) +
+               " for their nearest; leave one out");
+      }
+      nodes.push_back(found.node);
+      if (found.distance > farthest.distance) farthest = found;
+    }
+    std::ranges::sort(nodes);
+    const std::string doubt =
+        snap_doubt("option -" + group.option, farthest.distance, farthest.element_size);
+    if (!doubt.empty()) mesh.doubts.push_back(doubt);
+    const auto region = std::ranges::find(structure.regions, group.name, &Region::group);
+    if (region == structure.regions.end()) {
+      mesh.unused.push_back({group.name, "Point", static_cast<GlobalIndex>(nodes.size()), 0,
+                             mesh.position(nodes.front())});
+      continue;
+    }
+    const auto number = static_cast<int>(region - structure.regions.begin());
+    mesh.regions.push_back({group.name, number, region->element, {}, nodes, {}, region->inelastic});
+    for (const GlobalIndex node : nodes) mesh.regions.back().tags.push_back(mesh.node_tags[node]);
+  }
 }
 
 }  // namespace pounding

@@ -24,4 +24,13 @@ struct ResolvedProbe {
 /// farther from its node than 5 % of the extent of the mesh, or than the largest element there).
 std::vector<ResolvedProbe> resolve_probes(const Scene& scene, std::span<const GlobalMesh> meshes);
 
+/// Doubt about a node that is far from the point asked for, or "". `owner`: that has it.
+std::string snap_doubt(const std::string& owner, double distance, double element_size);
+
+/// Forms the groups of a structure that are given by points, and their elements; nodes are found
+/// as those of probes are, and nodes far from their points doubted. `mesh`: has its own groups and
+/// elements. Serial. Throws UserError likewise, and on a name that the mesh has, on two points of
+/// one node.
+void add_point_groups(const Structure& structure, GlobalMesh& mesh);
+
 }  // namespace pounding

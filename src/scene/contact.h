@@ -13,8 +13,7 @@
 namespace pounding {
 
 /// One side of a contact: a physical group (surface or shell edge) of a structure, or a rigid wall
-/// that follows the ground (structure "wall", primary side only). Of a stop the nodes of a group,
-/// or the one nearest to a point "x,y,z".
+/// that follows the ground (structure "wall", primary side only). Of a stop the nodes of a group.
 struct ContactSide {
   std::string structure;
   std::string group;
@@ -73,7 +72,7 @@ struct Stop {
   static void describe(Visitor& option) {
     using namespace option_words;
     // clang-format off
-    option("<contact>_along", text("-", absent("left out: the sides are faces"), "a direction x,y,z, or line"), "stop between nodes: its sides are nodes, groups of them or points structure:x,y,z, and this is the direction in which the primary lies beyond the secondary; line: that from one to the other. Two gaps stop both ways: until they have come together by the first, and parted by the second");
+    option("<contact>_along", text("-", absent("left out: the sides are faces"), "a direction x,y,z, or line"), "stop between nodes: its sides are nodes, groups of them or points structure:x,y,z; x,y,z, and this is the direction in which the primary lies beyond the secondary; line: that from one to the other. Two gaps stop both ways: until they have come together by the first, and parted by the second");
     option(&Stop::stiffness, "<contact>_stiffness", real("N/m", absent("left out: it is hard"), positive), "stop: spring beyond its gap, between each two nodes");
     option(&Stop::dashpot, "<contact>_dashpot", real("N s/m", "0", not_negative), "stop with a stiffness: dashpot beside it, while both press");
     // clang-format on

@@ -29,7 +29,7 @@ std::optional<Stop> read_stop(OptionReader& options, const std::string& contact)
 /// and matrices that would not hold it. `exports`: the run writes matrices.
 void check_stop(const OptionReader& options, const Contact& contact, bool exports);
 
-/// The point of a side "x,y,z" of a stop; nothing where the side is a group.
+/// The point "x,y,z" of a text; nothing where it is none, as the name of a group.
 std::optional<Vector3> point_of_side(const std::string& side);
 
 }  // namespace pounding

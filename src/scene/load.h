@@ -65,7 +65,7 @@ struct Load {
   static void describe(Visitor& option) {
     using namespace option_words;
     // clang-format off
-    option("<load>_on", text("group", required, "structure:group"), "the group that it acts on");
+    option("<load>_on", text("group", required, "structure:group or structure:x,y,z; x,y,z"), "the group that it acts on, or points, each snapped to the nearest node");
     option(&Load::force, "<load>_force", reals("N", absent("optional"), "three numbers along x, y, z"), "force on each node of the group");
     option(&Load::moment, "<load>_moment", reals("N m", absent("optional"), "three numbers about x, y, z"), "moment on each node of the group");
     option(&Load::line_force, "<load>_line_force", reals("N/m", absent("optional"), "three numbers along x, y, z"), "force per length of the lines of the group; of beams with the moments at their ends that it has when they are held");

@@ -77,6 +77,7 @@ struct Region {
                                    ///< [rad/s]
   /// Beams into which each line of the mesh is cut; 0: as many as its waves need.
   int parts = 1;
+  bool at_points = false;            ///< its group is one of the structure's point groups
   double area = 0;                   ///< bars [m2]
   double thickness = 0;              ///< shells [m]
   double rotary_inertia_factor = 0;  ///< shells [-], see elements/flat_shell.h
@@ -108,6 +109,7 @@ struct Region {
     using namespace option_words;
     // clang-format off
     option("<structure>_<group>_element", word(element_words, required), "element of the group (hex8: with incompatible modes)");
+    option("<structure>_<group>_points", text("m", absent("left out: the mesh has the group"), "points x,y,z; x,y,z"), "a group that the mesh does not have: the node nearest to each of these points; with an element or without", for_single_nodes);
     option("<structure>_<group>_material", text("name", absent("required but for points, springs and bars of a dashpot alone"), "the name of a material"), "its material", for_extents);
     option("<structure>_<group>_section", text("name", absent("required for beam"), "the name of a section"), "its cross-section (beam only)", for_beams);
     option("<structure>_<group>_divide", text("-", "none", "none, auto, or a count from 2 to 1000"), "lines of the mesh are cut into so many beams of one length; auto: into as many as bending up to the highest of spectra_frequencies needs, 4 in a half wave", for_beams);

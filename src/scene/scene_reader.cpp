@@ -65,6 +65,7 @@ class SceneReader {
     check_supports(options_, scene_);
     for (const std::string& name : listed_.at(OptionBlock::load)) {
       scene_.loads.push_back(read_load(options_, scene_, name));
+      group_points(name + "_on", scene_.loads.back().structure, scene_.loads.back().group);
     }
     for (const Structure& structure : scene_.structures) require_forces_at_rest(structure);
     for (const std::string& name : listed_.at(OptionBlock::probe)) {
@@ -229,12 +230,26 @@ class SceneReader {
     }
   }
 
+  /// Points in place of a group, of a side of a stop or of a load, are a group by that name.
+  void group_points(const std::string& option, const std::string& structure,
+                    const std::string& place) {
+    PointGroup group{place, option, {}};
+    for (const std::string& item : split(place, ';')) {
+      const auto point = point_of_side(item);
+      if (!point) return;
+      group.points.push_back(*point);
+    }
+    auto& groups = std::ranges::find(scene_.structures, structure, &Structure::name)->point_groups;
+    if (std::ranges::count(groups, place, &PointGroup::name) == 0) groups.push_back(group);
+  }
+
   ContactSide read_side(std::string_view pattern, const std::string& contact) {
     const std::vector<std::string> words = split(options_.text(pattern, {contact}), ':');
     if (words.size() != 2 || words[0].empty() || words[1].empty()) {
       options_.refuse(pattern, {contact});
     }
     require_structure(pattern, {contact}, words[0]);
+    group_points(option_name(pattern, {contact}), words[0], words[1]);
     return {words[0], words[1]};
   }
 

@@ -108,6 +108,13 @@ inline const char* rigid_option(RigidKind kind) {
   return options[static_cast<int>(kind)];
 }
 
+/// A group that the mesh does not have: its nodes nearest to some points.
+struct PointGroup {
+  std::string name;
+  std::string option;  ///< that gives the points, for messages
+  std::vector<Vector3> points;
+};
+
 /// Faces of solids through which waves leave a structure, see mesh/global_mesh.h.
 struct AbsorbingFace {
   std::string group;
@@ -119,6 +126,7 @@ struct Structure {
   std::string matrices;  ///< folder, see system/matrix_system.h; empty: of its elements
   std::string mesh;      ///< .geo or .msh
   std::vector<std::pair<std::string, std::string>> mesh_set;  ///< parameters of a .geo
+  std::vector<PointGroup> point_groups;                       ///< beside those of the mesh
   std::vector<std::string> ignored_groups;                    ///< of the mesh, left out on purpose
   bool allow_loose = false;  ///< pieces and coincident nodes that nothing joins
   std::vector<Clamp> clamps;

@@ -25,6 +25,26 @@ namespace {
 
 using Names = OptionReader::Names;
 
+constexpr std::string_view points_option = "<structure>_<group>_points";
+
+/// Groups that are given by points. `groups`: all that have options; those without any other have
+/// no element, and are taken out.
+std::vector<PointGroup> read_point_groups(OptionReader& options, const std::string& structure,
+                                          std::set<std::string>& groups) {
+  std::vector<PointGroup> found;
+  std::erase_if(groups, [&](const std::string& group) {
+    const Names names{structure, group};
+    if (!options.given(points_option, names)) return false;
+    found.push_back(
+        {group, option_name(points_option, names), options.points(points_option, names)});
+    return std::ranges::none_of(option_table(), [&](const OptionRow& row) {
+      return row.block == OptionBlock::region && row.pattern != points_option &&
+             options.given(row.pattern, names);
+    });
+  });
+  return found;
+}
+
 /// Options that belong to some elements only: refused beside the others.
 void forbid_others(const OptionReader& options, const std::string& element, const Names& names) {
   const ElementFamily family = traits_of(element_of_word(element)).family;
@@ -200,6 +220,11 @@ Region read_region(OptionReader& options, const Names& names, const Rayleigh& in
   } else if (region.rotary_inertia != Vector3{0, 0, 0}) {
     region.element = ElementType::point_mass6;
   }
+  region.at_points = options.given(points_option, names);
+  if (region.spread != Spread::none) {
+    options.forbid(points_option, names,
+                   "points have no lines or surfaces over which its springs could be spread");
+  }
   region.damping = read_region_damping(options, names, region, inherited);
   return region;
 }
@@ -340,7 +365,8 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   structure.rigid_groups = read_rigid_groups(options, name);
   structure.uniform_damping = read_uniform_damping(options, name);
   if (!structure.uniform_damping) structure.damping = read_structure_damping(options, name);
-  const std::set<std::string> groups = region_groups(options.database(), name);
+  std::set<std::string> groups = region_groups(options.database(), name);
+  structure.point_groups = read_point_groups(options, name, groups);
   require_elements(options, name, groups);
   for (const std::string& group : groups) {
     structure.regions.push_back(read_region(options, {name, group}, structure.damping));

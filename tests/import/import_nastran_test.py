@@ -4,7 +4,10 @@ import os
 import time
 import unittest
 
+import h5py
+
 import imported
+import program
 from imported import by_hand, close, said_mass, same, section, steel
 
 
@@ -68,6 +71,29 @@ class Nastran(unittest.TestCase):
         total = sum(weight for weight, _ in weights)
         mass, centre = said_mass(said)
         close(self, (mass, *centre), (total, *(sum(w * x[k] for w, x in weights) / total for k in range(3))))
+
+    def test_a_deck_without_sets_is_loaded_stopped_and_recorded_at_points(self):
+        """Two columns, one of which a force presses against the other: at rest they share it beyond the gap."""
+        deck = HEAD + small("MAT1", 1, "2.1+5", "", ".3", "7.85-9") + small("PBAR", 10, 1, "2.+4", "6.+7", "6.+7", "3.+7")
+        for first, x in ((1, 0.), (11, 500.)):
+            for k in range(4):
+                deck += small("GRID", first + k, "", x, 0., 1000. * k)
+            for k in range(3):
+                deck += small("CBAR", first + k, 10, first + k, first + k + 1, 1., 0., 0.)
+            deck += small("SPC1", 1, 123456, first)
+        scene, _ = imported.imported(self, "columns.bdf", deck + "ENDDATA\n", "mm,t,s")
+        force, gap, give = 5e4, 0.01, 3**3 / (3 * 2.1e11 * 6e-5)  # N, m, m/N
+        folder, _ = program.must_run(self, [
+            "-options_file", scene, "-preload", "static", "-end_time", 1e-3, "-spectra_frequencies", 10, "-loads", "push",
+            "-push_on", "columns:0,0,3", "-push_force", f"{force},0,0", "-contacts", "stop", "-stop_secondary",
+            "columns:0,0,3", "-stop_primary", "columns:.5,0,3", "-stop_along", "1,0,0", "-stop_gap", gap, "-stop_gap_at",
+            "unloaded", "-probes", "one,two", "-one_structure", "columns", "-one_at", "0,0,3", "-two_structure", "columns",
+            "-two_at", ".5,0,3"], 2)
+        with h5py.File(os.path.join(folder, "history.h5")) as file:
+            channels = [name.decode() for name in file["channels"]]
+            one, two = (file["displacement"][0, channels.index(name)] for name in ("one.x", "two.x"))
+        self.assertAlmostEqual(one / ((force * give + gap) / 2), 1, delta=1e-9)
+        self.assertAlmostEqual(two / ((force * give - gap) / 2), 1, delta=1e-9)
 
     @staticmethod
     def words(nodes, i1, i2, i12):

@@ -73,8 +73,8 @@ class SideFinder {
       throw UserError(
           side_option(contact_, name) + ": group '" + s.group +
           "' has no faces of solids or shells, no edges of shells and no beams; its nodes can "
-          "be a stop: -" +
-          contact_.name + "_along");
+          "be a stop: give -" +
+          contact_.name + "_along, a direction x,y,z or line");
     }
     const bool decided = side.face.undecided.empty();
     if (std::ranges::all_of(decided ? side.face.nodes : group(s).nodes,

@@ -11,7 +11,6 @@
 #include "interactions/pairing/gap_field.h"
 #include "interactions/pairing/interface.h"
 #include "mesh/global_mesh.h"
-#include "scene/contact_reader.h"
 
 namespace pounding::interactions {
 namespace {
@@ -53,12 +52,6 @@ StopSide stop_side(const Scene& scene, std::span<const GlobalMesh> meshes, const
   const auto structure = std::ranges::find(scene.structures, side.structure, &Structure::name);
   found.structure = static_cast<int>(structure - scene.structures.begin());
   found.mesh = &meshes[static_cast<std::size_t>(found.structure)];
-  if (const auto point = point_of_side(side.group)) {
-    std::vector<GlobalIndex> all(found.mesh->node_count());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<GlobalIndex>(i);
-    found.nodes = {nearest_to(*point, *found.mesh, all)};
-    return found;
-  }
   const auto group = found.mesh->groups.find(side.group);
   if (group == found.mesh->groups.end()) {
     throw UserError(side_option(contact, name) + ": group '" + side.group +
