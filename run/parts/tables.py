@@ -2,6 +2,7 @@
 
 import csv
 import math
+import re
 from pathlib import Path
 
 from pounding.files import write_text, written_beside
@@ -51,8 +52,19 @@ def write_csv(path: Path, rows: list) -> None:
     write_rows(path, columns, ([row.get(key, "") for key in columns] for row in rows))
 
 
-def write_rows(path: Path, head, rows, comment: str = "") -> None:
-    """A CSV file of sequences, below a line that is a comment where one is given."""
+# Texts that a spreadsheet runs as formulas; numbers and lists of them are none.
+FORMULA = re.compile(r"[=@\t\r]|[+-](?![\d.,;eE +-]*$)")
+
+
+def cell_of(value):
+    """A cell that a spreadsheet takes for what it is: a text that begins as a formula does follows an apostrophe."""
+    return f"'{value}" if not isinstance(value, (int, float)) and FORMULA.match(str(value)) else value
+
+
+def write_rows(path: Path, head, rows, comment: str = "", exact: bool = False) -> None:
+    """A CSV file of sequences, below a line that is a comment where one is given. `exact`: the program reads it, and
+    texts stay as they are."""
     with written_beside(path) as draft, open(draft, "w", newline="", encoding="utf-8") as file:
         file.write(f"# {comment}\n" if comment else "")
-        csv.writer(file, lineterminator="\n").writerows([head, *rows])
+        csv.writer(file, lineterminator="\n").writerows(
+            row if exact else map(cell_of, row) for row in (head, *rows))

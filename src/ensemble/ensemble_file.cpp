@@ -10,6 +10,7 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "io/csv_file.h"
 #include "io/file_seal.h"
 #include "io/hdf5_file.h"
 #include "io/hdf5_reader.h"
@@ -277,7 +278,7 @@ void write_ensemble_table(const std::string& path, const EnsembleLayout& layout,
   for (std::size_t m = 0; m < table.members(); ++m) {
     text += std::to_string(m + 1) + (done[m] ? ",1" : ",0");
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
-      const std::string& value = table.value(m, c);
+      const std::string value = plain_cell(table.value(m, c));
       text += value.find(',') == std::string::npos ? "," + value : ",\"" + value + "\"";
     }
     const MemberResult result = done[m] ? file.read(m) : MemberResult{};

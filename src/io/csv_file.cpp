@@ -32,6 +32,12 @@ CsvFile::~CsvFile() {
   if (file_ != nullptr && place_ == Place::device) std::fclose(file_);
 }
 
+std::string plain_cell(const std::string& text) {
+  const bool formula = text.find_first_of("=+-@\t\r") == 0;
+  const bool numbers = text.find_first_not_of("+-0123456789.,;eE ") == std::string::npos;
+  return formula && !numbers ? "'" + text : text;
+}
+
 void CsvFile::comment(const std::string& text) {
   std::fprintf(file_, "# %s\n", text.c_str());
 }

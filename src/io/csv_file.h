@@ -45,6 +45,10 @@ class CsvFile {
   std::FILE* file_ = nullptr;
 };
 
+/// A text as the cell of a table that people open: a spreadsheet runs one that begins as a formula
+/// does, so an apostrophe precedes it unless it is numbers.
+std::string plain_cell(const std::string& text);
+
 /// Columns of a table of response spectra, those of a run and those of pounding-spectra alike:
 /// source, direction and treatment of the signal; damping ratio [-], frequency [Hz], period [s],
 /// largest displacement [m], pseudo-velocity [m/s] and pseudo-acceleration [m/s2]; then the origin

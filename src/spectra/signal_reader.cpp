@@ -7,6 +7,7 @@
 
 #include "common/byte_texts.h"
 #include "common/error.h"
+#include "io/csv_file.h"
 #include "io/hdf5_reader.h"
 #include "io/schema.h"
 #include "motion/accelerogram.h"
@@ -181,7 +182,7 @@ std::vector<NamedSignal> read_signals(const SpectraOptions& options) {
     }
   }
   for (NamedSignal& signal : signals) {
-    signal.name = one_line(signal.name);
+    signal.name = plain_cell(one_line(signal.name));
     std::ranges::replace(signal.name, ',', '_');
     begin_at(options.start, signal);
   }

@@ -1,4 +1,5 @@
 """Result files that commands write: whole or not at all, never through a link, and nothing of a user's is lost."""
+import csv
 import os
 import resource
 import shutil
@@ -62,6 +63,21 @@ class Links(InFolder):
         done = program.must_do(self, "compare", self.place / "a", self.place / "b", "--out", self.out)
         self.assertEqual(self.precious.read_text(), "precious")
         self.assertEqual([name for name in names if (self.out / name).is_symlink()], [])
+
+
+class Formulas(InFolder):
+    def test_texts_that_a_spreadsheet_would_run_are_texts(self):
+        """In every table of the commands; numbers and lists of them stay, and so does a table that the program reads."""
+        cells = ["=1+1", "+a", "-x", "@sum", "\t=1", "-1.5", "-0.02,0.03", -2e-5, "a=b", ""]
+        for exact in (False, True):
+            tables.write_rows(self.out / "table.csv", ["=head", *"abcdefghi"], [cells], exact=exact)
+            with open(self.out / "table.csv", newline="") as file:
+                head, row = csv.reader(file)
+            mark = "" if exact else "'"
+            self.assertEqual(head[0], mark + "=head")
+            self.assertEqual(row, [*(mark + cell for cell in cells[:5]), *map(str, cells[5:])])
+        tables.write_csv(self.out / "table.csv", [{"title": "=cmd|' /C calc'!A0"}])
+        self.assertEqual((self.out / "table.csv").read_text(), "title\n'=cmd|' /C calc'!A0\n")
 
 
 class Names(InFolder):

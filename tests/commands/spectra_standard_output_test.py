@@ -1,6 +1,7 @@
 """The table of pounding-spectra goes to where the shell points its standard output: behind what is
 there, and never in silence to nowhere. Words that nobody reads end alone, and not a program or command."""
 import os
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -89,6 +90,16 @@ class Commands(unittest.TestCase):
             self.assertTrue(os.path.exists(os.path.join(folder, "two-buildings.yaml")))
         with open(os.path.join(folder, "status")) as file:
             self.assertEqual(file.read(), "0\n")
+
+
+class Names(unittest.TestCase):
+    def test_a_record_named_as_a_formula_is_a_text(self):
+        """A spreadsheet would run it; a number is left alone."""
+        record, *words = write_record(self, [0, 1, -1, 0.5], 0.01) + frequencies([1, 10])
+        folder = tempfile.mkdtemp(prefix="pounding-")
+        for name, told in (("=1+1", "'=1+1"), ("-x|1", "'-x|1"), ("@x", "'@x"), ("-0.5", "-0.5"), ("a=1", "a=1")):
+            path = shutil.copy(record, os.path.join(folder, name + ".txt"))
+            self.assertEqual(spectra(path, *words).stdout.splitlines()[1].split(",")[0], told)
 
 
 class OutputFiles(unittest.TestCase):

@@ -189,7 +189,7 @@ class Runner:
         values = [share[index].values for index in missing]
         place = base / f"ensemble-{name}-{_digest(values)[:6]}"
         place.mkdir(parents=True, exist_ok=True)
-        write_rows(place / "members.csv", self.design.columns, values)
+        write_rows(place / "members.csv", self.design.columns, values, exact=True)
         return self._at_once(place)
 
     def _at_once(self, place: Path) -> str:

@@ -137,12 +137,6 @@ def _kind_of_reason(row: dict) -> str:
     return re.sub(r"'[^']*'", "'...'", re.sub(r"\d[\d.e+-]*", "#", text))
 
 
-def _cell(value) -> str:
-    """Spreadsheets take texts that begin so for formulas."""
-    text = str(value)
-    return f"'{text}" if text[:1] in "=+-@\t" and text[:1] else text
-
-
 def _told(rows: list) -> None:
     outcomes = Counter(row["outcome"] for row in rows)
     print(f"tried {len(rows)}: " + ", ".join(f"{name} {outcomes[name]}" for name in (
@@ -177,6 +171,6 @@ def try_folder(folder: Path, table: Path, units, seconds: float = 60.0) -> None:
             print(f"{row['file']}: {row['outcome']}" + (f": {row['reason']}" if row.get("reason") else ""), flush=True)
     if not rows:
         raise InputFault(f"{folder}: no deck in it")
-    write_rows(table, COLUMNS, ([_cell(row.get(name, "")) for name in COLUMNS] for row in rows))
+    write_rows(table, COLUMNS, ([row.get(name, "") for name in COLUMNS] for row in rows))
     _told(rows)
     print(f"wrote {table}")
