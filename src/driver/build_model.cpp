@@ -222,8 +222,8 @@ void build_full(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& profi
   building.limits = limits_of(structure, system, mesh, nullptr, effort_of(scene, progress));
 }
 
-/// Axial forces of weight and loads at rest in structures that lean, which are assembled for it, while
-/// the others are built.
+/// Axial forces of weight and loads at rest in structures that lean, which are assembled for it,
+/// while the others are built.
 void turn_weight_with_columns(MPI_Comm comm, const Scene& scene, Profile& profile, Model& model) {
   if (std::ranges::none_of(scene.structures, leans)) return;
   const ScopedTimer timer(profile, Phase::assembly);

@@ -116,7 +116,8 @@ Accelerogram read_free(const RecordedMotion& motion, std::vector<TextLine>& line
     read = read_json(motion, lines, content.header);
   } else {
     const bool commas = replace_decimal_commas(motion.file, motion.column, lines);
-    content = read_record_content(motion.file, lines, motion.time_step);
+    content =
+        read_record_content(motion.file, lines, motion.time_step, motion.is_of_displacement());
     read = read_record_values(motion, content);
     if (commas) read.layout += ", decimal commas";
   }
@@ -128,11 +129,37 @@ Accelerogram read_free(const RecordedMotion& motion, std::vector<TextLine>& line
       std::move(read.layout), "",
       std::move(read.doubts), of_column ? read.component : content.header.component(),
       read.start.value_or(0), read.start.has_value()};
-  refuse_offset(motion.file, result.acceleration);
+  if (!motion.is_of_displacement()) refuse_offset(motion.file, result.acceleration);
   const auto& stated = content.header.stated_units();
   take_unit(motion, content.header.unit(motion.unit),
             stated.size() == 1 ? *stated.begin() : std::string(), result);
   return result;
+}
+
+/// Values of a displacement become the acceleration that goes through them, from rest and to rest:
+/// the second derivatives of their cubic spline, whose straight lines between samples have the
+/// displacement as their exact second integral. The last value is held until nothing is left.
+void differentiate_twice(Accelerogram& record) {
+  constexpr std::size_t held = 30;  // samples, each of which leaves 0.27 of the one before
+  std::vector<double>& values = record.acceleration;
+  const double last = values.back();
+  values.insert(values.end(), held, last);
+  const std::size_t end = values.size() - 1;
+  std::vector<double> diagonal(values.size());
+  std::vector<double> right(values.size());
+  for (std::size_t i = 0; i <= end; ++i) {
+    const double before = i > 0 ? values[i] - values[i - 1] : 0;
+    const double after = i < end ? values[i + 1] - values[i] : 0;
+    diagonal[i] = i == 0 || i == end ? 2 : 4;
+    right[i] = 6 * (after - before) / (record.time_step * record.time_step);
+    if (i == 0) continue;
+    right[i] -= right[i - 1] / diagonal[i - 1];
+    diagonal[i] -= 1 / diagonal[i - 1];
+  }
+  for (std::size_t i = end + 1; i-- > 0;) {
+    values[i] = (right[i] - (i < end ? values[i + 1] : 0)) / diagonal[i];
+  }
+  record.layout += ", of displacement, accelerations by its cubic spline";
 }
 
 void add_value_doubts(const RecordedMotion& motion, Accelerogram& record) {
@@ -169,6 +196,7 @@ Accelerogram read_accelerogram(const RecordedMotion& motion) {
   Accelerogram result =
       format != nullptr ? read_format(motion, *format, lines) : read_free(motion, lines);
   add_value_doubts(motion, result);
+  if (motion.is_of_displacement()) differentiate_twice(result);
   return result;
 }
 

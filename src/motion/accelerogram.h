@@ -38,11 +38,12 @@ struct Accelerogram {
 ///
 /// Comments begin with % ; # ! or *; the byte-order mark, carriage returns, trailing blanks and
 /// zeros after NPTS values are dropped. The unit comes from `unit` or from the header; g =
-/// standard_gravity. `start` is the first time of a time column. Throws UserError (one line: file,
-/// line, value seen, remedy) when the file is missing, empty, without an end, ragged, holds
-/// anything that is not a finite number, when header, options and values contradict one another,
-/// when numbers above the values may be some of them, when only an offset explains them, and when
-/// its time step is above 0.1 s but `time_step` does not say so.
+/// standard_gravity. A displacement, by its `unit`, becomes an acceleration. `start` is the first
+/// time of a time column. Throws UserError (one line: file, line, value seen, remedy) when the file
+/// is missing, empty, without an end, ragged, holds anything that is not a finite number, when
+/// header, options and values contradict one another, when numbers above the values may be some of
+/// them, when only an offset explains them, and when its time step is above 0.1 s but `time_step`
+/// does not say so.
 Accelerogram read_accelerogram(const RecordedMotion& motion);
 
 }  // namespace pounding

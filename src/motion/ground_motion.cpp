@@ -191,7 +191,11 @@ GroundMotion::GroundMotion(const std::array<std::optional<MotionComponent>, 3>& 
   count_times_from(earliest().value_or(0));
   add_start_doubts();
   double largest = 0;
-  bool as_given = !descriptions_.empty();  // peaks that no option names
+  bool as_given = !descriptions_.empty();  // peaks of accelerations that no option names
+  for (const auto& component : components) {
+    const auto* record = component ? std::get_if<RecordedMotion>(&component->source) : nullptr;
+    as_given = as_given && !(record != nullptr && record->is_of_displacement());
+  }
   for (const MotionDescription& description : descriptions_) {
     largest = std::max(largest, description.pga);
     as_given = as_given && description.file_peak > 0 && !description.scaling.starts_with("to pga");

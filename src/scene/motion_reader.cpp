@@ -35,7 +35,11 @@ class AxisReader {
                           ", which is above 0; leave one of them out");
     }
     if (recorded) {
-      component.source = read_record();
+      const RecordedMotion record = read_record();
+      if (record.is_of_displacement() && component.pga > 0) {
+        options_.refuse(pattern("pga"), names_, "a record of displacement takes a scale");
+      }
+      component.source = record;
     } else {
       component.source = read_synthetic();
       if (component.pga == 0) {

@@ -11,13 +11,16 @@
 
 namespace pounding {
 
-/// A recorded accelerogram in a file.
+/// A recorded accelerogram in a file, or the record of a displacement.
 struct RecordedMotion {
   std::string file;
-  std::string unit;  ///< "", "g", "m/s2", "cm/s2" or "mm/s2"; "": the file's own header says it
+  std::string unit;  ///< "", "g", "m/s2", "cm/s2" or "mm/s2"; "": the file's own header says it;
+                     ///< of a displacement "m", "cm" or "mm"
   double time_step =
       0;           ///< [s]; needed for files without a time column or header; 0: from the file
   int column = 0;  ///< of the acceleration, or component of the file, 1-based; 0: the only one
+
+  bool is_of_displacement() const { return unit == "m" || unit == "cm" || unit == "mm"; }
 
   template <typename Visitor>
   static void describe(Visitor& option, const std::string& prefix) {
@@ -59,6 +62,7 @@ struct MotionComponent {
     using namespace option_words;
     // clang-format off
     option("motion_<x|y|z>_record", text("file", "none", "a file or none"), "recorded accelerogram; none: no motion; wins over a target");
+    option("motion_<x|y|z>_unit", word("auto|g|m/s2|cm/s2|mm/s2", "auto"), "unit of the record; auto: from the header of the file");
     describe_details(option, "motion_<x|y|z>_");
     // clang-format on
   }
@@ -68,7 +72,6 @@ struct MotionComponent {
   static void describe_details(Visitor& option, const std::string& prefix) {
     using namespace option_words;
     // clang-format off
-    option(prefix + "unit", word("auto|g|m/s2|cm/s2|mm/s2", "auto"), "unit of the record; auto: from the header of the file");
     option.template part<RecordedMotion>(prefix);
     option.template part<SyntheticMotion>(prefix);
     option(prefix + "pga", real("m/s2", "0", not_negative), "peak ground acceleration to scale to; 0: as recorded");
@@ -84,6 +87,7 @@ struct SupportMotionOptions {
     using namespace option_words;
     // clang-format off
     option("<support>_motion_<x|y|z>_record", text("file", absent("left out: the motion of the ground"), "a file or none"), "its own accelerogram along this axis; none: it is at rest; wins over a target");
+    option("<support>_motion_<x|y|z>_unit", word("auto|g|m/s2|cm/s2|mm/s2|m|cm|mm", "auto"), "unit of the record; auto: from the header of the file; m, cm, mm: of its displacement");
     MotionComponent::describe_details(option, "<support>_motion_<x|y|z>_");
     // clang-format on
   }

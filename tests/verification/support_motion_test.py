@@ -478,6 +478,57 @@ class Embedded(unittest.TestCase):
                 self.assertLess(abs(found - wanted).max(), 3e-3 * scale * abs(surface).max(), (frequency, axis))
 
 
+class DisplacementRecords(unittest.TestCase):
+    """The foot of a column that settles by 50 mm along x within a second, as a record of its displacement has it."""
+    WAY, STEP = 0.05, 5e-3
+
+    def place(self, t):
+        return self.WAY * numpy.where(t < 1, t - numpy.sin(2 * math.pi * t) / (2 * math.pi), 1)
+
+    def run_of(self, text, unit, *more):
+        with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
+            file.write(text)
+            file.flush()
+            return Recorded(self, self.words(file.name, unit, *more))
+
+    def words(self, path, unit, *more):
+        return ["-structures", "t", "-t_mesh", "tests/meshes/cantilever.geo", "-t_mesh_set", "height=8.0,n=2", "-t_clamp",
+                "base", "-t_stem_element", "beam", "-t_stem_material", "steel", "-t_stem_section", "leg", *STEEL, *SECTION,
+                "-t_ignore", "top", "-supports", "s", "-s_groups", "t:base", "-s_motion_x_record", path, "-s_motion_x_unit",
+                unit, "-time_step", 1e-4, "-end_time", 2, "-output_interval", self.STEP,
+                *probes(("foot", "t", "base"), ("top", "t", "top")), *more]
+
+    def rows(self, values, step):
+        return "".join(f"{i * step:.4f} {value:.17g}\n" for i, value in enumerate(values))
+
+    def test_the_support_goes_through_its_samples_and_stays(self):
+        times = self.STEP * numpy.arange(201)
+        by_units = [self.run_of(head + self.rows(factor * self.place(times) + shift, self.STEP), unit, *more)
+                    for head, unit, factor, shift, more in (("", "m", 1, 0, ()), ("# Displacement [mm]\n", "mm", 1e3, 20, ()),
+                                                            ("", "cm", -50, 0, ("-s_motion_x_scale", -2)))]
+        run = by_units[0]
+        self.assertLess(abs(run.displacement("foot.x") - self.place(run.time)).max(), 1e-6 * self.WAY)
+        for other in by_units[1:]:
+            self.assertLess(abs(other.displacement("top.x") - run.displacement("top.x")).max(), 1e-9 * self.WAY)
+        fine = 1e-3 * numpy.arange(1001)
+        acceleration = self.rows(self.WAY * 2 * math.pi * numpy.sin(2 * math.pi * fine), 1e-3)
+        reference = self.run_of(acceleration, "m/s2")
+        top = reference.displacement("top.x")
+        self.assertLess(abs(run.displacement("top.x") - top).max(), 1e-4 * self.WAY)
+
+    def test_mistakes(self):
+        rows = self.rows(self.place(self.STEP * numpy.arange(201)), self.STEP)
+        for text, unit, more, part in ((rows, "m", ("-s_motion_x_pga", 3), "takes a scale"),
+                                       ("# acceleration\n" + rows, "m", (), "speaks of acceleration or velocity"),
+                                       ("# velocity [m/s]\n" + rows, "mm", (), "speaks of acceleration or velocity"),
+                                       ("# units: g\n" + rows, "cm", (), "the header says g"),
+                                       ("# displacement [m]\n" + rows, "m/s2", (), "give an accelerogram")):
+            with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
+                file.write(text)
+                file.flush()
+                program.must_refuse(self, self.words(file.name, unit, *more), part)
+
+
 class MovedApart(unittest.TestCase):
     """Two bars on the x axis, each held at its outer end by a support of its own; the gap between them closes."""
     YOUNG, DENSITY, LENGTH, GAP = 2e9, 2000.0, 1.0, 2e-3

@@ -256,7 +256,7 @@ void RecordHeader::read(const TextLine& line) {
   other_quantity_ = other_quantity_ || other;
 }
 
-void RecordHeader::require_acceleration() const {
+void RecordHeader::require_acceleration(bool displacement) const {
   if (spectrum_line_ > 0) {
     throw UserError(at_line(file_, spectrum_line_) +
                     "the first column is not a time but that of a spectrum; give an accelerogram");
@@ -265,6 +265,12 @@ void RecordHeader::require_acceleration() const {
     throw UserError(at_line(file_, counts_line_) +
                     "the values are counts of a recorder, or want a factor; multiply them and take "
                     "this line out, or give a format that docs/reference/records.md lists");
+  }
+  if (displacement) {
+    if (!velocity_unit_ && (other_quantity_ || !acceleration_)) return;
+    throw UserError(file_ +
+                    ": the header speaks of acceleration or velocity and a unit of displacement is "
+                    "given; correct one of the two");
   }
   if (acceleration_ || !(other_quantity_ || (velocity_unit_ && stated_units().empty()))) return;
   throw UserError(at_line(file_, other_line_) +
@@ -287,11 +293,11 @@ RecordUnit RecordHeader::unit(const std::string& asked) const {
 }
 
 RecordContent read_record_content(const std::string& file, const std::vector<TextLine>& lines,
-                                  double time_step_option) {
+                                  double time_step_option, bool of_displacement) {
   const std::size_t begin = first_row(lines);
   RecordContent content{RecordHeader(file), {}, {}};
   for (std::size_t i = 0; i < begin; ++i) content.header.read(lines[i]);
-  content.header.require_acceleration();
+  content.header.require_acceleration(of_displacement);
   read_rows(file, lines, begin, content);
   if (content.rows.empty()) {
     throw UserError(file + ": holds no line of numbers; give a file of acceleration values");

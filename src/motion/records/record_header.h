@@ -41,7 +41,8 @@ class RecordHeader {
   /// Throws UserError when the header speaks of velocity or displacement and not of acceleration,
   /// when the values are counts of a recorder, and when the first column is the period or the
   /// frequency of a spectrum.
-  void require_acceleration() const;
+  /// `displacement` is asked in place of acceleration.
+  void require_acceleration(bool displacement) const;
 
   /// `asked` ("", "g", "m/s2", "cm/s2", "mm/s2"), which the header must not contradict, or else the
   /// header's unit. Throws UserError when neither states it.
@@ -82,8 +83,9 @@ struct RecordContent {
 
 /// Splits the lines of `file`; a first row of its own kind (`npts dt`, `npts`, or `dt scale` with
 /// the time step known from the header or the option) goes to the header. Throws UserError when
-/// there are no numbers, or anything else among them, and when the header is not an accelerogram's.
+/// there are no numbers, or anything else among them, and when the header is not an accelerogram's,
+/// or not that of the displacement asked for.
 RecordContent read_record_content(const std::string& file, const std::vector<TextLine>& lines,
-                                  double time_step_option);
+                                  double time_step_option, bool of_displacement);
 
 }  // namespace pounding

@@ -197,7 +197,7 @@ RecordValues read_table(const RecordedMotion& motion, const RecordContent& conte
   if (!content.names.empty()) {
     RecordHeader name(motion.file);
     name.read({rows[0].line - 1, content.names[index]});
-    name.require_acceleration();
+    name.require_acceleration(motion.is_of_displacement());
   }
   RecordValues result;
   for (const auto& row : rows) result.values.push_back(row.values[index]);

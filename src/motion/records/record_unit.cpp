@@ -11,9 +11,14 @@ std::optional<RecordUnit> record_unit(std::string_view name) {
     std::string_view name;
     double factor;
   };
-  static constexpr std::array known{Known{"g", standard_gravity}, Known{"m/s2", 1},
-                                    Known{"cm/s2", 0.01}, Known{"mm/s2", 0.001},
-                                    Known{"g/10", standard_gravity / 10}};
+  static constexpr std::array known{Known{"g", standard_gravity},
+                                    Known{"m/s2", 1},
+                                    Known{"cm/s2", 0.01},
+                                    Known{"mm/s2", 0.001},
+                                    Known{"g/10", standard_gravity / 10},
+                                    Known{"m", 1},
+                                    Known{"cm", 0.01},
+                                    Known{"mm", 0.001}};
   for (const Known& one : known) {
     if (one.name == name) return RecordUnit{std::string(name), one.factor};
   }

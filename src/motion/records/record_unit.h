@@ -6,13 +6,13 @@
 
 namespace pounding {
 
-/// Unit of a record and the factor from it to m/s2.
+/// Unit of a record and the factor from it to m/s2, or to m.
 struct RecordUnit {
   std::string name;
   double factor = 1;
 };
 
-/// The unit of that name: g, m/s2, cm/s2, mm/s2 or g/10; nothing for another.
+/// The unit of that name: g, m/s2, cm/s2, mm/s2, g/10, m, cm or mm; nothing for another.
 std::optional<RecordUnit> record_unit(std::string_view name);
 
 /// Units that may be asked for, as messages name them.
