@@ -48,8 +48,7 @@ struct InitialGap {
 
   bool has_deviation() const { return deviation > 0; }
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option("<contact>_gap", text("m", "geometry", "geometry, or one, two or four numbers g1,g2,..."), "initial gap: uniform, linear, or at the four corners");
@@ -68,8 +67,7 @@ struct Stop {
   double stiffness = 0;  ///< beyond the gap, of each pair of nodes [N/m]; 0: it is hard
   double dashpot = 0;    ///< beside that, while it presses [N s/m]
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option("<contact>_along", text("-", absent("left out: the sides are faces"), "a direction x,y,z, or line"), "stop between nodes: its sides are nodes, groups of them or points structure:x,y,z; x,y,z, and this is the direction in which the primary lies beyond the secondary; line: that from one to the other. Two gaps stop both ways: until they have come together by the first, and parted by the second");
@@ -99,8 +97,7 @@ struct Contact {
   /// A strip of its faces is crushed where they strike.
   bool crushes() const { return filler && filler->in_faces; }
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option("<contact>_secondary", text("group", required, "structure:group"), "secondary side, a surface of a structure");

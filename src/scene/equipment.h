@@ -26,8 +26,7 @@ struct Equipment {
 
   bool has_cabinet() const { return cabinet_frequency > 0; }
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option(&Equipment::probe, "<equipment>_probe", text("name", required, "the name of a probe"), "the probe at the place where it is mounted");

@@ -30,8 +30,7 @@ struct Filler {
   /// Steepest slope of the table [Pa].
   double steepest() const;
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option("<contact>_filler", text("-:Pa", "none", "strain:pressure,strain:pressure,... or none"), "filler of the joint, foam or board: pressure under first loading, from 0:0 on; hard contact begins at the last strain");
@@ -55,8 +54,7 @@ struct Crushing {
     return {table, stiffness * depth, depth, area, true};
   }
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option(&Crushing::strength, "<contact>_crushing", real("Pa", absent("left out: the faces are hard"), positive), "faces that are crushed: strength of the strip that gives way where they strike, elastic up to it; hard contact begins where it is crushed to the last");

@@ -32,8 +32,7 @@ struct LoadFunction {
   bool rises() const { return kind == Kind::ramp; }
   bool sets_in() const { return is_harmonic() || rises() || kind == Kind::step; }
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option("<load>_function", word("constant|step|ramp|harmonic", "constant"), "history: 1 all the time, before the run as well; 0, then 1 from start on; from 0 at start to 1 after rise; a sine from start on");
@@ -61,8 +60,7 @@ struct Load {
   double factor = 1;               ///< on all of these [-]
   LoadFunction function;
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option("<load>_on", text("group", required, "structure:group or structure:x,y,z; x,y,z"), "the group that it acts on, or points, each snapped to the nearest node");
@@ -106,8 +104,7 @@ struct ForceItem {
   bool has_group() const { return of_elements() || is_cut(); }
   bool has_level() const { return kind == ForceKind::storey || is_cut(); }
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option(&ForceItem::structure, "<force>_structure", text("name", required, "the name of a structure"), "the structure that they are of");

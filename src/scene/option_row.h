@@ -106,7 +106,7 @@ struct OptionMarks {
 };
 
 /// Condition of an option: of the members read before it. Where it does not hold
-/// the option is refused, with `why`, in which placeholders stand for the names, or not read, where
+/// the option is refused, with `why`, with the names in place of placeholders, or not read, where
 /// there is none.
 template <typename Object>
 struct OptionNeeds {

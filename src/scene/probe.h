@@ -16,8 +16,7 @@ struct Probe {
   bool average = true;          ///< one averaged channel set, or one per node
   bool floor = false;           ///< the level of a floor, between which drifts are
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option(&Probe::structure, "<probe>_structure", text("name", required, "the name of a structure"), "the structure that it sits on");

@@ -19,8 +19,7 @@ struct Material {
   double poisson = 0;  ///< Poisson's ratio [-]
   double density = 0;  ///< [kg/m3]
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option(&Material::young, "material_<material>_young", real("Pa", required, positive), "Young's modulus");
@@ -42,8 +41,7 @@ struct Section {
   double shear_area_y = 0;
   double shear_area_z = 0;
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option("section_<section>_profile", text("name", absent("left out: its own name, if that is one"), "a standard section: HEB160, IPE300, UPN200, W14x132, SHS100x5, HSS8x8x1/2, RECT600x400, ROUND50"), "standard section whose numbers it takes where the next five are left out");
@@ -104,8 +102,7 @@ struct Region {
 
   ElementFamily family() const { return traits_of(element).family; }
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option("<structure>_<group>_element", word(element_words, required), "element of the group (hex8: with incompatible modes)");

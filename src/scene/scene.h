@@ -40,8 +40,7 @@ struct SpectraRequest {
   double start = 0;                    ///< of the samples that count for spectra and peaks [s]
   double peak_frequency = 0;           ///< of the low-pass before peaks of acceleration [Hz]
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option(&SpectraRequest::damping_ratios, "spectra_damping", reals("-", "0.05", "a comma-separated list of numbers", damping_ratio), "damping ratios of the oscillators", free_on_restart);
@@ -124,8 +123,7 @@ struct Scene {
   std::vector<double> law_cycles;
   std::string output;  ///< result folder
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option(&Scene::title, "title", text("text", "", "text"), "one line that names the run", free_but_in_scene);

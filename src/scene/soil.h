@@ -42,8 +42,7 @@ struct Soil {
       "out";
   bool is_half_space() const { return table.empty(); }
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     const auto half_space = needs(&Soil::is_half_space, no_half_space);
     // clang-format off

@@ -5,8 +5,7 @@ namespace pounding {
 namespace {
 
 struct SpectraCommand {
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option("-channels", names("none"), "history: which channels, as s2_floor2.x, or s2_floor2 for its three directions; none: all");

@@ -32,8 +32,7 @@ struct ModalModel {
   bool counts_none() const { return modes == 0; }
   bool attaches() const { return attachment; }
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option(&ModalModel::modes, "<structure>_modal_vectors", integer("-", absent("this or the cut-off"), at_least_1), "modal: number of modes, the lowest ones");
@@ -64,8 +63,7 @@ struct StepTarget {
 
   bool is_wanted() const { return time_step > 0; }
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option(&StepTarget::time_step, "<structure>_time_step_target", real("s", "0", not_negative), "stable time step to be reached by mass scaling and by rotational inertia of shells, as far as its frequencies allow; 0: none");
@@ -166,8 +164,7 @@ struct Structure {
   /// The damping of a region's elements.
   Rayleigh damping_of(const Region& region) const { return region.damping.value_or(damping); }
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option(&Structure::mesh, "<structure>_mesh", text("file", required, "a .geo or .msh file"), "geometry to mesh (.geo) or mesh");

@@ -22,8 +22,7 @@ struct RecordedMotion {
 
   bool is_of_displacement() const { return unit == "m" || unit == "cm" || unit == "mm"; }
 
-  template <typename Visitor>
-  static void describe(Visitor& option, const std::string& prefix) {
+  static void describe(auto& option, const std::string& prefix) {
     using namespace option_words;
     // clang-format off
     option(&RecordedMotion::time_step, prefix + "time_step", real("s", "0", not_negative), "time step of the record; 0: from the file; needed where it is above 0.1 s");
@@ -39,8 +38,7 @@ struct SyntheticMotion {
   double duration = 25;                   ///< [s]
   std::array<double, 2> envelope{2, 15};  ///< end of the rise, start of the decay [s]
 
-  template <typename Visitor>
-  static void describe(Visitor& option, const std::string& prefix) {
+  static void describe(auto& option, const std::string& prefix) {
     using namespace option_words;
     // clang-format off
     option(&SyntheticMotion::target, prefix + "target", text("file", absent("optional"), "a file"), "synthetic motion: file of its target spectrum; needs a pga");
@@ -57,8 +55,7 @@ struct MotionComponent {
   double pga = 0;    ///< [m/s2]; 0: as recorded times `scale`
   double scale = 1;  ///< [-]
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option("motion_<x|y|z>_record", text("file", "none", "a file or none"), "recorded accelerogram; none: no motion; wins over a target");
@@ -68,8 +65,7 @@ struct MotionComponent {
   }
 
   /// Options beside the record, of the ground or of a support.
-  template <typename Visitor>
-  static void describe_details(Visitor& option, const std::string& prefix) {
+  static void describe_details(auto& option, const std::string& prefix) {
     using namespace option_words;
     // clang-format off
     option.template part<RecordedMotion>(prefix);
@@ -82,8 +78,7 @@ struct MotionComponent {
 
 /// Options of the motion of a support along an axis.
 struct SupportMotionOptions {
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option("<support>_motion_<x|y|z>_record", text("file", absent("left out: the motion of the ground"), "a file or none"), "its own accelerogram along this axis; none: it is at rest; wins over a target");
@@ -95,8 +90,7 @@ struct SupportMotionOptions {
 
 /// Options of the rotation of a support about an axis.
 struct SupportRotationOptions {
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option("<support>_rotation_<x|y|z>_record", text("file", absent("left out: it does not turn"), "a file"), "record of its angular acceleration about this axis, in rad/s2");
@@ -121,8 +115,7 @@ struct Embedment {
   double velocity = 0;    ///< of shear waves in the soil around it [m/s]
   double half_width = 0;  ///< half a side of it, or its radius [m]
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option(&Embedment::depth, "<support>_embedment", real("m", "0", not_negative), "depth of a rigid foundation below the surface: along and about x and y it moves as one does in vertical shear waves that give the surface the motion of the ground; 0: it is not embedded");
@@ -148,8 +141,7 @@ struct Support {
   /// It moves as a massless embedded foundation does in the waves that move the surface.
   std::optional<Embedment> embedment;
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option("<support>_groups", text("groups", required, "structure:group,structure"), "its groups with clamped nodes, or a structure with all its ground, springs and soil included");

@@ -32,8 +32,7 @@ struct UniformDamping {
   std::vector<DampingFilter> filters;
   double ripple = 0;  ///< largest deviation from `ratio` over the band, relative [-]
 
-  template <typename Visitor>
-  static void describe(Visitor& option) {
+  static void describe(auto& option) {
     using namespace option_words;
     // clang-format off
     option("<structure>_damping_uniform", real("-", absent("optional"), closed(0, 0.3)), "instead of alpha and beta: one damping ratio for every frequency of a band, which hardly shortens the step");
