@@ -17,7 +17,7 @@ PLOT = Path(__file__).resolve().parents[2] / "run" / "plot"
 sys.path.insert(0, str(PLOT.parent))
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(PLOT.parents[1] / "python"))
-from parts.plot import contact_figures, report  # noqa: E402
+from parts.plot import contact_figures, report, style  # noqa: E402
 from parts.plot.style import envelope  # noqa: E402
 from pounding import results  # noqa: E402
 
@@ -288,6 +288,26 @@ class PlotTest(unittest.TestCase):
         (self.folder / "energy.csv").unlink()
         (self.folder / "history.h5").write_text("not HDF5")
         self.assertIn("history.h5 cannot be read", self.refused(self.folder))
+
+
+class LogScaleTest(unittest.TestCase):
+    def test_labels_never_lie_over_each_other(self):
+        """In half a figure, of one impact, of a decade's parts and of decades; two at least are there to read."""
+        for values in ([1142.4], [2.3], [0.9, 9.0], [900, 8900], [1142, 1180], [300, 700], [40, 110], [1.0, 5e4]):
+            figure, (_, axes) = style.plt.subplots(1, 2, figsize=(style.WIDTH, 3.6))
+            axes.plot(values, values, "o")
+            for which in "xy":
+                style.log_scale(axes, which, values)
+            figure.canvas.draw()
+            for axis, low, high in ((axes.xaxis, "x0", "x1"), (axes.yaxis, "y0", "y1")):
+                least, most = axis.get_view_interval()
+                boxes = [tick.label1.get_window_extent() for tick in axis.get_major_ticks() + axis.get_minor_ticks()
+                         if tick.label1.get_text() and least <= tick.get_loc() <= most]
+                ends = sorted((getattr(box, low), getattr(box, high)) for box in boxes)
+                self.assertGreaterEqual(len(ends), 2, values)
+                for one, other in zip(ends, ends[1:]):
+                    self.assertLessEqual(one[1], other[0], (values, axis.axis_name))
+            style.plt.close(figure)
 
 
 class EnvelopeTest(unittest.TestCase):

@@ -84,9 +84,15 @@ def log_scale(axes, which: str, values, plain: bool = True) -> None:
         axis = getattr(axes, f"{which}axis")
         number = FuncFormatter(lambda value, _: f"{value:g}")
         axis.set_major_formatter(number)
-        # Below one decade the only labels may be those of the minor ticks.
+        # Below one decade the only labels may be those of the minor ticks; over more than a third of one those of
+        # 2 and 5 are enough, and all of them would lie over each other.
         narrow = positive.max() < 10 * positive.min()
-        axis.set_minor_formatter(number if narrow else NullFormatter())
+
+        def minor(value, _):
+            low, high = axis.get_view_interval()
+            return f"{value:g}" if high < 3 * low or f"{value:.6e}"[0] in "125" else ""
+
+        axis.set_minor_formatter(FuncFormatter(minor) if narrow else NullFormatter())
 
 
 def g_axis(axes) -> None:
