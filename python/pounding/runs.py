@@ -51,11 +51,14 @@ def program(name: str = "pounding") -> Path:
 
 
 def environment() -> dict:
-    """The variables that run/environment sets, where it is."""
-    if not (SOURCE / "run" / "environment").exists():
+    """The variables that run/environment sets: that of these sources, or the one that was installed, or built, with the
+    program that a package of pip finds."""
+    beside = folder_of_programs().resolve().parent
+    file = next((file for top in (SOURCE, beside / "share" / "pounding", beside)
+                 if (file := top / "run" / "environment").is_file()), None)
+    if file is None:
         return {**os.environ, "OMP_NUM_THREADS": "1"}
-    text = subprocess.run(["bash", "-c", "source run/environment && env -0"], cwd=SOURCE, capture_output=True,
-                          text=True, check=True).stdout
+    text = subprocess.run(["bash", "-c", 'source "$0" && env -0', file], capture_output=True, text=True, check=True).stdout
     return dict(item.split("=", 1) for item in text.split("\0") if "=" in item)
 
 

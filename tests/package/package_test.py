@@ -70,10 +70,24 @@ class Installed(unittest.TestCase):
         (bin_folder / "pounding").write_text("#!/bin/sh\n")
         (bin_folder / "pounding").chmod(0o755)
         variables = {name: value for name, value in os.environ.items() if name not in ("POUNDING_BUILD", "PYTHONPATH")}
-        said = subprocess.run([sys.executable, "-c", "import pounding; print(pounding.__file__); print(pounding.program())"],
-                              cwd=place, env={**variables, "PYTHONPATH": str(place / "site"), "PATH": f"{bin_folder}:{os.environ['PATH']}"},
-                              capture_output=True, text=True, timeout=60, check=True).stdout.split()
-        self.assertEqual(said, [str(place / "site" / "pounding" / "__init__.py"), str(bin_folder / "pounding")])
+        variables = {name: value for name, value in variables.items() if not name.startswith(("OMP", "PMIX", "PRTE"))}
+        code = ("import pounding; from pounding import runs; print(pounding.__file__); print(pounding.program()); "
+                "print(*sorted(name for name in runs.environment() if name.startswith(('OMP', 'PMIX', 'PRTE'))))")
+
+        def said():
+            return subprocess.run([sys.executable, "-c", code], cwd=place, capture_output=True, text=True, timeout=60, check=True,
+                                  env={**variables, "PYTHONPATH": str(place / "site"), "PATH": f"{bin_folder}:{os.environ['PATH']}"}
+                                  ).stdout.splitlines()
+
+        places = [str(place / "site" / "pounding" / "__init__.py"), str(bin_folder / "pounding")]
+        self.assertEqual(said(), [*places, "OMP_NUM_THREADS"])
+        for top in (place / "share" / "pounding", place):  # of a prefix, of a tree in which the program was built
+            (top / "run").mkdir(parents=True)
+            shutil.copy(Path(program.SOURCE, "run", "environment"), top / "run")
+            found = said()
+            self.assertEqual(found[:2], places)
+            self.assertIn("OMPI_MCA_ess_singleton_isolated", found[2].split())
+            shutil.rmtree(top / "run")
 
 
 class Results(unittest.TestCase):
