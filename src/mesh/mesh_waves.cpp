@@ -63,6 +63,7 @@ class WaveFinder {
         total += mass;
         if (!has_extent(set.type) || !(mass > 0) || is_rigid(nodes_of(set, e))) continue;
         const MeshWaves waves = carried(set, e);
+        if (!(waves.frequency > 0)) continue;  // a bar of its dashpot alone
         auto& [sum, first] = by_frequency[static_cast<int>(200 * std::log(waves.frequency))];
         if (sum == 0 || waves.frequency < first.frequency) first = waves;
         sum += mass;

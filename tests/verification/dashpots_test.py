@@ -215,6 +215,10 @@ class SkewBraces(unittest.TestCase):
                 u = axes.displacement(name)
                 self.assertLess(abs(u - both.displacement(name)).max(), 1e-12 * abs(u).max())
 
+    def test_heavy_dampers_without_stiffness_carry_no_waves(self):
+        """Their mass moves with their ends, and what a mesh carries is asked of other elements."""
+        self.check(damped("250", "0,0,0", "-frame_left_mass_per_length", 4), damped("", "320,180,0", "-frame_mass_mass", 100 + 4 * 5))
+
     def test_in_all_modes(self):
         for more in ((), STEEL, (*STEEL, "-frame_left_yield_force", 300), ("-frame_left_dashpot_exponent", 0.5)):
             self.check(damped("250", "0,0,0", *more, *in_modes("frame", 3)), damped("250", "0,0,0", *more), 1e-9)
