@@ -103,6 +103,7 @@ struct RigidNodes {
   RigidKind kind = RigidKind::body;
   std::uint8_t components = 0;     ///< that follow one rigid motion, one bit each
   std::vector<GlobalIndex> nodes;  ///< sorted; of ties the carriers as well
+  std::vector<std::uint8_t> rows;  ///< components in which each node follows; empty: all of those
   std::vector<TiedNode> tied;      ///< of ties
 };
 
@@ -124,6 +125,7 @@ void pass_marks(Stream& stream, Marks& marks) {
     stream(part.kind);
     stream(part.components);
     stream.array(part.nodes);
+    stream.array(part.rows);
     stream.list(part.tied, [&](auto& tied) {
       stream(tied.node);
       stream(tied.group);

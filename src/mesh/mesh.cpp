@@ -68,6 +68,7 @@ Mesh unpack(MPI_Comm comm, const std::string& name, MeshParcel&& parcel) {
 /// The nodes of this rank that move together; parts of others keep their counts alone.
 void take_rigid_parts(std::vector<RigidNodes>& rigid, Mesh& mesh) {
   mesh.rigid_of.assign(mesh.file_node.size(), -1);
+  mesh.rigid_rows.assign(mesh.file_node.size(), 0);
   std::unordered_map<GlobalIndex, LocalIndex> local;
   for (LocalIndex n = 0; !rigid.empty() && n < mesh.node_count(); ++n) {
     local[mesh.file_node[n]] = n;
@@ -78,10 +79,11 @@ void take_rigid_parts(std::vector<RigidNodes>& rigid, Mesh& mesh) {
     part.kind = rigid[i].kind;
     part.components = rigid[i].components;
     part.global_nodes = static_cast<GlobalIndex>(rigid[i].nodes.size());
-    for (const GlobalIndex node : rigid[i].nodes) {
-      const auto found = local.find(node);
+    for (std::size_t k = 0; k < rigid[i].nodes.size(); ++k) {
+      const auto found = local.find(rigid[i].nodes[k]);
       if (found == local.end()) continue;
       mesh.rigid_of[found->second] = static_cast<int>(i);
+      mesh.rigid_rows[found->second] = rigid[i].rows.empty() ? part.components : rigid[i].rows[k];
       if (found->second < mesh.owned_nodes) part.nodes.push_back(found->second);
     }
     std::ranges::sort(part.nodes);
@@ -126,9 +128,9 @@ bool is_in_rigid_body(const Mesh& mesh, const ElementBlock& block, std::size_t e
   const LocalIndex* const nodes = &block.connectivity[element * width];
   if (mesh.rigid.empty() || width < 2) return false;
   const int part = mesh.rigid_of[nodes[0]];
-  return part >= 0 && mesh.rigid[part].is_whole() &&
-         std::all_of(nodes, nodes + width,
-                     [&](LocalIndex node) { return mesh.rigid_of[node] == part; });
+  return part >= 0 && std::all_of(nodes, nodes + width, [&](LocalIndex node) {
+           return mesh.rigid_of[node] == part && mesh.rigid_rows[node] == 0x3f;
+         });
 }
 
 Mesh join_parcel(MPI_Comm comm, const std::string& name, MeshParcel&& parcel,

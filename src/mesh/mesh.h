@@ -36,8 +36,6 @@ struct RigidPart {
   GlobalIndex global_nodes = 0;
   std::vector<LocalIndex> nodes;  ///< increasing; none on the ranks that do not own them
   std::vector<TiedNode> tied;     ///< of ties, on the rank that owns the nodes
-
-  bool is_whole() const { return components == 0x3f; }
 };
 
 /// One structure's mesh and dofs on this rank.
@@ -65,6 +63,7 @@ struct Mesh {
   std::vector<ElementBlock> blocks;
   std::vector<RigidPart> rigid;          ///< in one order on all ranks
   std::vector<int> rigid_of;             ///< per local node into `rigid`, -1: in none
+  std::vector<std::uint8_t> rigid_rows;  ///< likewise, components in which it follows, a bit each
   std::vector<LocalIndex> by_file_node;  ///< owned nodes in file order
   std::vector<AbsorbingNode> absorbing;  ///< at owned nodes, in file order
   std::vector<SupportedNode> supported;  ///< of the local nodes, in file order
@@ -72,6 +71,10 @@ struct Mesh {
   int ground_support = -1;
 
   LocalIndex node_count() const { return static_cast<LocalIndex>(file_node.size()); }
+  /// Whether a component of a local node follows the rigid part that it is in.
+  bool follows(LocalIndex node, int component) const {
+    return (rigid_rows[static_cast<std::size_t>(node)] >> component & 1) != 0;
+  }
   /// Local dof of a component (0-5) at a local node, -1 if it is clamped or does not exist.
   LocalIndex dof(LocalIndex node, int component) const {
     const std::uint8_t mask = free_components[node];

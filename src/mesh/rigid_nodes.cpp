@@ -151,6 +151,19 @@ unsigned left_out(const GlobalMesh& mesh, const RigidGroup& rigid, const Cluster
   return turns ? 0 : common;
 }
 
+/// Components in which nodes of a body follow it, node by node; none where they follow in all.
+std::vector<std::uint8_t> rows_of(const RigidGroup& rigid, const GlobalMesh& mesh,
+                                  const Cluster& cluster) {
+  if (rigid.kind != RigidKind::body || rigid.following == 0x3f) return {};
+  std::vector<std::uint8_t> rows;
+  for (const GlobalIndex node : cluster) {
+    const bool whole =
+        !rigid.other.empty() && std::ranges::binary_search(mesh.groups.at(rigid.group).nodes, node);
+    rows.push_back(whole ? 0x3f : rigid.following);
+  }
+  return rows;
+}
+
 /// Whether one of the bodies found holds all of a cluster.
 bool is_in_body(const std::vector<RigidNodes>& found, const Cluster& cluster) {
   return std::ranges::any_of(found, [&](const RigidNodes& body) {
@@ -160,7 +173,7 @@ bool is_in_body(const std::vector<RigidNodes>& found, const Cluster& cluster) {
 
 std::vector<Cluster> clusters_of(const Structure& structure, const RigidGroup& rigid,
                                  const GlobalMesh& mesh) {
-  const Cluster& nodes = mesh.groups.at(rigid.group).nodes;
+  Cluster nodes = mesh.groups.at(rigid.group).nodes;
   switch (rigid.kind) {
     case RigidKind::join:
       return joined(mesh, nodes, mesh.groups.at(rigid.other).nodes);
@@ -171,6 +184,12 @@ std::vector<Cluster> clusters_of(const Structure& structure, const RigidGroup& r
     case RigidKind::level:
       return heights(mesh, nodes);
     default:
+      if (!rigid.other.empty()) {
+        const Cluster& more = mesh.groups.at(rigid.other).nodes;
+        nodes.insert(nodes.end(), more.begin(), more.end());
+        std::ranges::sort(nodes);
+        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      }
       return {nodes};
   }
 }
@@ -192,9 +211,15 @@ std::vector<RigidNodes> find_rigid_nodes(const Structure& structure, const Globa
       if (rigid.implied && (cluster.size() == 1 || is_in_body(found, cluster))) continue;
       const unsigned following = rigid.components() & ~left_out(mesh, rigid, cluster);
       if (following == 0) continue;
-      found.push_back(
-          {rigid.name(), rigid.kind, static_cast<std::uint8_t>(following), cluster, {}});
-      for (const GlobalIndex node : cluster) {
+      found.push_back({rigid.name(),
+                       rigid.kind,
+                       static_cast<std::uint8_t>(following),
+                       cluster,
+                       rows_of(rigid, mesh, cluster),
+                       {}});
+      for (std::size_t k = 0; k < cluster.size(); ++k) {
+        const GlobalIndex node = cluster[k];
+        const std::vector<std::uint8_t>& rows = found.back().rows;
         const auto [other, is_new] = group_of.try_emplace(node, rigid.name());
         if (!is_new) {
           refuse_rigid(
@@ -202,7 +227,7 @@ std::vector<RigidNodes> find_rigid_nodes(const Structure& structure, const Globa
               "is in " + other->second + " as well; make them one group, or keep them apart",
               mesh.position(node));
         }
-        if ((clamped_components(mesh, node) & following) != 0) {
+        if ((clamped_components(mesh, node) & (rows.empty() ? following : rows[k])) != 0) {
           refuse_rigid(structure, rigid,
                        "is clamped; clamp all that moves with it instead, or none of it",
                        mesh.position(node));

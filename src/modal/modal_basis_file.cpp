@@ -146,6 +146,7 @@ std::string hash_of(const std::vector<RigidNodes>& rigid) {
   for (const RigidNodes& nodes : rigid) {
     hash.add(static_cast<double>(nodes.components));
     hash.add_all(nodes.nodes);
+    if (!nodes.rows.empty()) hash.add_all(nodes.rows);
     for (const TiedNode& tied : nodes.tied) {
       hash.add(static_cast<double>(tied.node));
       for (const Carrier& carrier : tied.carriers) {

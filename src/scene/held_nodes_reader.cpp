@@ -52,6 +52,21 @@ void check_weight(const OptionReader& options, const Structure& structure) {
   }
 }
 
+/// The components behind the last colon of an item, "y+rx+rz".
+std::uint8_t components_of(const OptionReader& options, std::string_view pattern,
+                           const std::string& structure, const std::string& item) {
+  std::uint8_t components = 0;
+  for (const std::string& name : split(item.substr(item.rfind(':') + 1), '+')) {
+    const auto found = std::ranges::find(motion_names, name);
+    if (found == motion_names.end()) {
+      options.refuse(pattern, {structure},
+                     "'" + item + "': '" + name + "' is no component of x, y, z, rx, ry, rz");
+    }
+    components |= static_cast<std::uint8_t>(1u << (found - motion_names.begin()));
+  }
+  return components;
+}
+
 }  // namespace
 
 std::vector<Clamp> read_clamps(OptionReader& options, const std::string& structure) {
@@ -66,17 +81,7 @@ std::vector<Clamp> read_clamps(OptionReader& options, const std::string& structu
     if (std::ranges::count(clamps, clamp.group, &Clamp::group) > 0) {
       options.refuse(pattern, {structure}, "group '" + clamp.group + "' is listed twice");
     }
-    if (sides.size() == 2) {
-      clamp.components = 0;
-      for (const std::string& name : split(sides[1], '+')) {
-        const auto found = std::ranges::find(motion_names, name);
-        if (found == motion_names.end()) {
-          options.refuse(pattern, {structure},
-                         "'" + item + "': '" + name + "' is no component of x, y, z, rx, ry, rz");
-        }
-        clamp.components |= static_cast<std::uint8_t>(1u << (found - motion_names.begin()));
-      }
-    }
+    if (sides.size() == 2) clamp.components = components_of(options, pattern, structure, item);
     clamps.push_back(clamp);
   }
   return clamps;
@@ -89,6 +94,15 @@ std::vector<RigidGroup> read_rigid_groups(OptionReader& options, const std::stri
     const char* const pattern = rigid_option(kind);
     for (const std::string& item : options.list(pattern, {structure})) {
       RigidGroup rigid{kind, item, ""};
+      if (kind == RigidKind::body && item.find(':') != std::string::npos) {
+        const std::vector<std::string> parts = split(item, ':');
+        if (parts.size() > 3 || parts[0].empty() || parts[1].empty() || parts[0] == parts[1]) {
+          options.refuse(pattern, {structure},
+                         "'" + item + "' is no group, group:x+y+z or group:group:x+y+z");
+        }
+        rigid = {kind, parts[0], parts.size() == 3 ? parts[1] : "", false,
+                 components_of(options, pattern, structure, item)};
+      }
       if (kind == RigidKind::join || kind == RigidKind::tie) {
         const std::vector<std::string> sides = split(item, ':');
         if (sides.size() != 2 || sides[0].empty() || sides[1].empty() || sides[0] == sides[1]) {
@@ -110,7 +124,7 @@ void make_mat_rigid(Structure& structure) {
   if (!structure.soil) return;
   const std::string& mat = structure.soil->mat;
   const bool is_rigid = std::ranges::any_of(structure.rigid_groups, [&](const RigidGroup& rigid) {
-    return rigid.kind == RigidKind::body && rigid.group == mat;
+    return rigid.kind == RigidKind::body && rigid.group == mat && rigid.following == 0x3f;
   });
   if (!is_rigid) structure.rigid_groups.push_back({RigidKind::body, mat, "", true});
 }

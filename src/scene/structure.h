@@ -87,8 +87,12 @@ enum class RigidKind : std::uint8_t {
 struct RigidGroup {
   RigidKind kind = RigidKind::body;
   std::string group;
-  std::string other;     ///< of a join or tie: where the nearest node or facet is looked for
+  std::string other;     ///< of a join or tie: where the nearest node or facet is looked for; of a
+                         ///< body: nodes that follow it in some components
   bool implied = false;  ///< a mat on soil: nobody asked, and it may be part of a larger body
+  /// Components in which nodes of the other group follow a body, or its own where there is no
+  /// other; one bit each.
+  std::uint8_t following = 0x3f;
 
   std::string name() const { return other.empty() ? group : group + ":" + other; }
   /// Components that follow one rigid motion, one bit each; not given for ties.
@@ -170,7 +174,7 @@ struct Structure {
     option(&Structure::mesh, "<structure>_mesh", text("file", required, "a .geo or .msh file"), "geometry to mesh (.geo) or mesh");
     option("<structure>_mesh_set", text("pairs", "none", "name=value,name=value or none"), "parameters of the .geo file");
     option("<structure>_clamp", names("none"), "physical groups fixed to the ground, in some components only as group:y+rx+rz");
-    option("<structure>_rigid", names("none"), "physical groups that move as one rigid body each");
+    option("<structure>_rigid", names("none"), "physical groups that move as one rigid body each; group:x+y+z: in these components alone; hub:group:x+y+z: all of hub, and these components of the nodes of the other group");
     option("<structure>_diaphragm", names("none"), "physical groups of level floors, each rigid in its plane and free to bend out of it");
     option("<structure>_join", names("none", "pairs", "group:group,group:group or none"), "each node of the first group and the nearest one of the second become a rigid body: beams below the slabs that they carry");
     option("<structure>_pin", names("none"), "physical groups whose nodes that lie on each other share their displacements, and turn on their own");

@@ -215,7 +215,7 @@ class Assembly {
          << x[2] << ") has no mass " << (component < 3 ? "along " : "against turning about ")
          << "xyz"[component % 3];
     const RigidPart* const body = part < 0 ? nullptr : &mesh_.rigid[static_cast<std::size_t>(part)];
-    if (body != nullptr && (body->components >> component & 1) != 0) {
+    if (body != nullptr && mesh_.follows(node, component)) {
       text << ", and nothing in " << body->group
            << ", with which it moves, resists that motion; give a point_mass with rotary_inertia";
     } else {

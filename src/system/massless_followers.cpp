@@ -57,7 +57,7 @@ class Body {
     for (const LocalIndex node : part_.nodes) {
       for (int c = 0; c < 6; ++c) {
         const LocalIndex dof = mesh_.dof(node, c);
-        if (dof >= 0 && (part_.components >> c & 1) != 0) {
+        if (dof >= 0 && mesh_.follows(node, c)) {
           visit(node, static_cast<std::size_t>(c), dof);
         }
       }

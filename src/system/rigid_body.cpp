@@ -66,7 +66,7 @@ RigidBody::RigidBody(const Mesh& mesh, const RigidPart& part, std::span<const do
     }
     for (int c = 0; c < 6; ++c) {
       const LocalIndex dof = mesh.dof(node, c);
-      if (dof < 0 || (part.components >> c & 1) == 0) continue;
+      if (dof < 0 || !mesh.follows(node, c)) continue;
       dofs_.push_back(dof);
       slots_.push_back(begin + static_cast<std::size_t>(dof - nodes_.back().begin));
       alone_[slots_.back()] = 0;
@@ -91,7 +91,7 @@ void RigidBody::find_motions(const Mesh& mesh, const RigidPart& part) {
       Vector3 x = mesh.position(node);
       for (std::size_t d = 0; d < 3; ++d) x[d] -= centre[d];
       for (int c = 0; c < 6; ++c) {
-        if (mesh.dof(node, c) < 0 || (part.components >> c & 1) == 0) continue;
+        if (mesh.dof(node, c) < 0 || !mesh.follows(node, c)) continue;
         column.push_back(root_mass_[slots_[column.size()]] *
                          rigid_motion_row(static_cast<std::size_t>(c), x)[motion]);
       }

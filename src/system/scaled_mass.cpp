@@ -108,7 +108,10 @@ void ScaledMass::finish(LinearSystem& system) {
     report.nodes += part.global_nodes;
     report.motions += static_cast<GlobalIndex>(body.motions());
     report.dofs += static_cast<GlobalIndex>(body.dofs().size());
-    for (const LocalIndex node : part.nodes) report.mass += system.lumped_mass[mesh_.dof(node, 0)];
+    for (const LocalIndex node : part.nodes) {
+      const LocalIndex dof = mesh_.dof(node, 0);
+      report.mass += dof < 0 ? 0 : system.lumped_mass[dof];
+    }
   }
   std::vector<TiedPart> ties = make_ties(system.lumped_mass);
   if (!added.nodes.empty() || !bodies.empty() || !ties.empty()) {

@@ -199,6 +199,29 @@ class Abaqus(unittest.TestCase):
         same(self, scene, words)
         self.assertIn("rigid bodies 1", said)
 
+    def test_couplings_of_some_components(self):
+        """Heads of masts on a reference node: as wholes, by their displacements, or by one of them."""
+        heads = {4: (0, 0, 3), 14: (2, 0, 3), 24: (2, 2, 3), 34: (0, 2, 3)}
+        places = {n - 3 + k: (*x[:2], k) for n, x in heads.items() for k in range(4)}
+        lines = {100 + n + k: (n - 3 + k, n - 2 + k) for n in heads for k in range(3)}
+        start = (nodes(places) + elements("B33", "MAST", lines) + MATERIAL + "*BEAM GENERAL SECTION, SECTION=GENERAL, ELSET=MAST, "
+                 "DENSITY=7850.\n.01, 2e-5, 0., 1e-5, 3e-5\n1., 0., 0.\n2.1e11, 8e10\n*BOUNDARY\n1, 1, 6\n11, 1, 6\n21, 1, 6\n"
+                 "31, 1, 6\n*NSET, NSET=A\n14, 24\n*NSET, NSET=B\n34,\n*SURFACE, NAME=UP, TYPE=NODE\nA\n")
+        groups = {"mast": ("line", lines.values()), "feet": ("point", [(n - 3,) for n in heads]), "hub": ("point", [(4,)]),
+                  "whole": ("point", [(4,), (34,)]), "a": ("point", [(14,), (24,)]), "both": ("point", [(14,), (24,), (34,)])}
+        for cards, rigid in (("*COUPLING, CONSTRAINT NAME=C, REF NODE=4, SURFACE=UP\n*KINEMATIC\n1, 3\n", "hub:a:x+y+z"),
+                             ("*COUPLING, CONSTRAINT NAME=C, REF NODE=4, SURFACE=UP\n*KINEMATIC\n3, 3\n", "hub:a:z"),
+                             ("*KINEMATIC COUPLING, REF NODE=4\nA, 2, 3\nB, 1, 6\n", "whole:a:y+z"),
+                             ("*KINEMATIC COUPLING, REF NODE=4\nA, 2\nA, 1\nB, 1, 2\n", "hub:both:x+y"),
+                             ("*RIGID BODY, REF NODE=4, PIN NSET=A, TIE NSET=B\n", "whole:a:x+y+z")):
+            scene, said = imported.imported(self, "masts.inp", start + cards)
+            words = by_hand(places, groups, {
+                "mast_element": "euler_beam", "mast_material": "steel", "mast_section": "m", "clamp": "feet", "rigid": rigid,
+                **steel(), **section("m", 0.01, 1e-5, 2e-5, 3e-5 * 8e10 / (2.1e11 / 2.6), "1,0,0")})
+            same(self, scene, words)
+            self.assertIn("rigid bodies 1", said)
+        imported.refused(self, "masts.inp", start + "*KINEMATIC COUPLING, REF NODE=4\nA, 1, 2\nB, 3\n", "KINEMATIC COUPLING")
+
     def test_bricks_beside_calculix(self):
         """Modes of a cantilever of C3D8I, extrapolated from two meshes: there masses are consistent, here lumped,
         and both err by h^2 with opposite signs. Bending and stretching agree to 1e-3 on the finer mesh or extrapolated,

@@ -72,6 +72,34 @@ class Nastran(unittest.TestCase):
         mass, centre = said_mass(said)
         close(self, (mass, *centre), (total, *(sum(w * x[k] for w, x in weights) / total for k in range(3))))
 
+    def test_rigid_elements_of_some_components(self):
+        """Heads of columns on a rigid element that ties displacements, or two components, and leaves the others alone; of
+        one whose first node has no element; a clamped first node."""
+        heads = {4: (0, 0, 3), 14: (2, 0, 3), 24: (2, 2, 3), 34: (0, 2, 3)}
+        columns = "".join(small("GRID", n - 3 + k, "", *map(float, (x, y, k))) for n, (x, y, _) in heads.items() for k in range(4))
+        columns += "".join(small("CBAR", n - 3 + k, 10, n - 3 + k, n - 2 + k, 1., 0., 0.) for n in heads for k in range(3))
+        columns += "".join(small("SPC1", 1, 123456, n - 3) for n in heads) + small("PBAR", 10, 1, ".02", "6.-5", "6.-5", "3.-5")
+        nodes = {n - 3 + k: (*x[:2], k) for n, x in heads.items() for k in range(4)}
+        groups = {"column": ("line", [(n - 3 + k, n - 2 + k) for n in heads for k in range(3)]),
+                  "feet": ("point", [(n - 3,) for n in heads]), "hub": ("point", [(4,)]),
+                  "spokes": ("point", [(n,) for n in heads if n > 4]), "heads": ("point", [(n,) for n in heads])}
+        for card, option, clamp in (
+                (small("RBE2", 90, 4, 123, 14, 24, 34), "hub:spokes:x+y+z", ""),
+                (small("RBE2", 90, 4, 12, 14, 24) + small("RBE2", 91, 4, 12, 34), "hub:spokes:x+y", ""),
+                (small("RBAR", 90, 4, 14, 123456, "", "", 26), "hub:spoke:y+rz", ""),
+                (small("GRID", 50, "", 1., 1., 4.) + small("RBE2", 90, 50, 123, 4, 14, 24, 34), "heads:x+y+z", ""),
+                (small("GRID", 50, "", 1., 1., 4., "", 123456) + small("RBE2", 90, 50, 13, 4, 14, 24, 34), "", ",heads:x+z")):
+            deck = HEAD + STEEL + columns + card + "ENDDATA\n"
+            scene, said = imported.imported(self, "heads.bdf", deck)
+            words = by_hand(nodes, {**groups, "spoke": ("point", [(14,)])}, {
+                "column_element": "beam", "column_material": "steel", "column_section": "s", "clamp": "feet" + clamp,
+                **({"rigid": option} if option else {}), **steel(), **section("s", .02, 6e-5, 6e-5, 3e-5, "0,1,0")})
+            same(self, scene, words)
+            self.assertEqual("rigid bodies 1" in said, bool(option))
+        for more in (small("SPC1", 1, 2, 14), small("SPC1", 1, 3, 4), small("RBE2", 91, 24, 123, 14)):
+            imported.refused(self, "heads.bdf", HEAD + STEEL + columns + small("RBE2", 90, 4, 123, 14) + more + "ENDDATA\n",
+                             "RBE2")
+
     def test_a_deck_without_sets_is_loaded_stopped_and_recorded_at_points(self):
         """Two columns, one of which a force presses against the other: at rest they share it beyond the gap."""
         deck = HEAD + small("MAT1", 1, "2.1+5", "", ".3", "7.85-9") + small("PBAR", 10, 1, "2.+4", "6.+7", "6.+7", "3.+7")

@@ -44,11 +44,12 @@ class Dense:
         self.admit(groups)
 
     def admit(self, groups):
-        """`groups`: pairs of a predicate of places and the components that follow."""
+        """`groups`: a predicate of places and the components that follow; where places differ, those of each as well."""
         columns = []
         follows = numpy.zeros(len(self.component), bool)
-        for is_in, components in groups:
-            inside = numpy.array([is_in(x) and c in components for x, c in zip(self.place, self.component)])
+        for is_in, components, *own in groups:
+            rows = own[0] if own else lambda x, all_of=components: all_of
+            inside = numpy.array([is_in(x) and c in rows(x) for x, c in zip(self.place, self.component)])
             centre = self.place[inside].mean(axis=0)
             follows |= inside
             for motion in components:
@@ -84,11 +85,20 @@ ALL = ("x", "y", "z", "rx", "ry", "rz")
 PLANE = ("x", "y", "rz")
 IN_SLAB = (lambda x: x[2] > 3 - 1e-6)
 IN_BASE = (lambda x: x[2] < 1e-6)
+IN_HUB = (lambda x: numpy.allclose(x, (1, 1, 3)))
+HUB = ["-t_hub_points", "1,1,3"]
 CASES = {
     "rigid slab": ([*TABLE, *HELD], [(IN_SLAB, ALL)], ["-t_rigid", "slab"]),
     "diaphragm": ([*TABLE, *HELD], [(IN_SLAB, PLANE)], ["-t_diaphragm", "slab"]),
     "rigid mat on springs below a diaphragm": ([*TABLE, *SPRUNG], [(IN_BASE, ALL), (IN_SLAB, PLANE)],
                                                ["-t_rigid", "base", "-t_diaphragm", "slab"]),
+    "a hub and spokes that turn": ([*TABLE, *HELD], [(IN_SLAB, ALL, lambda x: ALL if IN_HUB(x) else ALL[:3])],
+                                   [*HUB, "-t_rigid", "hub:slab:x+y+z"]),
+    "a hub and single components": ([*TABLE, *HELD], [(lambda x: IN_HUB(x) or abs(x[2] - 2) < 1e-6, ALL,
+                                                       lambda x: ALL if IN_HUB(x) else ("z", "rx"))],
+                                    [*HUB, "-t_ring_points", "0,0,2; 2,0,2; 2,2,2; 0,2,2", "-t_rigid", "hub:ring:z+rx"]),
+    "a floor in its plane without its turning": ([*TABLE, *HELD], [(IN_SLAB, PLANE, lambda x: PLANE[:2])],
+                                                 ["-t_rigid", "slab:x+y"]),
     "rigid slab of solids": ([*SOLID, "-t_mesh_set", "slab=0", *HELD], [(IN_SLAB, ALL)], ["-t_rigid", "slab"]),
 }
 
@@ -107,7 +117,7 @@ class RigidGroups(unittest.TestCase):
     def test_frequencies_and_the_stable_step(self):
         for name, (arguments, _, options) in CASES.items():
             squares = self.dense(name).squared_frequencies()
-            for ranks in (1, 3) if name == "diaphragm" else (1,):
+            for ranks in (1, 3) if name in ("diaphragm", "a hub and single components") else (1,):
                 with self.subTest(case=name, ranks=ranks):
                     run = Recorded(self, [*arguments, *options, "-end_time", 1e-4, "-modes", 8], ranks)
                     structure = run.summary["structures"]["t"]
@@ -117,7 +127,14 @@ class RigidGroups(unittest.TestCase):
                     share = sum(mode["effective_modal_mass"][0] for mode in structure["frequencies"])
                     self.assertLessEqual(share, structure["mass"])
                     self.assertEqual([body["motions"] for body in structure["rigid_groups"]],
-                                     [3 if body["kind"] == "diaphragm" else 6 for body in structure["rigid_groups"]])
+                                     [3 if body["kind"] == "diaphragm" or "plane" in name else 6
+                                      for body in structure["rigid_groups"]])
+
+    def test_what_cannot_follow_is_named(self):
+        for rigid, *words in (("hub:slab:x+q", "'q' is no component"), ("hub:slab:slab:x", "group:group:x+y+z"),
+                              ("hub:hub:x", "group:group:x+y+z"), ("hub:", "group:x+y+z"), ("hub:none:x", "'none'"),
+                              ("hub:base:x", "at (0, 0, 0)", "is clamped"), ("hub:slab:x,slab", "as well")):
+            program.must_refuse(self, [*TABLE, *HELD, *HUB, "-end_time", 1e-4, "-t_rigid", rigid], "-t_rigid", *words, ranks=1)
 
     def test_no_frequency_rises_and_the_step_grows(self):
         """What a body holds altogether limits nothing: 54 dofs of a stiff slab let the step grow 22 times."""

@@ -2,7 +2,7 @@
 
 from .abaqus_cards import Block
 from .cards import number, whole
-from .joints import Shared, hold_turned, is_whole, turning_nodes
+from .joints import Shared, follow_in_part, hold_turned, is_whole, turning_nodes
 from .model import ALL, BEAMS, RX, RY, RZ, TRANSLATIONS, X, Y, Z, InputFault, Reading
 
 NAMED = {"ENCASTRE": ALL, "PINNED": TRANSLATIONS, "XSYMM": X | RY | RZ, "YSYMM": Y | RX | RZ, "ZSYMM": Z | RX | RY,
@@ -60,22 +60,22 @@ class JointReader(Reading):
 
     def _rigid(self, block: Block, scope, _motion) -> bool | None:
         nodes = list(self.reader.nodes_of(block.name("REF NODE"), scope, block.place))
-        for key in ("NSET", "TIE NSET", "PIN NSET"):
+        if pins := "PIN NSET" in block.parameters:
+            members = self.reader.nodes_of(block.name("PIN NSET"), scope, block.place)
+            self.waiting.append(("rigid", [nodes[0], *members], TRANSLATIONS, block))
+        for key in ("NSET", "TIE NSET"):
             if key in block.parameters:
-                members = self.reader.nodes_of(block.name(key), scope, block.place)
-                nodes += members
-                if key == "PIN NSET":
-                    self.waiting.append(("rigid", nodes, TRANSLATIONS, block))
-                    return False
+                nodes += self.reader.nodes_of(block.name(key), scope, block.place)
         if "ELSET" in block.parameters:
             for raw in self.reader.elements_of(block.name("ELSET"), scope, block.place):
                 nodes += raw.nodes
         if "ANALYTICAL SURFACE" in block.parameters:
             return self.reader.lose_block(block, "analytical surfaces are not known")
-        self.model.rigid.append(("rigid", sorted(set(nodes)), block.place))
-        return None
+        if len(nodes) > 1:
+            self.model.rigid.append(("rigid", sorted(set(nodes)), block.place))
+        return False if pins else None
 
-    def _coupling(self, block: Block, scope, _motion) -> bool | None:
+    def _coupling(self, block: Block, scope, motion) -> bool | None:
         reference = self.reader.nodes_of(block.name("REF NODE"), scope, block.place)
         nodes = self.reader.surface_nodes(block.name("SURFACE"), scope, block.place)
         followers = self.reader.followers(block)
@@ -83,8 +83,13 @@ class JointReader(Reading):
             what = followers[0] if followers else block
             return self.lose(f"COUPLING {what.keyword}", "couplings that distribute forces are not known", block.place)
         components = self._ranges(followers[0])
-        self.waiting.append((block.parameters.get("CONSTRAINT NAME", "coupling"), [*reference, *nodes], components,
-                             block))
+        return self._couple(block.parameters.get("CONSTRAINT NAME", "coupling"), [*reference, *nodes], components, block, motion)
+
+    def _couple(self, name: str, nodes: list, components: int, block: Block, motion) -> bool:
+        """False: the card is counted at the end. Of a turned instance all displacements couple, or none."""
+        if motion.axis and not {components & TRANSLATIONS, components >> 3} <= {0, TRANSLATIONS}:
+            return self.lose(block.keyword, "components of nodes that follow a body are along the global axes", block.place)
+        self.waiting.append((name, nodes, components, block))
         return False
 
     def _ranges(self, block: Block) -> int:
@@ -95,15 +100,15 @@ class JointReader(Reading):
                 components |= span_of(values, place)
         return components or ALL
 
-    def _kinematic(self, block: Block, scope, _motion) -> bool | None:
-        nodes = list(self.reader.nodes_of(block.name("REF NODE"), scope, block.place))
-        components = ALL
+    def _kinematic(self, block: Block, scope, motion) -> bool | None:
+        reference, following = self.reader.nodes_of(block.name("REF NODE"), scope, block.place), {}
         for place, fields in block.data:
-            nodes += self.reader.nodes_of(fields[0], scope, place)
             values = [whole(text, place) for text in fields[1:] if text]
-            if values:
-                components &= span_of(values, place)
-        self.waiting.append(("coupling", nodes, components, block))
+            for node in self.reader.nodes_of(fields[0], scope, place):
+                following[node] = following.get(node, 0) | (span_of(values, place) if values else ALL)
+        for components in sorted(set(following.values()) or {ALL}):
+            nodes = [node for node, own in following.items() if own == components]
+            self._couple("coupling", [*reference, *nodes], components, block, motion)
         return False
 
     def _mpc(self, block: Block, scope, _motion) -> bool | None:
@@ -190,5 +195,5 @@ class JointReader(Reading):
                 self.model.rigid.append((name, nodes, block.place))
                 self.use(block.keyword)
             else:
-                self.lose(block.keyword, "couplings hold all components of nodes", block.place)
+                follow_in_part(self.model, name, nodes[0], nodes[1:], components, self.reader.axes.get, block.keyword, block.place)
         self.equal.finish()

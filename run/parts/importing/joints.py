@@ -1,5 +1,7 @@
 """Nodes that move together: arms of elements and masses, hinges, rigid bodies, pins, and supports that reach them."""
 
+from collections import Counter
+
 import numpy as np
 from scipy.spatial import cKDTree
 
@@ -80,6 +82,16 @@ def hold_turned(model: Model, node: int, components: int, axes, card: str, place
 def is_whole(components: int, followers, turning: set) -> bool:
     """Whether followers are held by these components as by all: where nothing turns, translations do."""
     return components == ALL or (components & TRANSLATIONS == TRANSLATIONS and not turning & set(followers))
+
+
+def follow_in_part(model: Model, name: str, hub: int, nodes, components: int, axes_of, card: str, place: str) -> None:
+    """Nodes follow a hub in components along axes of their own, those of the space where `axes_of` them is None. Counted
+    once it is known what else moves with them."""
+    found = {components if axes_of(node) is None else global_components(components, axes_of(node)) for node in nodes}
+    if len(found) == 1 and None not in found:
+        model.in_part.append((name, hub, list(nodes), found.pop(), card, place))
+    else:
+        model.cards.lose(card, "components of nodes that follow a body are along the global axes", place)
 
 
 class Joints:
@@ -174,6 +186,7 @@ class Joints:
                 names.setdefault(node, name)
         for satellite, root in self.joined.items():
             sets.join((satellite, root))
+        hubs = self._find_hubs(sets)
         plain = {}
         self.following: set = set()  # nodes of bodies, also such as no element uses
         for nodes in sets.all():
@@ -184,6 +197,8 @@ class Joints:
                     self.model.hold(node, ALL)
                 continue
             self.following |= set(nodes)
+            if sets.root(nodes[0]) in hubs:
+                continue
             if held:
                 first = next(node for node in nodes if self.model.supports.get(node, 0))
                 self.model.cards.lose("SUPPORT OF A RIGID BODY", "a rigid body, or a node with rigid arms, is clamped "
@@ -195,7 +210,40 @@ class Joints:
                     plain[roots.pop()] = own
                 else:
                     self.rigid.append((name or "arms", own))
+        for nodes in hubs.values():
+            self.following |= set(nodes)
         self._join(plain)
+
+    def _find_hubs(self, sets: Sets) -> dict:
+        """Bodies that some nodes follow in part of their components, as `in_part`: name, the hub's own nodes, those that
+        follow, components. Returns all nodes of each by the root of its hub."""
+        members = {sets.root(nodes[0]): nodes for nodes in sets.all()}
+        cards: dict = {}  # (hub, components, card) -> name, followers, place, count
+        for name, hub, nodes, components, card, place in self.model.in_part:
+            one = cards.setdefault((hub, components, card), [name, set(), place, 0])
+            one[1] |= set(nodes)
+            one[3] += 1
+        following = Counter(node for _, nodes, *_ in cards.values() for node in nodes)
+        following.update(dict.fromkeys((hub for hub, *_ in cards), 1))
+        self.in_part, hubs = [], {}
+        for (hub, components, card), (name, nodes, place, count) in cards.items():
+            root, followers = sets.root(hub), sorted(nodes)
+            body = members.get(root, [hub])
+            held = self._rank(body)
+            alone = all(following[node] == 1 and sets.root(node) not in members for node in followers)
+            if held == 6:
+                for node in followers:
+                    self.model.hold(node, components)
+            elif held or not alone or root in hubs or any(self.model.supports.get(node, 0) & components for node in followers):
+                self.model.cards.lose(card, "of a body that is followed in part no node is held, and a node follows one", place, count)
+                continue
+            else:
+                hubs[root] = [*body, *followers]
+                own = [[node for node in part if node in self.used] for part in (body, followers)]
+                if own[1] and len(own[0] + own[1]) > 1:
+                    self.in_part.append((name, *own, components))
+            self.model.cards.use(card, count)
+        return hubs
 
     def _join(self, plain: dict) -> None:
         """Arms whose own root is the nearest of all become one `join`, others rigid bodies of their own."""

@@ -168,6 +168,7 @@ class Model:
     axial_springs: list = field(default_factory=list)
     supports: dict = field(default_factory=dict)  # node -> components
     rigid: list = field(default_factory=list)  # (name, nodes, place)
+    in_part: list = field(default_factory=list)  # (name, hub, nodes that follow it, in these components, card, place)
     pins: list = field(default_factory=list)  # sets of nodes that share their displacements, and their place
     node_sets: dict = field(default_factory=dict)  # name -> nodes
     element_sets: dict = field(default_factory=dict)  # name -> places in `elements`

@@ -4,7 +4,7 @@ import re
 from bisect import bisect_left, bisect_right
 
 from .cards import is_whole_number, whole
-from .joints import Shared, hold_turned, is_whole, turning_nodes
+from .joints import Shared, follow_in_part, hold_turned, is_whole, turning_nodes
 from .model import ALL, TRANSLATIONS, InputFault, Reading, components_of
 from .nastran_cards import Card
 
@@ -146,7 +146,7 @@ class JointReader(Reading):
                 self.model.pins.append(({first, *others}, card.place))
                 self.use(card.name)
             else:
-                self.lose(card.name, "rigid elements couple all components of their nodes", card.place)
+                follow_in_part(self.model, name, first, others, components, self.reader.frame, card.name, card.place)
 
     def _apply(self, node: int, components: int, card: str, place: str) -> None:
         hold_turned(self.model, node, components, self.reader.frame(node), card if card != "GRID" else "PS OF GRID", place)

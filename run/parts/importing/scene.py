@@ -280,6 +280,10 @@ class Scene:
 
     def _motions(self) -> None:
         rigid = [self._points(name, nodes) for name, nodes in self.joints.rigid]
+        for name, hub, nodes, components in self.joints.in_part:
+            words = [self._points(f"{name}_hub", hub), self._points(name, nodes),
+                     "+".join(COMPONENTS[k] for k in range(6) if components >> k & 1)]
+            rigid.append(":".join(word for word in words if word))
         if rigid:
             self.options["rigid"] = ",".join(rigid)
         if self.joints.joined:

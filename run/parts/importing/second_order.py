@@ -58,6 +58,10 @@ def settle(model: Model) -> None:
         if set(nodes) & gone and len(set(nodes) - gone) < 2:
             cards.lose("RIGID BODIES OF MID-SIDE NODES", f"'{name}' has mid-side nodes alone", place)
     model.rigid = [(name, [node for node in nodes if node not in gone], place) for name, nodes, place in model.rigid]
+    for name, hub, nodes, components, card, place in model.in_part:
+        if gone & {hub, *nodes}:
+            cards.lose("RIGID BODIES OF MID-SIDE NODES", f"'{name}' has mid-side nodes", place)
+    model.in_part = [one for one in model.in_part if not gone & {one[1], *one[2]}]
     for nodes, place in model.pins:
         if len(nodes - gone) == 1:
             cards.lose("PINS OF MID-SIDE NODES", "a mid-side node shares its displacements with another node", place)

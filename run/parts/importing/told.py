@@ -42,7 +42,7 @@ def model_told(scene, mass: float, centre, expected: float | None) -> list:
     held = Counter(COMPONENTS[k] for mask in scene.held.values() for k in range(6) if mask >> k & 1)
     supports = ", ".join(f"{name} {held[name]}" for name in COMPONENTS if held[name])
     lines.append(f"supported nodes {len(scene.held)}" + (f": {supports}" if supports else ""))
-    for what, count in (("rigid bodies", len(scene.joints.rigid)), ("arms", len(scene.joints.joined)),
+    for what, count in (("rigid bodies", len(scene.joints.rigid) + len(scene.joints.in_part)), ("arms", len(scene.joints.joined)),
                         ("hinges and pins", len(scene.joints.pins)), ("ties", len(model.ties))):
         if count:
             lines.append(f"{what} {count}")

@@ -46,9 +46,10 @@ double product(const std::vector<double>& a, const std::vector<double>& b) {
 
 const std::vector<Vector3> four{{0, 0, 0}, {2, 0, 0.5}, {0, 3, 1}, {5, 1, 2}};
 
-CoupledMass body_of(const Mesh& mesh, const std::vector<double>& mass, std::uint8_t components,
+CoupledMass body_of(Mesh mesh, const std::vector<double>& mass, std::uint8_t components,
                     std::vector<LocalIndex> nodes) {
   const auto count = static_cast<GlobalIndex>(nodes.size());
+  mesh.rigid_rows.assign(mesh.free_components.size(), components);
   const RigidPart part{"g", RigidKind::body, components, count, std::move(nodes)};
   std::vector<RigidBody> bodies;
   bodies.emplace_back(mesh, part, mass);
