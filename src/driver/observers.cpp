@@ -73,7 +73,9 @@ std::unique_ptr<FieldWriter> make_fields(const ObservedRun& run) {
 
 bool may_lift_off(const Scene& scene) {
   return std::ranges::any_of(scene.structures, [](const Structure& structure) {
-    return std::ranges::any_of(structure.regions, &Region::compression_only);
+    return std::ranges::any_of(structure.regions, [](const Region& region) {
+      return region.compression_only && is_spring(region.element);
+    });
   });
 }
 

@@ -68,7 +68,7 @@ constexpr std::array table{
         beam2_stiffness, euler_beam_lumped_mass, Kernel::beam, measured_costs::beam, true, true},
     ElementTraits{Type::bar, "bar", "bar", Family::bar, {2, 3}, 1, {}, {},
         bar2_stiffness, bar2_lumped_mass, Kernel::sparse, measured_costs::small, true, true},
-    ElementTraits{Type::tension_bar, "bar (tension only)", "bar", Family::bar, {2, 3}, 1, {}, {},
+    ElementTraits{Type::tension_bar, "bar (one way)", "bar", Family::bar, {2, 3}, 1, {}, {},
         bar2_stiffness, bar2_lumped_mass, Kernel::sparse, measured_costs::small, false, false},
     ElementTraits{Type::shell4, "shell4", "shell", Family::shell, {4, 6}, 3, Type::shell3, {},
         of_shell<shell4_stiffness>, of_shell<shell4_lumped_mass>, Kernel::rectangle, measured_costs::rectangle, true, true},

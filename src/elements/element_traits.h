@@ -17,9 +17,9 @@ namespace pounding {
 
 /// The elements a mesh can hold; `hex8` is the one with incompatible modes, `shell3` the triangle
 /// of shell meshes; `beam` is flexible in shear, `euler_beam` is not. A `tension_bar` resists
-/// stretching only, a `yielding_bar` yields both ways. Springs act along and about the global axes;
-/// those named 6 also on rotations. `soil` is no word of the option: it is under a mat. In the
-/// order of the table.
+/// stretching only, or shortening, a `yielding_bar` yields both ways. Springs act along and about
+/// the global axes; those named 6 also on rotations. `soil` is no word of the option: it is under a
+/// mat. In the order of the table.
 enum class ElementType {
   hex8,
   hex8_full,

@@ -187,7 +187,7 @@ void look_at_links(const Structure& structure, const Region& region, Doubts& dou
                "than at full order; give -" +
                structure.name + "_modal_damping or -" + structure.name + "_model full");
   }
-  if (region.compression_only && !(structure.gravity[2] < 0)) {
+  if (region.compression_only && is_spring(region.element) && !(structure.gravity[2] < 0)) {
     doubts.add(owner +
                "pushes up only, but no gravity presses down on it: it lifts off at once and holds "
                "nothing; give -gravity and -preload static");

@@ -188,6 +188,7 @@ inline constexpr Families for_bars{Family::bar};
 inline constexpr Families for_points{Family::point_mass};
 inline constexpr Families for_single_nodes{Family::point_mass, Family::grounded_spring};
 inline constexpr Families for_grounded{Family::grounded_spring};
+inline constexpr Families for_bars_and_grounded{Family::bar, Family::grounded_spring};
 inline constexpr Families for_springs{Family::grounded_spring, Family::spring};
 inline constexpr Families for_beams_and_bars{Family::beam, Family::bar};
 inline constexpr Families for_beams_and_shells{Family::beam, Family::shell};

@@ -87,7 +87,7 @@ struct Region {
   Spread spread = Spread::none;
   std::array<double, 6> stiffness{};  ///< springs: along and about x, y, z [N/m, N m]
   std::array<double, 6> dashpot{};    ///< springs, of bars the first one [N s/m, N m s]
-  bool compression_only = false;      ///< grounded springs: along z they push up only
+  bool compression_only = false;      ///< grounded springs: along z they push up only; bars
   NonlinearSpring nonlinear;          ///< springs and bars
   YieldingSection yielding;           ///< beams
   YieldingShell yielding_shell;       ///< shells
@@ -125,7 +125,7 @@ struct Region {
     option("<structure>_<group>_dashpot_per_area", reals("N s/m3", "0,0,0", "three numbers along x, y, z", not_negative), "grounded_spring on surfaces: its dashpots per area", for_grounded);
     option("<structure>_<group>_stiffness_per_length", reals("N/m2", "0,0,0", "three numbers along x, y, z", not_negative), "grounded_spring on lines: its stiffness per length", for_grounded);
     option("<structure>_<group>_dashpot_per_length", reals("N s/m2", "0,0,0", "three numbers along x, y, z", not_negative), "grounded_spring on lines: its dashpots per length", for_grounded);
-    option("<structure>_<group>_compression_only", flag(false), "grounded_spring from which a mat may lift off: along z, spring and dashpot resist pressing down only", for_grounded);
+    option("<structure>_<group>_compression_only", flag(false), "grounded_spring from which a mat may lift off: along z, spring and dashpot resist pressing down only; or a bar that resists shortening only", for_bars_and_grounded);
     option("<structure>_<group>_dashpot_exponent", real("-", "1", closed(0.01, 2)), "power of the rate to which its dashpots go; their unit is N (s/m)^it", for_bars_and_springs);
     option("<structure>_<group>_dashpot_stiffness", reals("N/m, N m", "0,0,0,0,0,0", "six numbers along and about x, y, z (bar: one)", not_negative), "spring in series with each dashpot; 0: none, it is rigid", for_bars_and_springs);
     option("<structure>_<group>_series_stiffness", reals("N/m, N m", "0,0,0,0,0,0", "six numbers along and about x, y, z", not_negative), "spring in series with its spring and dashpot together; 0: none, it is rigid", for_springs);
@@ -154,7 +154,7 @@ struct Region {
     option("<structure>_<group>_yield_circle", word("none|x+y|y+z|x+z", "none"), "translations that yield together: a bearing's shear", for_springs);
     option("<structure>_<group>_sliding_friction", real("-", "0", up_to_10), "sliding bearing: the circle yields at this times the compression across it", for_springs);
     option("<structure>_<group>_pendulum_radius", real("m", "0", not_negative), "friction pendulum: radius of its dish, whose slope follows the compression; hardening bounds it; 0: hardening is the slope", for_springs);
-    option("<structure>_<group>_slack", real("m", "0", not_negative), "tension_only bar: stretched so far before it pulls (a hook, a cable that sags)", for_bars);
+    option("<structure>_<group>_slack", real("m", "0", not_negative), "tension_only or compression_only bar: stretched or shortened so far before it acts (a hook, a cable that sags; a gap)", for_bars);
     option("<structure>_<group>_damping_alpha", real("1/s", absent("left out: that of the structure"), not_negative), "Rayleigh damping of its elements, mass term");
     option("<structure>_<group>_damping_beta", real("s", absent("left out: that of the structure"), not_negative), "Rayleigh damping of its elements, stiffness term");
     option("<structure>_<group>_damping_ratio", real("-", absent("optional"), damping_ratio), "instead of alpha and beta: damping ratio at two frequencies");

@@ -257,11 +257,11 @@ void read_nonlinear_bar(OptionReader& options, const Names& names, Region& regio
   bar.slack = options.real(slack, names);
   read_hysteresis(options, names, {region.material.young * region.area}, bar);
   if (bar.slack > 0 && region.element != ElementType::tension_bar) {
-    options.refuse(slack, names, "for a bar that is tension_only");
+    options.refuse(slack, names, "for a bar that is tension_only or compression_only");
   }
   if (bar.yields() && region.element == ElementType::tension_bar) {
     options.refuse(bar.has_skeleton() ? law_skeleton : yield_force, names,
-                   "not for a bar that is tension_only");
+                   "not for a bar that is tension_only or compression_only");
   }
   if (bar.yields()) region.element = ElementType::yielding_bar;
 }

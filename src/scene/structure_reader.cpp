@@ -183,7 +183,7 @@ void read_solid(OptionReader& options, const Names& names, Region& region) {
   constexpr std::string_view area = "<structure>_<group>_area";
   const bool dashpot_alone = is_bar(region.element) && !options.given(area, names) &&
                              options.given("<structure>_<group>_dashpot", names);
-  for (const char* option : {"material", "tension_only"}) {
+  for (const char* option : {"material", "tension_only", "compression_only"}) {
     if (!dashpot_alone) break;
     options.forbid(
         std::string("<structure>_<group>_") + option, names,
@@ -198,9 +198,13 @@ void read_solid(OptionReader& options, const Names& names, Region& region) {
   }
   if (is_bar(region.element)) {
     if (!dashpot_alone) region.area = options.real(area, names);
-    if (options.boolean("<structure>_<group>_tension_only", names)) {
-      region.element = ElementType::tension_bar;
+    constexpr std::string_view pressed = "<structure>_<group>_compression_only";
+    const bool pulled = options.boolean("<structure>_<group>_tension_only", names);
+    region.compression_only = options.boolean(pressed, names);
+    if (pulled && region.compression_only) {
+      options.refuse(pressed, names, "not beside tension_only; leave one of the two out");
     }
+    if (pulled || region.compression_only) region.element = ElementType::tension_bar;
     read_nonlinear_bar(options, names, region);
   }
   if (is_shell(region.element)) read_yielding_membrane(options, names, region);

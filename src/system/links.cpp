@@ -83,11 +83,13 @@ void Links::add_bar(const Structure& structure, const Mesh& mesh, const ElementB
   const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
   // The modes of a reduced structure have every bar taut, and their damping is the bars' as well.
   const bool reduced = structure.modal.has_value();
+  // The elongation of one that resists shortening only is how far it is shortened.
+  const double sign = region.compression_only ? -1 : 1;
   const double beta = reduced ? 0 : structure.damping_of(region).beta;
   for (std::size_t d = 0; d < 3; ++d) {
     for (std::size_t end = 0; end < 2; ++end) {
       link.place[3 * end + d] = mesh.dof(nodes[end], static_cast<int>(d));
-      link.weight[3 * end + d] = (end == 0 ? -1 : 1) * (b[d] - a[d]) / length;
+      link.weight[3 * end + d] = (end == 0 ? -sign : sign) * (b[d] - a[d]) / length;
       if (link.place[3 * end + d] < 0) {
         link.held.push_back({nodes[end], static_cast<int>(d), link.weight[3 * end + d]});
       }

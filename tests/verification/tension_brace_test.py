@@ -10,8 +10,9 @@ import unittest
 
 import numpy
 
-from decks import clock, material, probes
-from recorded import Recorded
+import program
+from decks import clock, in_modes, material, probes
+from recorded import Recorded, assert_continues
 
 MASS, YOUNG, AREA, SPRING, SPEED = 100.0, 2e9, 1e-4, 30000.0, 0.5
 BRACES = 2 * (YOUNG * AREA / 5) * 0.8**2
@@ -90,6 +91,47 @@ class BracesOnOneSideBesideASpring(unittest.TestCase):
             self.assertLess(abs(times[:5] / exact - 1).max(), 1e-3)
             energy = sum(run.energy[name] for name in ("kinetic", "strain", "devices"))
             self.assertAlmostEqual(energy / (MASS * SPEED**2 / 2), 1, delta=1e-12)
+
+
+class PressedOnly(unittest.TestCase):
+    """Bars that resist shortening only, once a gap is closed: those on the right do what hooks on the left do."""
+
+    def words(self, side, gap, *more):
+        only = {"left": "tension_only", "right": "compression_only"}[side]
+        words = scene((side,), SPRING, 1e-3, 1.0)
+        at = words.index(f"-frame_{side}_tension_only")
+        return [*words[:at], f"-frame_{side}_{only}", *words[at + 1:], f"-frame_{side}_slack", gap, *more]
+
+    def same(self, one, other, tolerance=1e-12):
+        for name in ("hung.x", "hung.y"):
+            scale = abs(one.displacement("hung.x")).max()
+            self.assertLess(abs(one.displacement(name) - other.displacement(name)).max(), tolerance * scale)
+
+    def test_gap_and_hook(self):
+        for gap in (0, 5e-3):
+            hook = Recorded(self, self.words("left", gap))
+            self.assertLess(hook.displacement("hung.x").max(), -0.95 * hook.displacement("hung.x").min())
+            for ranks in (1, 2, 3):
+                self.same(hook, Recorded(self, self.words("right", gap), ranks))
+            self.same(hook, Recorded(self, self.words("right", gap, *in_modes("frame", 3)), 2), 1e-9)
+            damped = [self.words(side, gap, f"-frame_{side}_dashpot", 300) for side in ("left", "right")]
+            self.same(*(Recorded(self, words) for words in damped))
+
+    def test_at_rest(self):
+        """A load that closes the gap, and one that opens it, from which the run starts."""
+        gap, bar = 5e-3, YOUNG * AREA / 5
+        for force, place in ((600, (600 + 1.6 * bar * gap) / (SPRING + 1.28 * bar)), (-600, -600 / SPRING), (150, 150 / SPRING)):
+            for modal in ((), in_modes("frame", 3)):
+                run = Recorded(self, self.words("right", gap, "-loads", "push", "-push_on", "frame:mass", "-push_force",
+                                                f"{force},0,0", "-preload", "static", "-frame_initial_velocity", "0,0,0", *modal))
+                self.assertLess(abs(run.displacement("hung.x") / place - 1).max(), 1e-9)
+
+    def test_continues_and_is_refused(self):
+        assert_continues(self, self.words("right", 5e-3, "-output_interval", 1e-2), 0.5, 200, 2)
+        for more, words in ((("-frame_right_tension_only", "true"), "not beside tension_only"),
+                            (("-frame_right_yield_force", 50), "compression_only"),
+                            (("-frame_right_compression_only", "false"), "tension_only or compression_only")):
+            program.must_refuse(self, self.words("right", 5e-3, *more), words)
 
 
 if __name__ == "__main__":
