@@ -55,8 +55,66 @@ DAMPERS = {
                 + "".join(f"{v:10d}" for v in (7, 7, 7)) + "\n*SECTION_DISCRETE\n" + f"{7:10d}{0:10d}\n{0:10d}\n" + "*MAT_DAMPER_VISCOUS\n"
                 + f"{7:10d}{4e3:10.1f}\n" + "*ELEMENT_DISCRETE\n" + "".join(f"{v:8d}" for v in (9, 7, 2, 4, 0)) + "\n")}
 
+# A gap of 4 mm, 2e6 N/m beyond it, from (0, 0, 3) to a node 4 that is clamped at (2, 0, 3) or coincides with it.
+STOPS = {
+    "Nastran": ("model.bdf", NASTRAN + "GRID,4,,2.,0.,3.\nSPC1,1,123456,4\nCGAP,6,6,2,4\nPGAP,6,.004,,2.+6\n"),
+    "Nastran, in a system": ("model.bdf", NASTRAN + "GRID,4,,0.,0.,3.\nSPC1,1,123456,4\nCGAP,6,6,4,2,,,,5\nPGAP,6,.004,,2.+6\n"
+                             "CORD2R,5,,0.,0.,0.,0.,1.,0.,\n,-1.,0.,0.\n"),
+    "CalculiX": ("model.inp", ABAQUS.replace("3, 0., 0., 6.\n", "3, 0., 0., 6.\n4, 2., 0., 3.\n") + "*BOUNDARY\n4, 1, 6\n"
+                 "*ELEMENT, TYPE=GAPUNI, ELSET=PGAP_6\n9, 2, 4\n*GAP, ELSET=PGAP_6\n.004, 1., 0., 0., , 2e6\n")}
+
 
 class Dialects(unittest.TestCase):
+    def test_gaps_are_stops(self):
+        for what, (name, deck) in STOPS.items():
+            with self.subTest(what):
+                scene, said = imported.imported(self, name, deck)
+                options = yaml.safe_load(scene.read_text())
+                stop = {key: value if key in ("secondary", "primary") else [float(x) for x in str(value).split(",")]
+                        for key, value in options[options["contacts"]].items()}
+                self.assertEqual(stop, {"secondary": "model:gap_end", "primary": "wall", "along": [1.0, 0.0, 0.0], "gap": [.004],
+                                        "stiffness": [2e6]})
+                self.assertIn("stops with a gap 1", said)
+                imported.structure(self, scene, modes=3)
+        scene, _ = imported.imported(self, "model.bdf", NASTRAN + "CGAP,6,6,1,3\nPGAP,6,.004,,2.+6\nCGAP,7,6,2,3\n")
+        options = yaml.safe_load(scene.read_text())
+        self.assertEqual([[options[name][key] for key in ("secondary", "primary", "along")] for name in options["contacts"].split(",")],
+                         [["model:gap_end", "model:gap_end_2", "0,0,1"], ["model:gap_end_3", "model:gap_end_2", "0,0,1"]])
+        imported.structure(self, scene, modes=3)
+        # Closed from the start: bars that press, which a weight may close
+        for what in ("Nastran", "CalculiX"):
+            name, deck = STOPS[what]
+            scene, _ = imported.imported(self, name, deck.replace(".004", "0."))
+            options = yaml.safe_load(scene.read_text())
+            self.assertEqual(options["model"]["pgap_6"], {"element": "bar", "material": "springs_aslant", "area": "4e-05",
+                                                          "compression_only": "true"})
+            self.assertNotIn("contacts", options)
+            imported.structure(self, scene, modes=3)
+        refused(self, "model.bdf", STOPS["Nastran"][1].replace("SPC1,1,123456,4\n", ""), "no element and no support has")
+        for field, loss in (("PGAP,6,.004,5.,2.+6", "F0 OF PGAP"), ("PGAP,6,.004,,2.+6,,,.3", "MU1 OF PGAP")):
+            refused(self, "model.bdf", STOPS["Nastran"][1].replace("PGAP,6,.004,,2.+6", field), loss)
+
+    def test_gaps_and_hooks_of_sap2000(self):
+        """Between two joints and to the ground: a gap closes as joint J comes to joint I, a hook as it goes away."""
+        for kind, sign in (("Gap", -1), ("Hook", 1)):
+            number = "05 - GAP" if kind == "Gap" else "06 - HOOK"
+            law = table(f"LINK PROPERTY DEFINITIONS {number}", "Link=STOP   DOF=U1   Fixed=No   NonLinear=Yes   TransKE=0   TransCE=0   "
+                        "DJ=0   TransK=2000   TransOpen=.01")
+            deck = MODEL.replace("Link=STAY   LinkType=Linear", f"Link=STOP   LinkType={kind}").replace(
+                "LinkProp=STAY", "LinkProp=STOP").replace("END TABLE DATA", law + "END TABLE DATA")
+            one_joint = deck.replace("Link=2   JointI=11   JointJ=13", "Link=2   JointI=11   JointJ=11")
+            for text, along in ((deck, f"{-sign},0,0"), (one_joint, f"0,0,{sign}")):
+                scene, _ = imported.imported(self, "frame.s2k", text, "m,t,s")
+                options = yaml.safe_load(scene.read_text())
+                stop = options[options["contacts"]]
+                self.assertEqual((stop["primary"], stop["along"], float(stop["gap"]), float(stop["stiffness"])), ("wall", along, .01, 2e6))
+                imported.structure(self, scene, modes=3)
+                closed, _ = imported.imported(self, "frame.s2k", text.replace("TransOpen=.01", "TransOpen=0"), "m,t,s")
+                region = yaml.safe_load(closed.read_text())["frame"]["stop"]
+                self.assertEqual([name for name in region if name.endswith("_only")],
+                                 ["tension_only" if kind == "Hook" and text is deck else "compression_only"])
+                imported.structure(self, closed, modes=3)
+
     def test_dampers_along_a_skew_line_are_bars(self):
         for what, (name, deck) in DAMPERS.items():
             with self.subTest(what):

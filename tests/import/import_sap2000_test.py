@@ -226,7 +226,7 @@ class Sap2000(unittest.TestCase):
                  ("Mass3=3", "Mass3=0", "MASS THAT DIFFERS BY DIRECTION"), ("Constraint=BODY1   Type=Body", "Constraint=DIA   Type=Diaphragm",
                                                                           "CONSTRAINT OF TYPE DIAPHRAGM"),
                  ("Loads=No", "Loads=Yes", "MASS FROM LOADS"), ("I23=0", "I23=1E-6", "I23 OF A FRAME SECTION"),
-                 ("LinkType=Linear   Mass=0", "LinkType=Gap   Mass=0", "NONLINEAR LINK"), ("AnalSect=GIR", "AnalSect=TAPER",
+                 ("LinkType=Linear   Mass=0", "LinkType=Friction   Mass=0", "NONLINEAR LINK"), ("AnalSect=GIR", "AnalSect=TAPER",
                                                                                          "FRAME SECTION THAT IS NONPRISMATIC"),
                  ("SymType=Isotropic", "SymType=Orthotropic", "MATERIAL THAT IS NOT ISOTROPIC"), ("Fixed=No   TransKE=800", "Fixed=Yes",
                                                                                                 "FIXED COMPONENT OF A LINK"),

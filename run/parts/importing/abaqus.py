@@ -7,8 +7,8 @@ from .abaqus_cards import Block, Motion, Scope, blocks_of, motion_of
 from .abaqus_joints import JointReader
 from .abaqus_sections import SectionReader
 from .cards import is_whole_number, names_of, numbers, whole, whole_range
-from .geometry import cross, difference, permutation, unit
-from .model import BAR, BEAMS, AxialSpring, Element, InputFault, Material, Model, PointMass, Reading
+from .geometry import axis_between, cross, difference, permutation, unit
+from .model import BAR, BEAMS, AxialSpring, Element, Gap, InputFault, Material, Model, PointMass, Reading
 from .second_order import by_corners
 
 ELEMENTS = {"C3D8": ("hex8_full", 8), "C3D8I": ("hex8", 8), "C3D8R": ("hex8", 8), "C3D6": ("wedge6", 6),
@@ -16,7 +16,7 @@ ELEMENTS = {"C3D8": ("hex8_full", 8), "C3D8I": ("hex8", 8), "C3D8R": ("hex8", 8)
             "S3": ("shell", 3), "S3R": ("shell", 3), "S3RS": ("shell", 3), "STRI3": ("shell", 3), "B31": ("beam", 2),
             "B33": ("euler_beam", 2), "T3D2": (BAR, 2)}
 POINTS = {"MASS": 1, "ROTARYI": 1, "SPRING1": 1, "DASHPOT1": 1, "SPRING2": 2, "DASHPOT2": 2, "SPRINGA": 2,
-          "DASHPOTA": 2}
+          "DASHPOTA": 2, "GAPUNI": 2}
 # Those of second order: the element of their corners, all their nodes, and where the corners are among them.
 SECOND = {**dict.fromkeys(("C3D20", "C3D20R", "C3D20H", "C3D20RH"), ("hex8", 20, 8)),
           **dict.fromkeys(("C3D10", "C3D10M", "C3D10H", "C3D10MH", "C3D10HS", "C3D10T"), ("tet4", 10, 4)),
@@ -25,7 +25,7 @@ SECOND = {**dict.fromkeys(("C3D20", "C3D20R", "C3D20H", "C3D20RH"), ("hex8", 20,
           **dict.fromkeys(("B32", "B32R", "B32H"), ("beam", 3, (0, 2))), "T3D3": (BAR, 3, (0, 2))}
 # Nodes of elements that are counted and lost, so that their data are not taken for more elements.
 LOST = {"C3D8H": 8, "C3D8RH": 8, "B31OS": 2, "B31H": 2,
-        "M3D4": 4, "M3D4R": 4, "M3D3": 3, "SC8R": 8, "SC6R": 6, "CONN3D2": 2, "GAPUNI": 2, "CPS4": 4, "CPE4": 4,
+        "M3D4": 4, "M3D4R": 4, "M3D3": 3, "SC8R": 8, "SC6R": 6, "CONN3D2": 2, "CPS4": 4, "CPE4": 4,
         "CPS3": 3, "CAX4": 4, "R3D4": 4, "R3D3": 3, "SFM3D4": 4, "C3D5": 5}
 FACES = {8: ((0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)),
          6: ((0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)),
@@ -83,7 +83,7 @@ class Reader(Reading):
                          "DAMPING": self._damping, "SOLID SECTION": self.sections.solid,
                          "SHELL SECTION": self.sections.shell, "BEAM SECTION": self.sections.beam,
                          "BEAM GENERAL SECTION": self.sections.general, "NONSTRUCTURAL MASS": self.sections.added_mass,
-                         "SPRING": self._spring, "DASHPOT": self._spring, "MASS": self._mass,
+                         "SPRING": self._spring, "DASHPOT": self._spring, "GAP": self._gap, "MASS": self._mass,
                          "ROTARY INERTIA": self._mass, **self.joints.handlers}
         for wanted in (("NODE",), ("ELEMENT",), ("NSET", "ELSET"), ("SURFACE",), ("TRANSFORM", "ORIENTATION")):
             for block, scope, motion in self.blocks:
@@ -483,6 +483,20 @@ class Reader(Reading):
             dof = along[0] - 1
             dof = permutation(axes)[dof % 3] + dof // 3 * 3 if axes else dof
             self.model.add_spring(raw.nodes, dof, *both, name, raw.place)
+
+    def _gap(self, block: Block, scope: Scope, _motion) -> None:
+        """Clearance, direction from the first node to the second, and behind an area CalculiX's stiffness."""
+        if not block.data:
+            raise InputFault(f"{block.place}: *GAP has no clearance")
+        place, fields = block.data[0]
+        values = numbers(fields, place) + [0.0] * 6
+        for raw in self.elements_of(block.name("ELSET"), scope, block.place):
+            if raw.type != "GAPUNI":
+                raise InputFault(f"{block.place}: *GAP of element {raw.number}, which is a {raw.type}")
+            self.valued.add(id(raw))
+            if self.new("*GAP of element", scope.full(raw.number), values, block.place):
+                way = unit(values[1:4]) or axis_between([self.model.nodes[node] for node in raw.nodes], raw.place)
+                self.model.gaps.append(Gap(raw.nodes, way, values[0], values[5], block.name("ELSET"), raw.place))
 
 
 def read(path: Path) -> Model:

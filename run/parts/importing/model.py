@@ -100,7 +100,8 @@ class Spring:
 
 @dataclass(slots=True)
 class AxialSpring:
-    """Along the line between its two nodes; its dashpot goes by a power of the rate, and may be in series with a spring."""
+    """Along the line between its two nodes; its dashpot goes by a power of the rate, and may be in series with a spring.
+    `only`: the option by which it acts one way."""
 
     nodes: tuple
     stiffness: float
@@ -109,6 +110,20 @@ class AxialSpring:
     place: str = ""
     power: float = 1.0
     series: float = 0.0
+    only: str = ""
+
+
+@dataclass(slots=True)
+class Gap:
+    """Two nodes that may come together by `gap` along the unit vector `way`, in which the second lies beyond the first;
+    None: the ground. `stiffness` from there on, 0: it is hard."""
+
+    nodes: tuple
+    way: tuple
+    gap: float
+    stiffness: float = 0.0
+    name: str = "gap"
+    place: str = ""
 
 
 class Cards:
@@ -166,6 +181,7 @@ class Model:
     masses: list = field(default_factory=list)
     springs: list = field(default_factory=list)
     axial_springs: list = field(default_factory=list)
+    gaps: list = field(default_factory=list)
     supports: dict = field(default_factory=dict)  # node -> components
     rigid: list = field(default_factory=list)  # (name, nodes, place)
     in_part: list = field(default_factory=list)  # (name, hub, nodes that follow it, in these components, card, place)

@@ -57,7 +57,7 @@ class PropertyReader(Reading):
                          **dict.fromkeys(("PQUAD2", "PTRIA2", "PQDMEM", "PQDMEM1", "PQDMEM2", "PTRMEM"), self._plate), "PSHEAR": self._panel, "PBAR": self._bar,
                          "PBARL": self._shaped, "PBEAML": self._shaped, "PBEAM": self._beam, "PROD": self._rod,
                          "PTUBE": self._tube, "PELAS": self._scalar, "PDAMP": self._scalar, "PBUSH": self._bush,
-                         "PBUSH1D": self._line, "PVISC": self._line, "PMASS": self._scalar}
+                         "PBUSH1D": self._line, "PVISC": self._line, "PMASS": self._scalar, "PGAP": self._gap}
 
     def _material(self, card: Card) -> None:
         young, shear, poisson = (card.real(k) if card.text(k) else None for k in (1, 2, 3))
@@ -235,6 +235,14 @@ class PropertyReader(Reading):
         if card.real(3):
             self.lose("M OF PBUSH1D", "masses of bushings are not known", card.place)
         self.springs["PBUSH1D", card.int(0)] = card.real(1), card.real(2)
+
+    def _gap(self, card: Card) -> None:
+        """Opening and stiffness once it is closed."""
+        closed = card.real(3)
+        for at, word, most in ((2, "F0", 0.0), (4, "KB", 1e-3 * closed), (6, "MU1", 0.0), (7, "MU2", 0.0)):
+            if abs(card.real(at)) > most:
+                self.lose(f"{word} OF PGAP", "a gap has an opening and a stiffness once it is closed, no friction", card.place)
+        self.springs["PGAP", card.int(0)] = card.real(1), closed
 
     def _bush(self, card: Card) -> None:
         parts, key = {"K": [0.0] * 6, "B": [0.0] * 6}, None

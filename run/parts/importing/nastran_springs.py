@@ -2,7 +2,7 @@
 
 from .geometry import (along_global_axes, applied, axis_between, difference, frame_about, length, permutation, scaled,
                        sum_of)
-from .model import AxialSpring, InputFault, PointMass, Reading, Spring
+from .model import AxialSpring, Gap, InputFault, PointMass, Reading, Spring
 from .nastran_cards import GLOBAL, Card
 
 
@@ -14,7 +14,7 @@ class SpringReader(Reading):
         self.following = 0  # number of the last node at the end of an arm
         self.scalar_masses: dict = {}  # grid -> six masses and a card
         self.handlers = {"CELAS1": self._scalar, "CELAS2": self._scalar, "CDAMP1": self._scalar, "CDAMP2": self._scalar,
-                         "CBUSH": self._bush, "CBUSH1D": self._along, "CVISC": self._along, "CONM2": self._mass,
+                         "CBUSH": self._bush, "CBUSH1D": self._along, "CVISC": self._along, "CGAP": self._gap, "CONM2": self._mass,
                          "CONM1": self._matrix_mass, "CMASS1": self._scalar_mass, "CMASS2": self._scalar_mass}
 
     def _scalar(self, card: Card) -> bool | None:
@@ -102,6 +102,20 @@ class SpringReader(Reading):
             return self.lose(card.name, "springs along a line have two grid points that are apart", card.place)
         self.model.axial_springs.append(AxialSpring(nodes, *self.reader.properties.springs[key], f"{family.lower()}_{key[1]}",
                                                     card.place))
+        return None
+
+    def _gap(self, card: Card) -> bool | None:
+        """Along x of its system, else along the line of its grid points."""
+        key = "PGAP", card.int(1, card.int(0))
+        if key not in self.reader.properties.springs:
+            raise InputFault(f"{card.place}: PGAP {key[1]} is not in the deck")
+        nodes = card.int(2), card.int(3)
+        places = [self.model.at(node, card.place) for node in nodes]
+        if card.text(7):
+            way = self.reader.systems.axes_at(card.int(7), places[0], card.place)[0]
+        else:
+            way = axis_between(places, f"{card.place}: gap {card.int(0)}")
+        self.model.gaps.append(Gap(nodes, way, *self.reader.properties.springs[key], f"pgap_{key[1]}", card.place))
         return None
 
     def _scalar_mass(self, card: Card) -> bool | None:

@@ -8,8 +8,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from .cards import is_whole_number
-from .geometry import along_global_axes, axis_between, cross, difference, frame_about, length, turned_z
-from .model import COMPONENTS, AxialSpring, Element, InputFault, Material, Model, PointMass, Property, Section, Spring
+from .geometry import along_global_axes, axis_between, cross, difference, frame_about, length, scaled, turned_z
+from .model import COMPONENTS, AxialSpring, Element, Gap, InputFault, Material, Model, PointMass, Property, Section, Spring
 from .sap2000_tables import Row, tables_of
 
 DOFS = ("U1", "U2", "U3", "R1", "R2", "R3")
@@ -27,7 +27,7 @@ KEYS = (("JOINT CONSTRAINT", ()), ("JOINT", ("Joint",)), ("MATERIAL", ("Material
         ("FRAME", ("Frame",)), ("AREA SECTION PROPERTIES", ("Section",)), ("AREA", ("Area",)), ("LINK PROPERTY DEFINITIONS", ("Link", "DOF")),
         ("LINK", ("Link",)), ("CONNECTIVITY - FRAME", ("Frame",)), ("CONNECTIVITY - AREA", ("Area",)), ("CONNECTIVITY - LINK", ("Link",)),
         ("CONSTRAINT DEFINITIONS", ("Name",)), ("ACTIVE DEGREES", ("",)))
-NONLINEAR = "links are linear springs and dashpots, or dampers along their line; give their laws in the scene"
+NONLINEAR = "links are linear springs and dashpots, or dampers, gaps and hooks along their line; give their laws in the scene"
 
 
 class Reader:
@@ -44,6 +44,7 @@ class Reader:
         self.of_frame: dict = {}  # table -> label -> row
         self.constraints: dict = {}  # name -> kind
         self.links: dict = {}  # property -> DOF -> row
+        self.kinds: dict = {}  # property -> type of its links
         self.bodies: dict = {}  # constraint -> nodes
         self.next, self.tree = 1, None
         tables: dict = {}
@@ -59,7 +60,8 @@ class Reader:
                      "OFFSET ALONG LENGTH ASSIGNMENTS", "TENSION AND COMPRESSION LIMITS")},
                  "AREA SECTION ASSIGNMENTS": self._of_frame, "AREA AUTO MESH ASSIGNMENTS": self._of_frame,
                  "LINK PROPERTY DEFINITIONS 01 - GENERAL": self._link_kind, "LINK PROPERTY DEFINITIONS 02 - LINEAR": self._link_law,
-                 "LINK PROPERTY DEFINITIONS 04 - DAMPER": self._link_law,
+                 **dict.fromkeys((f"LINK PROPERTY DEFINITIONS {kind}" for kind in ("04 - DAMPER", "05 - GAP", "06 - HOOK")),
+                                 self._link_law),
                  "LINK PROPERTY ASSIGNMENTS": self._of_frame,
                  "CONNECTIVITY - FRAME": self._frame, "CONNECTIVITY - AREA": self._area, "CONNECTIVITY - LINK": self._link,
                  "JOINT RESTRAINT ASSIGNMENTS": self._restraint, "JOINT SPRING ASSIGNMENTS 1 - UNCOUPLED": self._spring,
@@ -287,9 +289,10 @@ class Reader:
     # Links.
 
     def _link_kind(self, row: Row) -> None:
-        if not row.values.get("LinkType", "Linear").startswith(("Linear", "Damper")):
+        if not row.values.get("LinkType", "Linear").startswith(("Linear", "Damper", "Gap", "Hook")):
             self.lose(row, "NONLINEAR LINK", NONLINEAR)
-        elif row.real("Mass", 0.0) or any(row.real(f"RotInert{k}", 0.0) for k in (1, 2, 3)):
+        self.kinds[row.text("Link")] = row.values.get("LinkType", "Linear")
+        if row.real("Mass", 0.0) or any(row.real(f"RotInert{k}", 0.0) for k in (1, 2, 3)):
             self.lose(row, "MASS OF A LINK", "links have no mass; give it to joints")
 
     def _link_law(self, row: Row) -> None:
@@ -311,17 +314,22 @@ class Reader:
             nodes.append(self.node(row, "JointJ"))
         way = difference(self.model.nodes[nodes[1]], self.model.nodes[nodes[0]]) if len(nodes) == 2 else (0.0, 0.0, 0.0)
         name = assigned.text("LinkProp")
+        first = axis_between([(0.0, 0.0, 0.0), way], row.place) if length(way) > 0 else (0.0, 0.0, 1.0)
         if bent:
-            damper = bent.get("U1")
-            if damper is None or len(laws) > 1 or not length(way) > 0 or not damper.real("TransK", 0.0) > 0:
+            law, kind = bent.get("U1"), self.kinds.get(name, "")
+            if law is None or len(laws) > 1 or not law.real("TransK", 0.0) > 0 or (kind.startswith("Damper") and not length(way) > 0):
                 return self.lose(row, "NONLINEAR LINK", NONLINEAR)
-            self.model.axial_springs.append(AxialSpring(tuple(nodes), 0.0, damper.real("TransC"), name, row.place,
-                                                        damper.real("CExp", 1.0), damper.real("TransK")))
+            if kind.startswith("Damper"):
+                self.model.axial_springs.append(AxialSpring(tuple(nodes), 0.0, law.real("TransC"), name, row.place,
+                                                            law.real("CExp", 1.0), law.real("TransK")))
+                return None
+            ends = (nodes[-1], nodes[0]) if len(nodes) == 2 else (nodes[0], None)  # the ground is the first end
+            opening = law.real("TransOpen", law.real("Open", 0.0))
+            self.model.gaps.append(Gap(ends, scaled(first, 1.0 if kind == "Hook" else -1.0), opening, law.real("TransK"), name, row.place))
             return None
         if length(way) > 0 and not any(stiffness[1:]) and not any(dashpot[1:]):
             self.model.axial_springs.append(AxialSpring(tuple(nodes), stiffness[0], dashpot[0], name, row.place))
             return
-        first = axis_between([(0.0, 0.0, 0.0), way], row.place) if length(way) > 0 else (0.0, 0.0, 1.0)
         frame = frame_about(first, (1.0, 0.0, 0.0) if abs(first[2]) > 1 - 1e-6 / 2 else (0.0, 0.0, 1.0), row.place)
         axes = (first, frame[2], cross(first, frame[2]))
         turned = along_global_axes(stiffness, axes), along_global_axes(dashpot, axes)

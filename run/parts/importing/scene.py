@@ -1,15 +1,16 @@
 """The writer: a neutral model in SI as a scene and a mesh, whatever it was read from."""
 
-from .geometry import difference, length, unit
+from .geometry import difference, dot, length, scaled, sum_of, unit
 from .joints import Joints, turning_nodes
 from .mesh_file import MeshFile, Names, plain
-from .model import ALL, BAR, BEAMS, COMPONENTS, ROTATIONS, SHELL, SOLIDS, InputFault, Material, Model
+from .model import ALL, BAR, BEAMS, COMPONENTS, ROTATIONS, SHELL, SOLIDS, TRANSLATIONS, AxialSpring, InputFault, Material, Model
 from .sections import own_name
 
 # First words of the options of a structure: no group has their names.
 WORDS = ("absorbing", "allow", "clamp", "damping", "diaphragm", "gravity", "ignore", "initial", "join", "levels",
          "mass", "matrices", "mesh", "modal", "model", "p", "pin", "rigid", "soil", "stiffness", "target", "tie",
          "time", "none", "ungrouped")
+HEADS = ("title", "structures", "include", "contacts", "end_time", "output")  # of the scene
 SPRING_YOUNG, SPRING_DENSITY = 1e11, 1e-9  # of bars that stand for springs aslant: their mass is nothing
 
 
@@ -32,6 +33,7 @@ class Scene:
         self.model, self.structure = model, structure
         self.names, self.material_names, self.section_names = Names(WORDS), Names(()), Names(())
         self.options: dict = {}
+        self.contacts: dict = {}
         self.materials: dict = {}
         self.sections: dict = {}
         self.written: dict = {}  # material of the model -> name in the scene
@@ -40,6 +42,7 @@ class Scene:
         self.heavy = any(mass.mass > 0 for mass in model.masses) or any(one.added for one in model.properties.values())
         self.regions: dict = {}  # name of a region -> places of its elements
         self._check()
+        self._touching()
         self.joints = Joints(model)
         self.turning = self._turning()
         if model.has_properties:
@@ -52,6 +55,7 @@ class Scene:
         self._sets()
         self._motions()
         self._supports()
+        self._gaps()
         if not self.mesh.cells:
             raise InputFault("no element is left")
 
@@ -61,9 +65,29 @@ class Scene:
                 self.model.at(node, element.place)
             if self.model.has_properties and element.property not in self.model.properties:
                 raise InputFault(f"{element.place}: element {element.number} has no section or property")
-        for part in (*self.model.masses, *self.model.springs, *self.model.axial_springs):
+        for part in (*self.model.masses, *self.model.springs, *self.model.axial_springs, *self.model.gaps):
             for node in [part.node] if hasattr(part, "node") else part.nodes:
-                self.model.at(node, part.place)
+                if node is not None:
+                    self.model.at(node, part.place)
+
+    def _touching(self) -> None:
+        """Gaps that are closed from the start become bars that act one way, which weight may press; to the ground over 1 m."""
+        for gap in list(self.model.gaps):
+            nodes = gap.nodes
+            if nodes[1] is None:
+                nodes = nodes[0], max(self.model.nodes) + 1
+                places = [self.model.nodes[nodes[0]], sum_of(self.model.nodes[nodes[0]], gap.way)]
+            else:
+                places = [self.model.nodes[node] for node in nodes]
+            line = unit(difference(places[1], places[0]))
+            if gap.gap != 0 or not gap.stiffness > 0 or line is None or abs(abs(dot(line, gap.way)) - 1) > 1e-9:
+                continue
+            if nodes[1] not in self.model.nodes:
+                self.model.nodes[nodes[1]] = places[1]
+                self.model.hold(nodes[1], TRANSLATIONS)
+            only = "compression_only" if dot(line, gap.way) > 0 else "tension_only"
+            self.model.axial_springs.append(AxialSpring(nodes, gap.stiffness, name=gap.name, place=gap.place, only=only))
+            self.model.gaps.remove(gap)
 
     def _turning(self) -> set:
         """Nodes with rotations."""
@@ -225,7 +249,7 @@ class Scene:
         if size <= self.joints.near:
             raise InputFault(f"{spring.place}: a spring along the line between two nodes that coincide")
         along = [k for k in range(3) if abs(abs(way[k]) - size) <= 1e-9 * size]
-        if along and not spring.series:
+        if along and not spring.series and not spring.only:
             self.model.add_spring(spring.nodes, along[0], spring.stiffness, spring.dashpot, spring.name, spring.place)
             return
         if min(spring.stiffness, spring.dashpot) < 0:
@@ -234,6 +258,8 @@ class Scene:
         if spring.stiffness:
             region |= {"material": "springs_aslant", "area": float(f"{spring.stiffness * size / SPRING_YOUNG:.13g}")}
             self.materials["springs_aslant"] = {"young": SPRING_YOUNG, "poisson": 0, "density": SPRING_DENSITY}
+        if spring.only:
+            region[spring.only] = "true"
         if spring.dashpot:
             region["dashpot"] = spring.dashpot
             region |= {name: value for name, value in (("dashpot_exponent", spring.power), ("dashpot_stiffness", spring.series))
@@ -315,6 +341,29 @@ class Scene:
             self.options["clamp"] = ",".join(clamps)
         if self.model.alpha or self.model.beta:
             self.options["damping"] = {"alpha": self.model.alpha, "beta": self.model.beta}
+
+
+    def _gaps(self) -> None:
+        """Stops between nodes; one that nothing but its support holds is the ground."""
+        names, ends = Names((self.structure, "material", "section", *HEADS)), {}
+        for gap in self.model.gaps:
+            nodes, way = gap.nodes, gap.way
+            fixed = [node is None or node not in self.joints.used for node in nodes]
+            if fixed[0]:
+                nodes, way, fixed = nodes[::-1], scaled(way, -1.0), fixed[::-1]
+            lone = [node for node, alone in zip(nodes, fixed) if alone and node is not None
+                    and self.model.supports.get(node, 0) & TRANSLATIONS != TRANSLATIONS]
+            if fixed[0] or lone or gap.gap < 0:
+                raise InputFault(f"{gap.place}: " + ("a gap below zero" if gap.gap < 0 else
+                                                     "a gap at a node that no element and no support has"))
+            for node in nodes:
+                if node not in ends and node in self.joints.used:
+                    ends[node] = f"{self.structure}:{self._points('gap_end', (node,))}"
+            name = names.free(gap.name)
+            self.contacts[name] = {"secondary": ends[nodes[0]], "primary": "wall" if fixed[1] else ends[nodes[1]],
+                                   "along": numbers(way), "gap": gap.gap}
+            if gap.stiffness:
+                self.contacts[name]["stiffness"] = gap.stiffness
 
 
 def family_of(kind: str) -> str:

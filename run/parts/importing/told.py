@@ -43,7 +43,8 @@ def model_told(scene, mass: float, centre, expected: float | None) -> list:
     supports = ", ".join(f"{name} {held[name]}" for name in COMPONENTS if held[name])
     lines.append(f"supported nodes {len(scene.held)}" + (f": {supports}" if supports else ""))
     for what, count in (("rigid bodies", len(scene.joints.rigid) + len(scene.joints.in_part)), ("arms", len(scene.joints.joined)),
-                        ("hinges and pins", len(scene.joints.pins)), ("ties", len(model.ties))):
+                        ("hinges and pins", len(scene.joints.pins)), ("ties", len(model.ties)),
+                        ("stops with a gap", len(scene.contacts))):
         if count:
             lines.append(f"{what} {count}")
     if model.has_properties:

@@ -99,5 +99,8 @@ def in_si(model: Model, units: Units) -> None:
         spring.stiffness *= units.force / length
         spring.dashpot *= units.force * (units.time / length)**spring.power
         spring.series *= units.force / length
+    for gap in model.gaps:
+        gap.gap *= length
+        gap.stiffness *= units.force / length
     model.alpha /= units.time
     model.beta *= units.time
