@@ -79,6 +79,11 @@ std::string told_bands(const std::array<double, compared_bands.size()>& rms) {
   return text;
 }
 
+/// Subject of a sentence about a fidelity, with its verb.
+std::string fidelity_subject(int modes) {
+  return modes > 0 ? std::to_string(modes) + " modes are" : "full order with scaled mass is";
+}
+
 }  // namespace
 
 Facts warning_facts(std::span<const std::string> lines) {
@@ -219,16 +224,23 @@ Facts climb_facts(const Scene& scene) {
   if (climb.target == 0) return facts;
   Json tried = Json::array();
   for (const TriedFidelity& one : climb.tried) {
-    tried.push_back({{"modes", one.modes}, {"error", one.error}, {"wall_time", one.wall_time}});
+    tried.push_back({{"modes", one.modes},
+                     {"scaled_mass", one.modes == 0},
+                     {"error", one.error},
+                     {"wall_time", one.wall_time}});
   }
-  facts.values = {
-      {"target", climb.target}, {"modes", climb.modes}, {"tried", tried}, {"reason", climb.reason}};
+  facts.values = {{"target", climb.target},
+                  {"modes", climb.modes},
+                  {"scaled_mass", climb.scaled},
+                  {"tried", tried},
+                  {"reason", climb.reason}};
   facts.say("fidelity target {target:.4g %}:");
   for (const TriedFidelity& one : climb.tried) {
-    facts.say(" {} modes are {:.3g %} off ({:.0f} s),", {one.modes, one.error, one.wall_time});
+    facts.say(" {} {:.3g %} off ({:.0f} s),",
+              {fidelity_subject(one.modes), one.error, one.wall_time});
   }
-  facts.text += climb.modes > 0 ? sentence(" {} modes are tried\n", {climb.modes})
-                                : " full order is taken, " + climb.reason + "\n";
+  facts.text += climb.modes > 0 || climb.scaled ? " " + fidelity_subject(climb.modes) + " tried\n"
+                                                : " full order is taken, " + climb.reason + "\n";
   return facts;
 }
 
@@ -262,7 +274,7 @@ Facts fidelity_facts(const Scene& scene, const RunStatistics& run) {
                          {"wall_time", estimate.wall_time},
                          {"full_run_time", estimate.full_run_time}});
   facts.say(
-      "\nfloor spectra of the reduced structures beside full order ({fidelity/full_dofs} dofs), "
+      "\nfloor spectra of this run beside full order ({fidelity/full_dofs} dofs), "
       "estimated by {fidelity/window:.4g} s at full order,\n"
       "  {fidelity/window_reason}, and by the motion changed by {fidelity/disturbance:.2g %}; rms "
       "of the logarithm of their ratio\n"
@@ -281,9 +293,10 @@ Facts fidelity_facts(const Scene& scene, const RunStatistics& run) {
       "  the estimate took {fidelity/wall_time:.1f} s; the whole run at full order would take "
       "{fidelity/full_run_time:.0f} s\n");
   if (scene.fidelity.target > 0) {
-    facts.say("  {} modes are {} the accepted {:.4g %}\n",
-              {scene.fidelity.modes, estimate.rms[0] <= scene.fidelity.target ? "within" : "beyond",
-               scene.fidelity.target});
+    facts.say(
+        "  {} {} the accepted {:.4g %}\n",
+        {fidelity_subject(scene.fidelity.modes),
+         estimate.rms[0] <= scene.fidelity.target ? "within" : "beyond", scene.fidelity.target});
   }
   return facts;
 }

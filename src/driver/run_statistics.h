@@ -62,6 +62,10 @@ struct FidelityEstimate {
   double time_step = 0;      ///< of full order [s]
   double wall_time = 0;      ///< of the estimate [s]
   double full_run_time = 0;  ///< that the whole run would take at full order [s]
+  /// Steps to scale mass for at full order, per structure, 0 where nothing is gained [s]; empty
+  /// where stiff elements do not hold the step.
+  std::vector<double> scaled_steps;
+  double scaled_run_time = 0;  ///< that the whole run would take so [s]
 };
 
 /// How far the pairs of a contact have closed since the start of a run.

@@ -17,6 +17,9 @@ constexpr int first_modes = 25;
 /// Error over target above which the modes grow twice as fast.
 constexpr double far_off = 4;
 
+/// Runs that a run with its estimate takes: it, once more, and under the two other motions.
+constexpr double runs_of_estimate = 4;
+
 /// Seconds at full order by which errors are estimated where the scene names none.
 constexpr const char* usual_window = "1";
 
@@ -70,6 +73,29 @@ ReadScene read_reduced(const OptionsDatabase& options, const FidelityClimb& clim
   }
 }
 
+/// Runs the scene at full order with the scaled mass that an estimate offers, where the user gives
+/// none; whether it is within the target. Collective.
+bool run_scaled(MPI_Comm comm, const Scene& scene, const OptionsDatabase& database,
+                const FidelityEstimate& estimate, const SceneOrigin& origin, FidelityClimb& climb) {
+  OptionsDatabase options = options_of(database, {}, 1);
+  bool any = false;
+  for (std::size_t s = 0; s < estimate.scaled_steps.size(); ++s) {
+    const Structure& structure = scene.structures[s];
+    if (estimate.scaled_steps[s] == 0 || structure.mass_scaling > 0 || structure.p_delta) continue;
+    options[structure.name + "_mass_scaling"] = sentence("{:.3g}", {estimate.scaled_steps[s]});
+    any = true;
+  }
+  if (!any) return false;
+  FidelityClimb here = climb;
+  here.modes = 0;
+  here.scaled = true;
+  here.reason.clear();
+  const RunOutcome outcome = run_estimated(comm, read_with(options, here), origin);
+  const double error = outcome.fidelity ? outcome.fidelity->rms[0] : 0;
+  climb.tried.push_back({0, error, outcome.wall_time});
+  return error <= climb.target;
+}
+
 }  // namespace
 
 RunOutcome run_estimated(MPI_Comm comm, ReadScene read, const SceneOrigin& origin) {
@@ -95,6 +121,7 @@ void run_within_target(MPI_Comm comm, const ReadScene& read, const OptionsDataba
   const std::vector<std::string> structures = open_structures(read.scene, database);
   FidelityClimb climb = read.scene.fidelity;
   climb.modes = first_modes;
+  bool scaled_tried = false;
   while (climb.reason.empty()) {
     ReadScene next = read_reduced(options_of(database, structures, climb.modes), climb);
     if (const std::string why = without_window(next.scene); !why.empty()) {
@@ -111,6 +138,11 @@ void run_within_target(MPI_Comm comm, const ReadScene& read, const OptionsDataba
     } else if (2 * static_cast<std::size_t>(climb.modes) >= outcome.dofs) {
       climb.reason = sentence("which has {} dofs, no more than twice the modes", {outcome.dofs});
     }
+    const double full = outcome.fidelity->full_run_time;
+    const double next_cost = climb.reason.empty() ? std::min(2 * outcome.wall_time, full) : full;
+    if (scaled_tried || runs_of_estimate * outcome.fidelity->scaled_run_time > next_cost) continue;
+    scaled_tried = true;
+    if (run_scaled(comm, read.scene, database, *outcome.fidelity, origin, climb)) return;
   }
   climb.modes = 0;
   run_estimated(comm, read_with(options_of(database, structures, 0), climb), origin);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -348,6 +349,21 @@ std::vector<ChannelDistance> distances(const Model& model, const Spectra& found,
   return channels;
 }
 
+/// Scaled mass at full order as single elements offer it, and its time for the whole run.
+void offer_scaled_mass(const Model& full, FidelityEstimate& estimate) {
+  if (full.step_source != StepSource::stability) return;
+  double step = std::numeric_limits<double>::infinity();
+  double cost = 1;
+  for (const Building& building : full.buildings) {
+    const ScalingOffer& offer = building.system->scaling_offer;
+    const double stable = building.limits.stable_time_step;
+    estimate.scaled_steps.push_back(offer.allowed > stable ? offer.time_step : 0);
+    step = std::min(step, std::max(offer.allowed, stable));
+    cost = std::max(cost, offer.cost);
+  }
+  estimate.scaled_run_time = estimate.full_run_time * cost * full.step_limits.stable / step;
+}
+
 /// Velocities of the sum of the inherited motion and of full order in the records of a window, and
 /// its impulses. Collective.
 std::vector<double> run_full_window(MPI_Comm comm, const Scene& scene, const Model& model,
@@ -384,6 +400,7 @@ std::vector<double> run_full_window(MPI_Comm comm, const Scene& scene, const Mod
   estimate.full_dofs = full.dofs();
   estimate.time_step = full.time_step;
   estimate.full_run_time = seconds * scene.end_time / (estimate.end - start);
+  offer_scaled_mass(full, estimate);
   return velocities;
 }
 
@@ -463,7 +480,7 @@ std::string without_window(const Scene& scene) {
   }
   bool any = false;
   for (const Structure& structure : scene.structures) {
-    any = any || structure.modal.has_value();
+    any = any || structure.modal || structure.mass_scaling > 0;
     if (structure.modal && !structure.modal->damping_ratios.empty()) {
       return "the damping ratios of modes of " + structure.name + " are none of its full order";
     }
@@ -474,7 +491,7 @@ std::string without_window(const Scene& scene) {
       }
     }
   }
-  return any ? "" : "no structure is reduced";
+  return any ? "" : "no structure is reduced, nor its mass scaled";
 }
 
 }  // namespace pounding

@@ -51,9 +51,9 @@ struct SpectraRequest {
   }
 };
 
-/// A reduction that was run for the sake of an accepted error, and had a larger one.
+/// A run for the sake of an accepted error that had a larger one.
 struct TriedFidelity {
-  int modes = 0;         ///< of every reduced structure
+  int modes = 0;         ///< of every reduced structure; 0: full order with scaled mass
   double error = 0;      ///< estimated, rms of the logarithm of the floor spectra's ratio [-]
   double wall_time = 0;  ///< estimate included [s]
 };
@@ -62,6 +62,7 @@ struct TriedFidelity {
 struct FidelityClimb {
   double target = 0;                 ///< that error, rms as above [-]; 0: none
   int modes = 0;                     ///< of the structures in this run; 0: full order
+  bool scaled = false;               ///< with scaled mass
   std::vector<TriedFidelity> tried;  ///< before it
   std::string reason;                ///< why it is at full order; empty where it is not
 };

@@ -75,6 +75,17 @@ class Estimate(unittest.TestCase):
         _, told = self.estimate(words + reduced(("tall", "low"), 1000, 0.5))
         self.assertLess(told["window_rms"]["1-400"], 0.004)
 
+    def test_scaled_mass_at_full_order(self):
+        """A run of the coarse pair that hits; without it the same at its own step."""
+        words = program.COARSE_PAIR + ["-modes", 0, "-floor1_gap", 0.002, "-floor2_gap", 0.002, "-motion_x_duration", 12,
+                                       "-motion_x_envelope", "0.2,3", "-motion_x_pga", 4, "-end_time", 0.8,
+                                       "-spectra_frequencies", "1:400:131log"]
+        full = program.must_run(self, words)[0]
+        folder, told = self.estimate([*words, "-s1_mass_scaling", 4e-5, "-s2_mass_scaling", 4e-5, "-fidelity_window", 0.2])
+        ratio = told["rms"]["1-400"] / true_error(pounding.load(folder), pounding.load(full))
+        self.assertGreater(ratio, 0.5, told)
+        self.assertLess(ratio, 2, told)
+
     def test_bands_that_were_not_looked_at(self):
         words = [*PIERS, *reduced(("tall", "low"), 6, 0.1), "-end_time", 0.6, "-spectra_frequencies"]
         result = program.must_end(self, [*words, "1:33:30log", "-output", os.path.join(self.folder, "low")])
@@ -116,6 +127,22 @@ class Target(unittest.TestCase):
         result = program.must_end(self, words)
         self.assertIn("full order is taken, which", result.stdout)
         self.assertIn("25 modes are", result.stdout)
+
+    def test_scaled_mass_is_tried_where_stiff_beams_hold_the_step(self):
+        """Columns of 20 beams: so many steps that four runs with scaled mass cost less than one without."""
+        words = ["-options_file", "petsc-options/azalee/gap2.yaml", "-modes", 0, "-end_time", 0.01, "-fidelity_window", 0.005,
+                 "-spectra_frequencies", "1:400:31log", "-s1_mesh_set", "cells_x=7,cells_y=5,column_elements=20",
+                 "-s2_mesh_set", "cells_x=5,cells_y=5,column_elements=20"]
+        folder, summary = program.must_run(self, [*words, "-fidelity_target", 1e-6])
+        scaled, = (one for one in summary["fidelity_climb"]["tried"] if one["scaled_mass"])
+        self.assertEqual(scaled["modes"], 0)
+        self.assertGreater(scaled["error"], 1e-6)
+        self.assertGreater(scaled["wall_time"], 0)
+        self.assertNotIn("mass_scaling", summary["structures"]["s1"])  # full order in the end
+        _, summary = program.must_run(self, [*words, "-fidelity_target", 2 * scaled["error"]])
+        self.assertTrue(summary["fidelity_climb"]["scaled_mass"])
+        self.assertLessEqual(summary["fidelity"]["rms"]["1-400"], 2 * scaled["error"])
+        self.assertGreater(summary["structures"]["s2"]["mass_scaling"]["elements"], 0)
 
     def test_what_the_user_gave_wins(self):
         _, summary = program.must_run(self, PIERS + ["-fidelity_target", 0.5, "-fidelity_window", 0.2, "-tall_model", "full"])
