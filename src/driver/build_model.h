@@ -13,10 +13,9 @@
 
 namespace pounding {
 
-/// Work on every rank once the faces in contact are known, before bases are computed, with the
-/// places of the rows on their faces. The reports of the interface are on rank 0 only.
-using ContactsKnown =
-    std::function<void(const interactions::Interface&, const std::vector<interactions::GapShare>&)>;
+/// Work on every rank once the faces in contact are known, before bases are computed. The reports
+/// of the interface are on rank 0 only.
+using ContactsKnown = std::function<void(const interactions::Interface&)>;
 
 /// Reads, partitions, distributes and assembles; finds modes, omega_max and the time step. Soil
 /// gets its foundation from the mesh, and the scene keeps it. The model borrows from the scene.

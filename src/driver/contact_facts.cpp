@@ -200,10 +200,10 @@ Facts joint_facts(const Scene& scene, const Model& model, const RunStatistics& r
   return facts;
 }
 
-std::vector<std::string> pass_warnings(const Scene& scene, const RunStatistics& statistics) {
+std::vector<std::string> pass_warnings(const Scene& scene, std::span<const OtherPass> passes) {
   std::vector<std::string> warnings;
-  for (std::size_t c = 0; c < statistics.other_passes.size(); ++c) {
-    const OtherPass& other = statistics.other_passes[c];
+  for (std::size_t c = 0; c < passes.size(); ++c) {
+    const OtherPass& other = passes[c];
     if (!(other.depth > std::min(OtherPass::deep, OtherPass::deep_part * other.facet_size))) {
       continue;
     }

@@ -29,9 +29,6 @@ ImpactCatalogue make_catalogue(const Scene& scene, const Model& model) {
           {scene.impact_merge_time, scene.force_window, model.time_step}};
 }
 
-/// Faces slide with the sway of their structures: looked at this often, a slide is seen [s].
-constexpr double look_interval = 1e-3;
-
 /// The numbers of a slide in a saved state.
 constexpr auto slide_members = [](auto& slide, const auto& take) {
   take(slide.distance, slide.facet_size, slide.since);
@@ -200,7 +197,8 @@ void ImpactWatch::report(RunStatistics& statistics) {
 
 SlideWatch::SlideWatch(const ObservedRun& run)
     : run_(run),
-      stride_(static_cast<std::int64_t>(std::max(1.0, look_interval / run.model.time_step))),
+      stride_(
+          static_cast<std::int64_t>(std::max(1.0, OtherPass::look_interval / run.model.time_step))),
       operator_(run.comm, looked_at(run.model.interface), run.model.meshes),
       traces_(interactions::make_traces(operator_, run.model.systems, run.model.meshes, false)),
       gather_(run.comm,

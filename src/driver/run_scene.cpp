@@ -160,7 +160,7 @@ RunOutcome run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
         displacement_warnings(loop.recorder().largest_displacement(), model.interface.model_size);
     append(contact_warnings(statistics.complementarity_residual), statistics.warnings);
     append(slide_warnings(scene, statistics), statistics.warnings);
-    append(pass_warnings(scene, statistics), statistics.warnings);
+    append(pass_warnings(scene, statistics.other_passes), statistics.warnings);
     append(coarse_spectra_warnings(scene, capacities), statistics.warnings);
     append(closing_warnings(scene, statistics), statistics.warnings);
     append(pendulum_warnings(statistics), statistics.warnings);

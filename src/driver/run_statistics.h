@@ -94,6 +94,8 @@ struct OtherPass {
   std::array<double, 2> place{};  ///< of the node on the tangent axes [m]
   double time = 0;                ///< when [s]
 
+  /// Faces slide and sway with their structures: a look this often sees it [s].
+  static constexpr double look_interval = 1e-3;
   /// Depths that count, in metres and as a part of the facet.
   static constexpr double deep = 1e-3;
   static constexpr double deep_part = 0.01;

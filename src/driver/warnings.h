@@ -44,7 +44,7 @@ std::vector<std::string> contact_warnings(double residual);
 std::vector<std::string> slide_warnings(const Scene& scene, const RunStatistics& statistics);
 
 /// Contacts of one pass whose primary went deep into their secondary.
-std::vector<std::string> pass_warnings(const Scene& scene, const RunStatistics& statistics);
+std::vector<std::string> pass_warnings(const Scene& scene, std::span<const OtherPass> passes);
 
 /// Names of all that a closing factor multiplies: "motion", "motion and loads" where some of those
 /// are not in the rest from which a run starts, "weight" likewise.

@@ -61,7 +61,7 @@ void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, MeshReader& rea
 
 WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model) {
   const std::size_t count = scene.structures.size();
-  WholeMeshes whole{std::vector<GlobalMesh>(count), std::vector<MatPlace>(count), {}};
+  WholeMeshes whole{std::vector<GlobalMesh>(count), std::vector<MatPlace>(count)};
   std::vector<const Structure*> structures;
   for (const Structure& structure : scene.structures) structures.push_back(&structure);
   MeshReader reader(std::move(structures), scene.mesh_time_limit);
@@ -76,7 +76,7 @@ WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model) {
         "seccomp alone");
   }
   const Progress progress(comm, "faces in contact and probes", scene.progress_interval);
-  model.interface = interactions::find_interface(scene, whole.meshes, &whole.gap_shares);
+  model.interface = interactions::find_interface(scene, whole.meshes);
   model.probes = resolve_probes(scene, whole.meshes);
   model.forces = resolve_forces(scene, whole.meshes);
   model.loads = find_loads(scene, whole.meshes);

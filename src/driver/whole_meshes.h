@@ -18,7 +18,6 @@ namespace pounding {
 struct WholeMeshes {
   std::vector<GlobalMesh> meshes;                  ///< per structure
   std::vector<MatPlace> mats;                      ///< likewise, of those on soil
-  std::vector<interactions::GapShare> gap_shares;  ///< of the rows of the interface
 };
 
 /// Values one after the other, to a byte stream or from it.
@@ -32,7 +31,6 @@ void pass_each(Stream& stream, Values&... values) {
 template <typename Stream, typename Whole, typename AnyModel>
 void pass_shared_findings(Stream& stream, Whole& whole, AnyModel& model) {
   stream.array(whole.mats);
-  stream.array(whole.gap_shares);
   interactions::pass_rows(stream, model.interface);
   stream.list(model.probes, [&](auto& probe) {
     pass_each(stream, probe.name, probe.structure);

@@ -57,6 +57,9 @@ std::vector<Quantity> quantities(const EnsembleLayout& layout) {
                {"impacts/impulse_largest", "N s", {contacts}, &MemberResult::impulse_largest},
                {"impacts/force_peak", "N", {contacts}, &MemberResult::force_peak},
                {"gaps/smallest", "m", {contacts}, &MemberResult::smallest_gap},
+               {"other_pass/depth", "m", {contacts}, &MemberResult::other_depth},
+               {"other_pass/row", "-", {contacts}, &MemberResult::other_row},
+               {"other_pass/time", "s", {contacts}, &MemberResult::other_time},
                {"contact/complementarity_residual", "-", {}, &MemberResult::contact_residual}});
   return list;
 }

@@ -118,15 +118,13 @@ double check_motion(const MemberScene& member, std::vector<std::string>& doubts)
 namespace {
 
 /// The rows of a stop are those of all members: none stops more ways than another.
-void require_same_ways(const Scene& scene, const interactions::Interface& interface,
-                       std::span<const interactions::GapShare> shares) {
+void require_same_ways(const Scene& scene, const interactions::Interface& interface) {
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
     const Contact& contact = scene.contacts[c];
     if (!contact.stop) continue;
     bool both = false;
-    for (std::size_t row = 0; row < shares.size(); ++row) {
-      both =
-          both || (interface.constraints[row].contact == static_cast<int>(c) && shares[row][0] > 0);
+    for (const interactions::Constraint& row : interface.constraints) {
+      both = both || (row.contact == static_cast<int>(c) && row.share[0] > 0);
     }
     if ((contact.gap.values.size() > 1) == both) continue;
     throw UserError("option -" + contact.name + "_gap: the stop has " +
@@ -138,8 +136,7 @@ void require_same_ways(const Scene& scene, const interactions::Interface& interf
 }  // namespace
 
 void check_member_gaps(std::span<const MemberScene> members,
-                       const interactions::Interface& interface,
-                       std::span<const interactions::GapShare> shares, MemberDoubts& doubts) {
+                       const interactions::Interface& interface, MemberDoubts& doubts) {
   for (std::size_t m = 0; m < members.size(); ++m) {
     const Scene& scene = members[m].scene;
     const std::vector<interactions::GivenGap> gaps(scene.contacts.begin(), scene.contacts.end());
@@ -155,13 +152,13 @@ void check_member_gaps(std::span<const MemberScene> members,
       for (std::size_t row = 0; row < interface.constraints.size(); ++row) {
         interactions::Constraint& constraint =
             own.constraints.emplace_back(interface.constraints[row]);
-        const double gap = set_gap(scene, gaps, shares[row], constraint);
+        const double gap = set_gap(scene, gaps, constraint);
         interactions::InterfaceReport& report = reports[constraint.contact];
         report.smallest_gap = std::min(report.smallest_gap, gap);
         report.largest_gap = std::max(report.largest_gap, gap);
         report.overlapping += gap < 0 ? 1 : 0;
       }
-      require_same_ways(scene, interface, shares);
+      require_same_ways(scene, interface);
       if (scene.preload) rows_open_at_rest(scene, own);
       for (std::size_t c = 0; c < reports.size(); ++c) {
         count_patches(scene.contacts[c],
@@ -187,6 +184,28 @@ std::vector<std::string> member_damping_doubts(const MemberScene& member, const 
     }
   }
   return doubts;
+}
+
+void add_pass_doubts(const Scene& scene, const interactions::Interface& interface,
+                     const std::map<std::size_t, MemberResult>& results, MemberDoubts& doubts) {
+  for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
+    std::vector<OtherPass> passes(scene.contacts.size());
+    const auto lines_of = [&](const MemberResult& result) {
+      passes[c] = {};
+      if (result.other_depth[c] > 0) {
+        const auto& row = interface.watched[static_cast<std::size_t>(result.other_row[c])];
+        passes[c] = {result.other_depth[c], row.facet_size, row.place, result.other_time[c]};
+      }
+      return pass_warnings(scene, passes);
+    };
+    const auto deepest = std::ranges::max_element(
+        results, {}, [c](const auto& each) { return each.second.other_depth[c]; });
+    if (deepest == results.end()) continue;
+    const std::vector<std::string> lines = lines_of(deepest->second);
+    for (const auto& [member, result] : results) {
+      if (!lines_of(result).empty()) doubts.add(member, lines);
+    }
+  }
 }
 
 std::vector<std::string> result_doubts(const MemberResult& result, double model_size) {

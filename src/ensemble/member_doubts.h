@@ -39,11 +39,15 @@ double check_motion(const MemberScene& member, std::vector<std::string>& doubts)
 /// Checks the gaps of every member as those of a single run are. Rank 0. Throws UserError with the
 /// line of the table.
 void check_member_gaps(std::span<const MemberScene> members,
-                       const interactions::Interface& interface,
-                       std::span<const interactions::GapShare> shares, MemberDoubts& doubts);
+                       const interactions::Interface& interface, MemberDoubts& doubts);
 
 /// Doubts about the damping of a member, whose frequencies are those of the model, scaled.
 std::vector<std::string> member_damping_doubts(const MemberScene& member, const Model& model);
+
+/// Doubts about passes that are not taken: for each contact one line, about the deepest, with the
+/// members that have one. `results`: of members that are done.
+void add_pass_doubts(const Scene& scene, const interactions::Interface& interface,
+                     const std::map<std::size_t, MemberResult>& results, MemberDoubts& doubts);
 
 /// Doubts about the results of a member. `model_size` [m].
 std::vector<std::string> result_doubts(const MemberResult& result, double model_size);

@@ -38,10 +38,11 @@ Model member_structures(const MemberScene& member, const EnsembleModel& shared) 
   const Scene& scene = member.scene;
   Model model;
   model.interface.constraints = shared.model->interface.constraints;
+  model.interface.watched = shared.model->interface.watched;
   model.interface.model_size = shared.model->interface.model_size;
   const std::vector<interactions::GivenGap> gaps(scene.contacts.begin(), scene.contacts.end());
-  for (std::size_t row = 0; row < model.interface.constraints.size(); ++row) {
-    set_gap(scene, gaps, shared.gap_shares[row], model.interface.constraints[row]);
+  for (auto* const rows : {&model.interface.constraints, &model.interface.watched}) {
+    for (interactions::Constraint& row : *rows) set_gap(scene, gaps, row);
   }
   model.time_step = shared.model->time_step;
   model.steps = shared.model->steps;
@@ -136,9 +137,9 @@ StepLimits member_limits(const MemberScene& member, const EnsembleModel& shared)
 }
 
 double set_gap(const Scene& scene, std::span<const interactions::GivenGap> gaps,
-               const interactions::GapShare& share, interactions::Constraint& row) {
+               interactions::Constraint& row) {
   const Contact& contact = scene.contacts[row.contact];
-  const double gap = gaps[row.contact].of(row, share);
+  const double gap = gaps[row.contact].of(row);
   row.initial_gap = gap;
   if (contact.filler || contact.is_elastic()) interactions::fill_joint(contact, row);
   return gap;

@@ -35,13 +35,12 @@ void lay_foundations(const Scene& scene, MemberScene& member);
 /// `gaps` are those of its contacts. Throws UserError as fill_joint does. Returns the width of the
 /// joint there [m].
 double set_gap(const Scene& scene, std::span<const interactions::GivenGap> gaps,
-               const interactions::GapShare& share, interactions::Constraint& row);
+               interactions::Constraint& row);
 
 /// Model that the members share on a rank.
 struct EnsembleModel {
   const Model* model = nullptr;   ///< of the ensemble's scene, on this rank alone
   std::vector<ModalBasis> bases;  ///< of every structure, with rows, without a factor
-  std::vector<interactions::GapShare> gap_shares;  ///< of the rows of its interface
 };
 
 /// The part of the model that is a member's own, for this process alone: systems and limits of its

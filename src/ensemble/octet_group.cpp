@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "common/error.h"
 #include "common/row_products.h"
@@ -27,6 +28,13 @@ Solver::Parts parts_in_lane(const MemberScene& member, const EnsembleModel& shar
       solver_parts(MPI_COMM_SELF, member.scene, model, shared.model->meshes, profile);
   parts.lane = lane;
   return parts;
+}
+
+std::vector<Model> models_of(std::span<const MemberScene* const> members,
+                             const EnsembleModel& shared) {
+  std::vector<Model> models;
+  for (const MemberScene* member : members) models.push_back(member_model(*member, shared));
+  return models;
 }
 
 /// The smallest recorded gap of each contact [m].
@@ -65,8 +73,11 @@ class SmallestGaps final : public Observer {
 
 OctetGroup::OctetGroup(std::span<const MemberScene* const> members, const Scene& scene,
                        const EnsembleModel& shared, OctetRecorder& recorder)
-    : scene_(scene), shared_(*shared.model), recorder_(recorder) {
-  for (const MemberScene* member : members) models_.push_back(member_model(*member, shared));
+    : scene_(scene),
+      shared_(*shared.model),
+      recorder_(recorder),
+      models_(models_of(members, shared)),
+      passes_(members, models_, shared_.meshes) {
   for (std::size_t s = 0; s < shared_.systems.size(); ++s) {
     std::vector<const LinearSystem*> systems;
     for (const Model& model : models_) systems.push_back(&model.systems[s]);
@@ -88,6 +99,7 @@ bool OctetGroup::run(const std::function<bool()>& stopped) {
 }
 
 void OctetGroup::step(std::int64_t n) {
+  if (passes_.due(n)) passes_.look(octets_, static_cast<double>(n) * shared_.time_step);
   const bool records = recorder_.due(n);
   if (records) recorder_.take_displacements(octets_);
   bool with_energies = false;
@@ -111,6 +123,7 @@ void OctetGroup::step(std::int64_t n) {
 MemberResult OctetGroup::result(std::size_t lane) {
   MemberResult result;
   runs_[lane]->fill(result);
+  passes_.fill(lane, result);
   const double frequency = stated_frequency(scene_, recorder_.interval());
   for (std::size_t c = 0; c < recorder_.channels(); ++c) {
     const std::span<const double> history = recorder_.acceleration(c, lane);
@@ -128,6 +141,77 @@ MemberResult OctetGroup::result(std::size_t lane) {
         stated_peak(history, recorder_.interval(), frequency, recorder_.first()));
   }
   return result;
+}
+
+OctetPasses::OctetPasses(std::span<const MemberScene* const> scenes, std::span<const Model> models,
+                         std::span<const Mesh> meshes)
+    : deepest_(scenes.front()->scene.contacts.size()), deepest_row_(deepest_.size()) {
+  const std::vector<interactions::Constraint>& rows = models.front().interface.watched;
+  stride_ =
+      static_cast<std::int64_t>(std::max(1.0, OtherPass::look_interval / models.front().time_step));
+  gaps_.resize(rows.size());
+  openings_.resize(rows.size());
+  products_.resize(rows.size());
+  for (const interactions::Constraint& row : rows) contact_.push_back(row.contact);
+  for (std::size_t s = 0; s < meshes.size() && !rows.empty(); ++s) {
+    std::vector<TracePoint> places;
+    for (const interactions::Constraint& row : rows) {
+      for (const interactions::ConstraintTerm& term : row.terms) {
+        if (term.structure == static_cast<int>(s)) places.push_back({term.node, term.component});
+      }
+    }
+    const LinearSystem& system = models.front().systems[s];
+    const std::size_t width = system.lumped_mass.size();
+    std::vector<double>& values = values_.emplace_back(rows.size() * width, 0.0);
+    const Trace trace(system, meshes[s], places, false);
+    std::size_t place = 0;
+    for (std::size_t w = 0; w < rows.size(); ++w) {
+      for (const interactions::ConstraintTerm& term : rows[w].terms) {
+        if (term.structure != static_cast<int>(s)) continue;
+        const std::span<const double> of_term = trace.row(place++);
+        for (std::size_t i = 0; i < width; ++i) {
+          values[w * width + i] += term.coefficient * of_term[i];
+        }
+      }
+    }
+  }
+  for (std::size_t lane = 0; lane < models.size(); ++lane) {
+    for (std::size_t w = 0; w < rows.size(); ++w) {
+      double gap = models[lane].interface.watched[w].initial_gap;
+      const bool at_rest = scenes[lane]->scene.contacts[rows[w].contact].gap_at_rest;
+      for (std::size_t s = 0; s < values_.size() && models[lane].equilibrium && at_rest; ++s) {
+        const std::vector<double>& rest = models[lane].systems[s].rest_displacement;
+        gap -= std::inner_product(rest.begin(), rest.end(), &values_[s][w * rest.size()], 0.0);
+      }
+      gaps_[w].set(lane, gap);
+    }
+  }
+}
+
+void OctetPasses::look(std::span<const OctetStep> octets, double time) {
+  openings_ = gaps_;
+  for (std::size_t s = 0; s < values_.size(); ++s) {
+    multiply_rows(values_[s].data(), gaps_.size(), octets[s].coordinates(),
+                  octets[s].state().displacement.data(), products_.data());
+    for (std::size_t w = 0; w < gaps_.size(); ++w) openings_[w] += products_[w];
+  }
+  for (std::size_t w = 0; w < gaps_.size(); ++w) {
+    for (std::size_t lane = 0; lane < octet_size; ++lane) {
+      OtherPass& deepest = deepest_[contact_[w]][lane];
+      if (!(-openings_[w][lane] > deepest.depth)) continue;
+      deepest.depth = -openings_[w][lane];
+      deepest.time = time;
+      deepest_row_[contact_[w]][lane] = w;
+    }
+  }
+}
+
+void OctetPasses::fill(std::size_t lane, MemberResult& result) const {
+  for (std::size_t c = 0; c < deepest_.size(); ++c) {
+    result.other_depth.push_back(deepest_[c][lane].depth);
+    result.other_row.push_back(static_cast<double>(deepest_row_[c][lane]));
+    result.other_time.push_back(deepest_[c][lane].time);
+  }
 }
 
 double OctetRecorder::memory(std::size_t channels, const Times& times) {

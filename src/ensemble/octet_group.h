@@ -10,6 +10,7 @@
 #include "common/memory.h"
 #include "driver/contact_watches.h"
 #include "driver/field_plan.h"
+#include "driver/run_statistics.h"
 #include "dynamics/octet_step.h"
 #include "ensemble/member_scene.h"
 #include "mesh/mesh.h"
@@ -26,6 +27,9 @@ struct MemberResult {
   std::vector<double> impulse_largest;   ///< of an episode [N s]
   std::vector<double> force_peak;        ///< [N]
   std::vector<double> smallest_gap;      ///< [m]
+  std::vector<double> other_depth;       ///< see OtherPass [m]
+  std::vector<double> other_row;         ///< of the rows that are only looked at
+  std::vector<double> other_time;        ///< [s]
   std::vector<double> displacement;      ///< largest per channel [m]
   std::vector<double> acceleration;      ///< largest per channel after the low-pass [m/s2]
   std::vector<double> energy_residual;   ///< one number: largest, relative
@@ -130,6 +134,31 @@ class OctetRecorder {
   std::size_t records_ = 0;  ///< made, those of the block included
 };
 
+/// Looks in eight runs how far nodes of primaries go into secondaries in passes that are not taken,
+/// as often as a single run does.
+class OctetPasses {
+ public:
+  /// `scenes` and `models`: per lane, `models` with the gaps at the start. The arguments are read
+  /// here only.
+  OctetPasses(std::span<const MemberScene* const> scenes, std::span<const Model> models,
+              std::span<const Mesh> meshes);
+
+  bool due(std::int64_t step) const { return !gaps_.empty() && step % stride_ == 0; }
+  void look(std::span<const OctetStep> octets, double time);
+  void fill(std::size_t lane, MemberResult& result) const;
+
+ private:
+  /// Opening of each row by each coordinate, shape (rows, coordinates); per structure.
+  std::vector<std::vector<double>> values_;
+  std::vector<Octet> gaps_;   ///< per row, unloaded [m]
+  std::vector<int> contact_;  ///< per row
+  std::vector<Octet> openings_;
+  std::vector<Octet> products_;
+  std::vector<std::array<OtherPass, octet_size>> deepest_;        ///< per contact
+  std::vector<std::array<std::size_t, octet_size>> deepest_row_;  ///< and where
+  std::int64_t stride_ = 1;
+};
+
 /// Up to eight members of an ensemble from t_0 to the end time, stepped together: the structures in
 /// lanes (OctetStep), interactions and outputs member by member (MemberRun). A member's results
 /// depend neither on its lane nor on its companions. Local: nothing is communicated.
@@ -152,7 +181,8 @@ class OctetGroup {
   const Scene& scene_;
   const Model& shared_;
   OctetRecorder& recorder_;
-  std::vector<Model> models_;      ///< per member, as the next ones
+  std::vector<Model> models_;  ///< per member, as the next ones
+  OctetPasses passes_;
   std::vector<OctetStep> octets_;  ///< per structure
   std::vector<std::unique_ptr<MemberRun>> runs_;
   std::array<Octet, 3> acceleration_{};

@@ -149,10 +149,8 @@ class Ensemble {
     }
     Profile profile;
     const std::vector<double> ones(scene_.structures.size(), 1.0);
-    const auto check_gaps = [this](const interactions::Interface& interface,
-                                   const std::vector<interactions::GapShare>& shares) {
-      parts_.gap_shares = shares;
-      on_rank0(comm_, [&] { check_member_gaps(members_, interface, shares, doubts_); });
+    const auto check_gaps = [this](const interactions::Interface& interface) {
+      on_rank0(comm_, [&] { check_member_gaps(members_, interface, doubts_); });
     };
     shared_ = build_model(comm_, scene_, ones, profile, check_gaps);
     for (MemberScene& member : members_) lay_foundations(scene_, member);
@@ -331,9 +329,14 @@ class Ensemble {
       const auto done = static_cast<std::size_t>(std::ranges::count(flags, true));
       all = done == flags.size();
       MemberDoubts doubts;
+      std::map<std::size_t, MemberResult> results;
       for (std::size_t m = 0; m < flags.size(); ++m) {
-        if (flags[m]) doubts.add(m, result_doubts(file_->read(m), shared_.interface.model_size));
+        if (!flags[m]) continue;
+        MemberResult& result = results[m] = file_->read(m);
+        result.spectra = {};
+        doubts.add(m, result_doubts(result, shared_.interface.model_size));
       }
+      add_pass_doubts(scene_, shared_.interface, results, doubts);
       print(warning_facts(doubts.told(table_)));
       std::printf("ensemble: %zu of %zu members in %s, stepped in %.2f s\n", done, flags.size(),
                   path("ensemble.h5").c_str(), seconds_);

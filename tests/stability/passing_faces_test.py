@@ -7,6 +7,8 @@ first cube's single facet alone are kept out, so that the bulge goes 10 mm into 
 import tempfile
 import unittest
 
+import h5py
+
 import program
 from history import History, scenes
 from small_meshes import Mesh, brick
@@ -86,6 +88,25 @@ class Passes(unittest.TestCase):
                  for word in (f"-{name}_model", "modal", f"-{name}_modal_vectors", 3)]
         run = History(self, bulging("one", "-joint_passes", 1, *modal))
         self.assert_passed(run, BULGE, 1.1e-3)
+
+    def test_members_of_an_ensemble_too(self):
+        """As their single runs, and one line says so of both."""
+        words = bulging("one", "-joint_passes", 1, *(word for name in ("one", "two") for word in (
+            f"-{name}_model", "modal", f"-{name}_modal_vectors", 3)), "-probes", "p", "-p_structure", "one", "-p_at", "-1,0,0",
+            "-spectra_frequencies", 10)
+        with tempfile.TemporaryDirectory() as folder:
+            with open(f"{folder}/members.csv", "w") as file:
+                file.write("one_stiffness_factor\n1\n2\n")
+            said = program.must_end(self, [*words, "-ensemble", f"{folder}/members.csv", "-output", f"{folder}/out"], 1).stdout
+            line, = (line for line in said.splitlines() if line.startswith("warning:") and "in one pass" in line)
+            self.assertIn("(0.5, 0.5) m", line)
+            self.assertIn("(2 members, the first is member 1, line 2)", line)
+            with h5py.File(f"{folder}/out/ensemble.h5") as file:
+                found = {name: file[f"other_pass/{name}"][:, 0] for name in ("depth", "time")}
+        for member, factor in enumerate((1, 2)):
+            other = History(self, [*words, "-one_stiffness_factor", factor]).summary["contacts"]["joint"]["other_pass"]
+            for name in ("depth", "time"):
+                self.assertAlmostEqual(found[name][member] / other[name], 1, delta=1e-9)
 
     def test_lines_take_two(self):
         run = History(self, column_beside_wall())

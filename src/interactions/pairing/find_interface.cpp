@@ -23,10 +23,8 @@ namespace {
 /// Finds the pairs of one contact.
 class PairFinder {
  public:
-  PairFinder(const Scene& scene, std::span<const GlobalMesh> meshes, int contact,
-             std::vector<GapShare>* shares)
-      : shares_(shares),
-        contact_(scene.contacts[contact]),
+  PairFinder(const Scene& scene, std::span<const GlobalMesh> meshes, int contact)
+      : contact_(scene.contacts[contact]),
         number_(contact),
         sides_(find_sides(scene, meshes, contact_)) {
     report_.contact = contact_.name;
@@ -303,24 +301,21 @@ class PairFinder {
         high[t] = std::max(high[t], value);
       }
     }
-    const auto share_of = [&](const Constraint& constraint) {
-      std::array<double, 2> s{};
+    const auto place_gap = [&](Constraint& row) {
       for (std::size_t t = 0; t < 2; ++t) {
-        s[t] = high[t] > low[t] ? (constraint.place[t] - low[t]) / (high[t] - low[t]) : 0;
+        row.share[t] = high[t] > low[t] ? (row.place[t] - low[t]) / (high[t] - low[t]) : 0;
       }
-      return s;
+      row.initial_gap = gap.of(row);
     };
     for (Constraint& row : watched) {
-      row.initial_gap = gap.of(row, share_of(row));
+      place_gap(row);
       if (contact_.filler) fill_joint(contact_, row);
     }
     report_.smallest_gap = std::numeric_limits<double>::max();
     report_.largest_gap = -report_.smallest_gap;
     report_.geometric_gap = {report_.smallest_gap, report_.largest_gap};
     for (Constraint& constraint : constraints) {
-      const std::array<double, 2> s = share_of(constraint);
-      constraint.initial_gap = gap.of(constraint, s);
-      if (shares_ != nullptr) shares_->push_back(s);
+      place_gap(constraint);
       if (constraint.geometric_gap == open_gap) continue;
       report_.smallest_gap = std::min(report_.smallest_gap, constraint.initial_gap);
       report_.largest_gap = std::max(report_.largest_gap, constraint.initial_gap);
@@ -354,7 +349,6 @@ class PairFinder {
     }
   }
 
-  std::vector<GapShare>* shares_;  ///< of all constraints; null: not wanted
   const Contact& contact_;
   int number_;
   bool watches_ = false;       ///< rows that are found are only looked at
@@ -367,16 +361,15 @@ class PairFinder {
 
 }  // namespace
 
-Interface find_interface(const Scene& scene, std::span<const GlobalMesh> meshes,
-                         std::vector<GapShare>* shares) {
+Interface find_interface(const Scene& scene, std::span<const GlobalMesh> meshes) {
   Interface interface;
   interface.model_size = bounding_box(meshes).longest_side();
   for (const GlobalMesh& mesh : meshes) interface.extents.push_back(bounding_box({&mesh, 1}));
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
     if (scene.contacts[c].stop) {
-      add_stop_rows(scene, meshes, static_cast<int>(c), interface, shares);
+      add_stop_rows(scene, meshes, static_cast<int>(c), interface);
     } else {
-      PairFinder(scene, meshes, static_cast<int>(c), shares).find(interface);
+      PairFinder(scene, meshes, static_cast<int>(c)).find(interface);
     }
   }
   check_contacts(scene, interface);

@@ -16,10 +16,8 @@ namespace pounding::interactions {
 /// scene's structures. A facet is met only if its outward normal looks against that of the node,
 /// and behind the node, where bodies overlap, only within the elements behind the node. The gap is
 /// that between surfaces: half of the thickness of shells is off on either side, but for edges in
-/// the plane of their shell. `shares`: unless null, receives that of every row.
-/// Serial, rank 0. Throws UserError as find_sides does, for no pair at all, and as check_contact
-/// does.
-Interface find_interface(const Scene& scene, std::span<const GlobalMesh> meshes,
-                         std::vector<GapShare>* shares = nullptr);
+/// the plane of their shell. Serial, rank 0. Throws UserError as find_sides does, for no pair at
+/// all, and as check_contact does.
+Interface find_interface(const Scene& scene, std::span<const GlobalMesh> meshes);
 
 }  // namespace pounding::interactions

@@ -16,7 +16,7 @@ namespace {
 constexpr int wave_count = 4096;
 
 /// Gap at a place on the secondary face from the one, two or four values of a contact.
-double given_gap(const std::vector<double>& g, const GapShare& s) {
+double given_gap(const std::vector<double>& g, const std::array<double, 2>& s) {
   if (g.size() == 1) return g[0];
   if (g.size() == 2) return g[0] * (1 - s[0]) + g[1] * s[0];
   return (g[0] * (1 - s[0]) + g[1] * s[0]) * (1 - s[1]) + (g[3] * (1 - s[0]) + g[2] * s[0]) * s[1];
@@ -115,10 +115,10 @@ void count_patches(const Contact& contact, std::span<const Constraint> rows,
   throw UserError(text.str());
 }
 
-double GivenGap::of(const Constraint& row, const GapShare& share) const {
+double GivenGap::of(const Constraint& row) const {
   if (const int patch = patch_at(contact_, row); patch >= 0) return contact_.gap.patches[patch].gap;
   const std::vector<double>& gap = contact_.gap.values;
-  return (gap.empty() ? row.geometric_gap : given_gap(gap, share)) + field_.at(row.level);
+  return (gap.empty() ? row.geometric_gap : given_gap(gap, row.share)) + field_.at(row.level);
 }
 
 std::vector<double> node_areas(const ContactFace& face) {

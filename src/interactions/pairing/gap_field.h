@@ -48,7 +48,7 @@ class GivenGap {
 
   /// Gap of a row [m]: that of the patch in which its place is, else that of the geometry or the
   /// given one at its share of the face, and the random part at its place.
-  double of(const Constraint& row, const GapShare& share) const;
+  double of(const Constraint& row) const;
 
  private:
   const Contact& contact_;

@@ -86,17 +86,16 @@ struct Constraint {
   Vector3 at{};                   ///< secondary node [m]
   std::array<double, 2> place{};  ///< and on the tangent axes [m]
   std::array<double, 2> level{};  ///< and in the mean plane of the face, lengths kept [m]
-  bool matched = false;           ///< faces one primary node exactly
-  double friction = 0;            ///< Coulomb's coefficient [-]
+  /// Place on that face, from 0 to 1 along the tangent axes; of a row of a stop that acts the other
+  /// way (1, 0), so that it has the second of two gaps.
+  std::array<double, 2> share{};
+  bool matched = false;  ///< faces one primary node exactly
+  double friction = 0;   ///< Coulomb's coefficient [-]
   FillerPart filler;
 
   /// Gap of the faces where hard contact has `gap` [m].
   double of_faces(double gap) const { return gap - filler.depth; }
 };
-
-/// Place of a row on its secondary face, from 0 to 1 along the tangent axes; of a row of a stop
-/// that acts the other way (1, 0), so that it has the second of two gaps.
-using GapShare = std::array<double, 2>;
 
 /// Initial gap of a row that faces nothing yet [m].
 constexpr double open_gap = 1e30;
@@ -162,6 +161,7 @@ void pass_rows(Stream& stream, AnyInterface& interface) {
     stream(row.at);
     stream(row.place);
     stream(row.level);
+    stream(row.share);
     stream(row.matched);
     stream(row.friction);
     stream(row.filler);

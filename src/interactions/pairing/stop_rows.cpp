@@ -65,12 +65,10 @@ StopSide stop_side(const Scene& scene, std::span<const GlobalMesh> meshes, const
 /// Finds the rows of one stop.
 class StopRows {
  public:
-  StopRows(const Scene& scene, std::span<const GlobalMesh> meshes, int number, Interface& interface,
-           std::vector<GapShare>* shares)
+  StopRows(const Scene& scene, std::span<const GlobalMesh> meshes, int number, Interface& interface)
       : contact_(scene.contacts[static_cast<std::size_t>(number)]),
         number_(number),
         interface_(interface),
-        shares_(shares),
         secondary_(stop_side(scene, meshes, contact_, "secondary")),
         primary_(stop_side(scene, meshes, contact_, "primary")) {
     report_.contact = contact_.name;
@@ -120,7 +118,7 @@ class StopRows {
         row.place[t] = here[static_cast<std::size_t>(report_.tangent_axes[t])];
       }
       if (contact_.is_elastic()) fill_joint(contact_, row);
-      if (shares_ != nullptr) shares_->push_back({static_cast<double>(side), 0});
+      row.share = {static_cast<double>(side), 0};
       interface_.constraints.push_back(std::move(row));
       ++report_.pairs;
       ++report_.matched;
@@ -145,7 +143,6 @@ class StopRows {
   const Contact& contact_;
   int number_;
   Interface& interface_;
-  std::vector<GapShare>* shares_;
   StopSide secondary_;
   StopSide primary_;
   InterfaceReport report_;
@@ -154,8 +151,8 @@ class StopRows {
 }  // namespace
 
 void add_stop_rows(const Scene& scene, std::span<const GlobalMesh> meshes, int number,
-                   Interface& interface, std::vector<GapShare>* shares) {
-  StopRows(scene, meshes, number, interface, shares).find();
+                   Interface& interface) {
+  StopRows(scene, meshes, number, interface).find();
 }
 
 }  // namespace pounding::interactions

@@ -11,10 +11,9 @@ namespace pounding::interactions {
 
 /// Rows and report of a contact that is a stop, `number` among the scene's: for every node of the
 /// secondary side and the primary node nearest to it (none beside a wall) a row along the stop's
-/// direction, and one against it where it stops both ways. `shares`: unless null, receives that of
-/// every row. Serial, rank 0. Throws UserError for an unknown group, nodes that cannot move, and
-/// two nodes at one place that no direction is given for.
+/// direction, and one against it where it stops both ways. Serial, rank 0. Throws UserError for an
+/// unknown group, nodes that cannot move, and two nodes at one place that have no direction given.
 void add_stop_rows(const Scene& scene, std::span<const GlobalMesh> meshes, int number,
-                   Interface& interface, std::vector<GapShare>* shares);
+                   Interface& interface);
 
 }  // namespace pounding::interactions
