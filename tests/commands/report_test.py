@@ -255,7 +255,7 @@ class Report(unittest.TestCase):
     def test_modes_are_those_of_the_console(self):
         printed = self.console(1, "-modes", 4)
         for name in ("left", "right"):
-            part = printed[printed.index(f"structure {name}:"):]
+            part = printed[printed.index(f"\nstructure {name}:"):]
             console = re.findall(r"^ +(\d+) +([\d.]+) +(\w+) +(\d+) (kg(?: m2)? (?:along|about) \w), +([\d.]+) % about/along (\w+), damped "
                                  r"([\d.]+) Hz", part, re.MULTILINE)[:4]
             shown = table(page(self.place / "hit"), f"Modes of {name}")[1:]

@@ -33,7 +33,7 @@ class Units(unittest.TestCase):
                             (["-s1_damping_beta", 0.1], "structure s1: alpha 0.1562 1/s and beta 0.1 s"),
                             (["-s2_damping_alpha", 50], "structure s2: alpha 50 1/s")):
             with self.subTest(what):
-                new = [line for line in self.doubts(*words) if line not in usual]
+                new = [line for line in self.doubts(*words) if line not in usual and "its mesh carries" not in line]
                 self.assertTrue(any(what in line for line in new), new)
                 self.assertLessEqual(len(new), 2, new)  # a section has two inertias
 

@@ -442,7 +442,7 @@ class Labels(unittest.TestCase):
 
         for name in ("left", "right"):
             of = summary["structures"][name]
-            text = printed[printed.index(f"structure {name}: "):]
+            text = printed[printed.index(f"\nstructure {name}: "):]
             self.assertEqual(numbers(r": # nodes, # dofs \(# before clamping\), mass # kg", text),
                              [of["nodes"], of["dofs"], of["dofs_before_clamping"], round(of["mass"])])
             numpy.testing.assert_allclose(
@@ -491,7 +491,7 @@ class Labels(unittest.TestCase):
         self.assertAlmostEqual(whole / sum(parts), 1, delta=0.1)  # of two digits each
         self.assertAlmostEqual(parts[1] / seconds, 1, delta=0.1)
         self.assertIn("would step 2 structures with 4 pairs of contacts to 1000 s, in 2000000 steps", first)
-        self.assertLess(long.index("\ndoubts, " if "\ndoubts, " in long else "\nno doubts"), long.index("structure left"))
+        self.assertLess(long.index("\ndoubts, " if "\ndoubts, " in long else "\nno doubts"), long.index("\nstructure left"))
         said = numbers(r"wall time # s, # microseconds per step", printed)
         self.assertAlmostEqual(said[0], summary["wall_time"], delta=6e-3)
         self.assertAlmostEqual(said[1], summary["microseconds_per_step"], delta=6e-4)
