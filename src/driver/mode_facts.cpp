@@ -107,7 +107,9 @@ Facts mass_scaling_facts(const Building& building) {
     facts.say(
         "    not reached: {} allows less, its mass is not scaled; the stable step is {:.4g} of the "
         "wanted one\n",
-        {system.limiting_element, stable / scaling.time_step});
+        {system.limiting_element.empty() ? "something beside the elements"
+                                         : system.limiting_element,
+         stable / scaling.time_step});
   }
   return facts;
 }

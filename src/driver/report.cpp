@@ -128,8 +128,10 @@ void print_prospect(const Scene& scene, const Model& model, int ranks, double se
   const double interval = model.time_step * record_stride(scene, model);
   const std::vector<double> rest(20000);
   const double begin = MPI_Wtime();
-  response_spectra(rest, interval, scene.spectra.frequencies, scene.spectra.damping_ratios,
-                   AfterRecord::ignored);
+  if (!model.probes.empty()) {
+    response_spectra(rest, interval, scene.spectra.frequencies, scene.spectra.damping_ratios,
+                     AfterRecord::ignored);
+  }
   const double spectra = (MPI_Wtime() - begin) * scene.end_time / (20000 * interval) *
                          std::ceil(3.0 * static_cast<double>(model.probes.size()) / ranks);
   const double steps = seconds_per_step * static_cast<double>(model.steps);

@@ -133,7 +133,9 @@ class Designer {
   }
 
   static std::string held(const LinearSystem& system) {
-    return system.limiting_element + " holds it, and no scaled mass helps there";
+    const std::string& element = system.limiting_element;
+    return (element.empty() ? "something beside the elements" : element) +
+           " holds it, and no scaled mass helps there";
   }
 
   std::string costs(const Found& found) const {
