@@ -19,6 +19,7 @@ from parts.sweep import members, table  # noqa: E402
 PROCESSORS = 2  # it starts runs
 
 FIXED = " ".join(f"-{name} {value}" for name, value in two_buildings.SHORT.items()) + " -probes left_roof"
+BRIEF = FIXED.replace("-end_time 1.2", "-end_time 0.1")
 GAPS = "floor1_gap,floor2_gap=0.01,0.06"
 
 
@@ -99,7 +100,7 @@ class Sweep(unittest.TestCase):
         self.assertEqual(table.sentences([{**row, "status": "failed"} for row in rows], axes), [])
 
     def test_a_failed_member_is_told_and_stops_no_other(self):
-        done = sweep(self.place, "floor1_gap=0.06,wide,0.05")
+        done = sweep(self.place, "floor1_gap=0.06,wide,0.05", options=BRIEF)
         self.assertEqual(done.returncode, 1)
         self.assertIn("3 members, 1 failed", done.stdout)
         self.assertIn("option -floor1_gap wide", done.stdout)
@@ -109,7 +110,7 @@ class Sweep(unittest.TestCase):
         self.assertEqual(rows[1]["impacts"], "")
 
     def test_zip_pairs_the_values_and_semicolons_part_lists(self):
-        done = sweep(self.place, "floor2_gap=0.03,0.02;0.06", "motion_x_pga=1;2", more=["--zip"])
+        done = sweep(self.place, "floor2_gap=0.03,0.02;0.06", "motion_x_pga=1;2", options=BRIEF, more=["--zip"])
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertEqual([(row["floor2_gap"], row["motion_x_pga"]) for row in rows_of(self.place)],
                          [("0.03,0.02", "1"), ("0.06", "2")])
@@ -127,7 +128,7 @@ class Sweep(unittest.TestCase):
         self.assertFalse((self.place / "out").exists())
 
     def test_stopped_it_goes_on_where_it_was(self):
-        line = [os.path.join(program.SOURCE, "run", "sweep"), "two-buildings.yaml", "--options", "-probes left_roof",
+        line = [os.path.join(program.SOURCE, "run", "sweep"), "two-buildings.yaml", "--options", f"{FIXED} -end_time 3",
                 "--out", "out", "--jobs", "1", "--set", "floor2_gap=0.05,0.06,0.07"]
         environment = {**os.environ, "POUNDING_BUILD": os.path.abspath(program.BUILD)}
         process = subprocess.Popen(line, cwd=self.place, env=environment, stdout=subprocess.DEVNULL,
