@@ -16,8 +16,8 @@ namespace pounding {
 /// The meshes of a scene as rank 0 has them before they are cut, and findings in them beside the
 /// model's own part.
 struct WholeMeshes {
-  std::vector<GlobalMesh> meshes;                  ///< per structure
-  std::vector<MatPlace> mats;                      ///< likewise, of those on soil
+  std::vector<GlobalMesh> meshes;  ///< per structure
+  std::vector<MatPlace> mats;      ///< likewise, of those on soil
 };
 
 /// Values one after the other, to a byte stream or from it.

@@ -73,14 +73,10 @@ std::vector<Filler::Point> read_filler_table(OptionReader& options,
   return points;
 }
 
-std::string goes_with(std::string_view option, const OptionReader::Names& names) {
-  return "goes with -" + option_name(option, names) + ", which is not given";
-}
-
 /// A strip of the faces: elastic up to its strength, which it keeps to its end.
 std::optional<Filler> read_crushing(OptionReader& options, const OptionReader::Names& names) {
   if (!options.given(crushing_option, names)) {
-    options.forbid_all<Crushing>(names, goes_with(crushing_option, names), crushing_option);
+    options.forbid_all<Crushing>(names, goes_with(crushing_option, names));
     return std::nullopt;
   }
   Crushing strip;
@@ -126,7 +122,7 @@ std::optional<Filler> read_filler(OptionReader& options, const std::string& cont
   options.forbid(crushing_option, names,
                  "not beside -" + option_name(filler_option, names) +
                      ": a joint has a filler, or faces that are crushed");
-  options.forbid_all<Crushing>(names, goes_with(crushing_option, names), crushing_option);
+  options.forbid_all<Crushing>(names, goes_with(crushing_option, names));
   Filler filler;
   filler.table = read_filler_table(options, names);
   options.read(filler, names);
@@ -183,8 +179,7 @@ std::optional<Stop> read_stop(OptionReader& options, const std::string& contact)
     stop.along = Vector3{(*along)[0] / length, (*along)[1] / length, (*along)[2] / length};
   }
   if (stop.dashpot > 0 && !(stop.stiffness > 0)) {
-    options.refuse(stop_dashpot, names,
-                   "it goes with -" + option_name(stop_stiffness, names) + ", which is not given");
+    options.refuse(stop_dashpot, names, "it " + goes_with(stop_stiffness, names));
   }
   return stop;
 }

@@ -42,8 +42,7 @@ Rayleigh read_damping_ratio(OptionReader& options, const DampingPatterns& patter
 Rayleigh read_damping(OptionReader& options, const DampingPatterns& patterns, const Names& names,
                       const Rayleigh& inherited) {
   if (options.given(patterns.ratio, names)) return read_damping_ratio(options, patterns, names);
-  options.forbid(patterns.frequencies, names,
-                 "goes with -" + option_name(patterns.ratio, names) + ", which is not given");
+  options.forbid(patterns.frequencies, names, goes_with(patterns.ratio, names));
   const auto number = [&](std::string_view pattern, double otherwise) {
     const bool known = options.given(pattern, names) || option_row(pattern).preset.has_value;
     return known ? options.real(pattern, names) : otherwise;
@@ -73,8 +72,7 @@ std::optional<UniformDamping> read_uniform_damping(OptionReader& options,
   constexpr std::string_view filters = "<structure>_damping_filters";
   const Names names{structure};
   if (!options.given(uniform, names)) {
-    options.forbid_all<UniformDamping>(
-        names, "goes with -" + option_name(uniform, names) + ", which is not given", uniform);
+    options.forbid_all<UniformDamping>(names, goes_with(uniform, names));
     return std::nullopt;
   }
   if (options.real(uniform, names) == 0 && gives_rayleigh(options, names)) return std::nullopt;

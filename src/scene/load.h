@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/types.h"
@@ -34,14 +35,15 @@ struct LoadFunction {
 
   static void describe(auto& option) {
     using namespace option_words;
+    constexpr std::string_view no_number = "the history of load <load> has no such number";
     // clang-format off
     option("<load>_function", word("constant|step|ramp|harmonic", "constant"), "history: 1 all the time, before the run as well; 0, then 1 from start on; from 0 at start to 1 after rise; a sine from start on");
     option("<load>_table", text("file", absent("optional"), "a file"), "history: a text file of two columns, time in s and value, linear between; before the first and after the last time their values");
     option("<load>_values", text("s,-", absent("optional"), "pairs t,value; t,value with increasing t"), "history: such a table in place");
-    option(&LoadFunction::start, "<load>_start", real("s", "0", not_negative), "step, ramp, harmonic: time at which it sets in", needs(&LoadFunction::sets_in, "the history of load <load> has no such number"));
-    option(&LoadFunction::rise, "<load>_rise", real("s", absent("required with a ramp"), positive), "ramp: time from 0 to 1", needs(&LoadFunction::rises, "the history of load <load> has no such number"));
-    option(&LoadFunction::frequency, "<load>_frequency", real("Hz", absent("required with a harmonic load"), positive), "harmonic: its frequency", needs(&LoadFunction::is_harmonic, "the history of load <load> has no such number"));
-    option(&LoadFunction::phase, "<load>_phase", real("rad", "0"), "harmonic: phase at start", needs(&LoadFunction::is_harmonic, "the history of load <load> has no such number"));
+    option(&LoadFunction::start, "<load>_start", real("s", "0", not_negative), "step, ramp, harmonic: time at which it sets in", needs(&LoadFunction::sets_in, no_number));
+    option(&LoadFunction::rise, "<load>_rise", real("s", absent("required with a ramp"), positive), "ramp: time from 0 to 1", needs(&LoadFunction::rises, no_number));
+    option(&LoadFunction::frequency, "<load>_frequency", real("Hz", absent("required with a harmonic load"), positive), "harmonic: its frequency", needs(&LoadFunction::is_harmonic, no_number));
+    option(&LoadFunction::phase, "<load>_phase", real("rad", "0"), "harmonic: phase at start", needs(&LoadFunction::is_harmonic, no_number));
     // clang-format on
   }
 };

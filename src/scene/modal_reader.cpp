@@ -47,8 +47,7 @@ void refuse_couplings(const OptionReader& options, const Structure& structure) {
 std::optional<ModalModel> read_modal_model(OptionReader& options, const Structure& structure) {
   const Names names{structure.name};
   if (options.choice(model, names) == "full") {
-    options.forbid_all<ModalModel>(
-        names, "goes with -" + option_name(model, names) + " modal, which is not given");
+    options.forbid_all<ModalModel>(names, goes_with(model, names, "modal"));
     return std::nullopt;
   }
   refuse_couplings(options, structure);

@@ -1,7 +1,5 @@
 #include "scene/motion_reader.h"
 
-#include <initializer_list>
-
 namespace pounding {
 namespace {
 
@@ -55,22 +53,14 @@ class AxisReader {
   std::string text(const char* what) { return options_.text(pattern(what), names_); }
 
   /// Options that would have no effect are mistakes.
-  void forbid(std::initializer_list<const char*> details, const char* without) const {
-    for (const char* what : details) {
-      options_.forbid(
-          pattern(what), names_,
-          "goes with -" + option_name(pattern(without), names_) + ", which is not given");
-    }
-  }
-
   void forbid_details() const {
-    const OptionBlock block = prefix_.empty() ? OptionBlock::motion : OptionBlock::support_motion;
-    for (const OptionRow& row : option_table()) {
-      if (row.block != block) continue;
-      options_.forbid(row.pattern, names_,
-                      "there is no motion along " + direction_ + "; give -" +
-                          option_name(pattern("record"), names_) + " or -" +
-                          option_name(pattern("target"), names_));
+    const std::string why = "there is no motion along " + direction_ + "; give -" +
+                            option_name(pattern("record"), names_) + " or -" +
+                            option_name(pattern("target"), names_);
+    if (prefix_.empty()) {
+      options_.forbid_all<MotionComponent>(names_, why);
+    } else {
+      options_.forbid_all<SupportMotionOptions>(names_, why);
     }
   }
 
@@ -80,12 +70,17 @@ class AxisReader {
     const std::string unit = options_.choice(pattern("unit"), names_);
     motion.unit = unit == "auto" ? "" : unit;
     options_.read(motion, names_, pattern(""));
-    if (!given("target")) forbid({"seed", "duration", "envelope"}, "target");
+    if (!given("target")) {
+      options_.forbid_all<SyntheticMotion>(names_, goes_with(pattern("target"), names_), "",
+                                           pattern(""));
+    }
     return motion;
   }
 
   SyntheticMotion read_synthetic() {
-    forbid({"unit", "time_step", "column"}, "record");
+    const std::string why = goes_with(pattern("record"), names_);
+    options_.forbid(pattern("unit"), names_, why);
+    options_.forbid_all<RecordedMotion>(names_, why, "", pattern(""));
     SyntheticMotion motion;
     options_.read(motion, names_, pattern(""));
     if (motion.envelope[0] > motion.envelope[1]) {

@@ -197,6 +197,12 @@ std::vector<double> OptionReader::reals(std::string_view pattern, const Names& n
   return *numbers;
 }
 
+std::string goes_with(std::string_view pattern, const OptionReader::Names& names,
+                      const std::string& value) {
+  return "goes with -" + option_name(pattern, names) + (value.empty() ? "" : " " + value) +
+         ", which is not given";
+}
+
 double read_damping_factor(OptionReader& options, const std::string& structure) {
   return options.real(damping_factor, {structure});
 }

@@ -91,6 +91,10 @@ class OptionReader {
   std::vector<Owner> in_force_;
 };
 
+/// Words of a refusal: "goes with -name value, which is not given"; the value only where it counts.
+std::string goes_with(std::string_view pattern, const OptionReader::Names& names,
+                      const std::string& value = "");
+
 /// Visitor of a description that reads into the members of an object.
 template <typename Object>
 class MemberReader {

@@ -27,8 +27,7 @@ std::optional<Soil> read_soil(OptionReader& options, const Structure& structure)
   const Names names{structure.name};
   constexpr std::string_view mat = "<structure>_soil_mat";
   if (!options.given(mat, names) || options.text(mat, names) == "none") {
-    options.forbid_all<Soil>(names,
-                             "goes with -" + option_name(mat, names) + ", which is not given", mat);
+    options.forbid_all<Soil>(names, goes_with(mat, names), mat);
     return std::nullopt;
   }
   if (!structure.matrices.empty()) {

@@ -183,13 +183,15 @@ void read_solid(OptionReader& options, const Names& names, Region& region) {
   constexpr std::string_view area = "<structure>_<group>_area";
   const bool dashpot_alone = is_bar(region.element) && !options.given(area, names) &&
                              options.given("<structure>_<group>_dashpot", names);
-  for (const char* option : {"material", "tension_only", "compression_only"}) {
-    if (!dashpot_alone) break;
-    options.forbid(
-        std::string("<structure>_<group>_") + option, names,
-        "a bar of its dashpot alone has none; give -" + option_name(area, names) + " as well");
+  if (dashpot_alone) {
+    for (const char* option : {"material", "tension_only", "compression_only"}) {
+      options.forbid(
+          std::string("<structure>_<group>_") + option, names,
+          "a bar of its dashpot alone has none; give -" + option_name(area, names) + " as well");
+    }
+  } else {
+    region.material = read_material(options, names);
   }
-  if (!dashpot_alone) region.material = read_material(options, names);
   require_density(options, region);
   if (is_beam(region.element)) {
     region.section = read_section(options, names);

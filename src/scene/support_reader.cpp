@@ -40,7 +40,7 @@ std::optional<MotionComponent> read_rotation(OptionReader& options, const std::s
   const OptionReader::Names names{name, axis};
   if (!options.given("<support>_rotation_<x|y|z>_record", names)) {
     options.forbid_all<SupportRotationOptions>(
-        names, "goes with -" + name + "_rotation_" + axis + "_record, which is not given");
+        names, goes_with("<support>_rotation_<x|y|z>_record", names));
     return std::nullopt;
   }
   RecordedMotion record;
