@@ -59,10 +59,13 @@ class WaveFinder {
     std::map<int, std::pair<double, MeshWaves>> by_frequency;  // by half a percent, with the mass
     for (const ElementSet& set : mesh_.regions) {
       for (std::size_t e = 0; e < set.tags.size(); ++e) {
-        const double mass = mass_of(set, e);
+        const auto region = static_cast<std::size_t>(set.region);
+        const ElementProperties properties =
+            element_properties(structure_.regions[region], set.share_of(e));
+        const double mass = mass_of(set, e, properties);
         total += mass;
         if (!has_extent(set.type) || !(mass > 0) || is_rigid(nodes_of(set, e))) continue;
-        const MeshWaves waves = carried(set, e);
+        const MeshWaves waves = carried(set, e, properties);
         if (!(waves.frequency > 0)) continue;  // a bar of its dashpot alone
         auto& [sum, first] = by_frequency[static_cast<int>(200 * std::log(waves.frequency))];
         if (sum == 0 || waves.frequency < first.frequency) first = waves;
@@ -85,34 +88,28 @@ class WaveFinder {
     return {&set.connectivity[element * width], width};
   }
 
-  ElementProperties properties_of(const ElementSet& set, std::size_t element) const {
-    const auto region = static_cast<std::size_t>(set.region);
-    return element_properties(structure_.regions[region], set.share_of(element));
-  }
-
-  double mass_of(const ElementSet& set, std::size_t element) const {
-    std::vector<double> x;
+  double mass_of(const ElementSet& set, std::size_t element, const ElementProperties& properties) {
+    coordinates_.clear();
     for (const GlobalIndex n : nodes_of(set, element)) {
       const Vector3 at = mesh_.position(n);
-      x.insert(x.end(), at.begin(), at.end());
+      coordinates_.insert(coordinates_.end(), at.begin(), at.end());
     }
     const ElementLayout layout = element_layout(set.type);
-    std::vector<double> masses(static_cast<std::size_t>(layout.size()));
+    masses_.resize(static_cast<std::size_t>(layout.size()));
     try {
-      element_lumped_mass(set.type, x, properties_of(set, element), masses);
+      element_lumped_mass(set.type, coordinates_, properties, masses_);
     } catch (const ElementError&) {
       return 0;  // refused with its place where its matrices are made
     }
     double mass = 0;
     for (int a = 0; a < layout.nodes; ++a) {
-      mass += masses[static_cast<std::size_t>(a * layout.components)];
+      mass += masses_[static_cast<std::size_t>(a * layout.components)];
     }
     return mass;
   }
 
-  MeshWaves carried(const ElementSet& set, std::size_t element) const {
+  MeshWaves carried(const ElementSet& set, std::size_t element, const ElementProperties& p) const {
     const std::span nodes = nodes_of(set, element);
-    const ElementProperties p = properties_of(set, element);
     auto [longest, thickness] = edges_of(set.type, nodes);
     double omega = 0;
     if (is_beam(set.type)) {
@@ -180,6 +177,8 @@ class WaveFinder {
   const Structure& structure_;
   const GlobalMesh& mesh_;
   std::vector<Surroundings> around_;  ///< each node
+  std::vector<double> coordinates_;   ///< of an element, and its lumped masses: room for work
+  std::vector<double> masses_;
 };
 
 }  // namespace
