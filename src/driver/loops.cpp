@@ -19,8 +19,8 @@
 #include "driver/element_middle.h"
 #include "driver/facts.h"
 #include "driver/run_statistics.h"
-#include "interactions/laws/hysteretic_law.h"
 #include "io/csv_file.h"
+#include "laws/hysteretic_law.h"
 #include "system/links.h"
 
 namespace pounding {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "interactions/pairing/interface.h"
-#include "interactions/solvers/sparse_rows.h"
 #include "mesh/mesh.h"
+#include "solvers/sparse_rows.h"
 
 namespace pounding::interactions {
 

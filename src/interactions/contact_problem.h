@@ -9,8 +9,8 @@
 #include "interactions/interface_rows.h"
 #include "interactions/pairing/interface.h"
 #include "interactions/sliding_pairs.h"
-#include "interactions/solvers/proportioning.h"
-#include "interactions/solvers/sparse_rows.h"
+#include "solvers/proportioning.h"
+#include "solvers/sparse_rows.h"
 #include "system/linear_system.h"
 
 namespace pounding::interactions {

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "common/dense_matrix.h"
-#include "interactions/laws/dashpot_law.h"
-#include "interactions/laws/law_of.h"
 #include "interactions/structure_links.h"
+#include "laws/dashpot_law.h"
+#include "laws/law_of.h"
 #include "system/links.h"
 #include "system/trace.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "interactions/contact_operator.h"
-#include "interactions/solvers/sparse_rows.h"
+#include "solvers/sparse_rows.h"
 #include "system/trace.h"
 
 namespace pounding::interactions {

@@ -12,10 +12,10 @@
 
 #include "interactions/interaction.h"
 #include "interactions/interface_rows.h"
-#include "interactions/laws/tension_law.h"
 #include "interactions/pairing/interface.h"
-#include "interactions/solvers/law_solver.h"
+#include "laws/tension_law.h"
 #include "scene/scene.h"
+#include "solvers/law_solver.h"
 #include "system/linear_system.h"
 
 namespace pounding::interactions {

@@ -9,8 +9,8 @@
 #include "interactions/contact_operator.h"
 #include "interactions/delassus.h"
 #include "interactions/pairing/interface.h"
-#include "interactions/solvers/friction_solver.h"
-#include "interactions/solvers/sparse_rows.h"
+#include "solvers/friction_solver.h"
+#include "solvers/sparse_rows.h"
 
 namespace pounding::interactions {
 

@@ -7,7 +7,7 @@
 
 #include "elements/element_traits.h"
 #include "interactions/interaction.h"
-#include "interactions/laws/element_law.h"
+#include "laws/element_law.h"
 #include "mesh/halo.h"
 #include "mesh/mesh.h"
 #include "system/linear_system.h"

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "interactions/dashpot_modes.h"
-#include "interactions/solvers/law_solver.h"
 #include "interactions/structure_links.h"
+#include "solvers/law_solver.h"
 #include "system/support_shapes.h"
 
 namespace pounding::interactions {

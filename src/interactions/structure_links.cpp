@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "interactions/laws/law_of.h"
+#include "laws/law_of.h"
 #include "system/support_shapes.h"
 
 namespace pounding::interactions {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "interactions/interaction.h"
-#include "interactions/laws/link_law.h"
-#include "interactions/solvers/law_solver.h"
-#include "interactions/solvers/sparse_rows.h"
+#include "laws/link_law.h"
+#include "solvers/law_solver.h"
+#include "solvers/sparse_rows.h"
 #include "system/linear_system.h"
 #include "system/links.h"
 #include "system/trace.h"

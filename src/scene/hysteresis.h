@@ -99,7 +99,7 @@ struct YieldingSection {
 /// Same law of another unit of elongation: each elongation times `length`, forces times `strength`.
 Hysteresis scaled(const Hysteresis& law, double length, double strength);
 
-/// Shell that cracks by damage, see interactions/laws/cracking_shell.h. Ratios are of slopes: of
+/// Shell that cracks by damage, see laws/cracking_shell.h. Ratios are of slopes: of
 /// force over strain while damage grows, over that of the sound shell.
 struct ShellCracking {
   double force = 0;        ///< in tension at which damage begins [N/m]

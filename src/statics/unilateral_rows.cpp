@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "common/parallel.h"
-#include "interactions/laws/law_of.h"
+#include "laws/law_of.h"
 
 namespace pounding {
 namespace {

@@ -7,7 +7,7 @@
 #include <mpi.h>
 
 #include "interactions/interface_rows.h"
-#include "interactions/laws/link_law.h"
+#include "laws/link_law.h"
 #include "system/linear_system.h"
 #include "system/links.h"
 

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "elements/element_traits.h"
-#include "interactions/laws/law_of.h"
+#include "laws/law_of.h"
 #include "mesh/element_properties.h"
 #include "stiffness/element_loop.h"
 #include "stiffness/stiffness.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/matrix3.h"
-#include "interactions/laws/element_law.h"
+#include "laws/element_law.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
 

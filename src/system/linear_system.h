@@ -11,7 +11,7 @@
 #include <mpi.h>
 
 #include "common/types.h"
-#include "interactions/laws/element_law.h"
+#include "laws/element_law.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
 #include "stiffness/stiffness.h"

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "interactions/laws/law_of.h"
+#include "laws/law_of.h"
 #include "mesh/global_mesh.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"

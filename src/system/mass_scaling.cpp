@@ -14,7 +14,7 @@
 #include "common/error.h"
 #include "common/number_set.h"
 #include "elements/element_traits.h"
-#include "interactions/laws/law_of.h"
+#include "laws/law_of.h"
 #include "mesh/element_properties.h"
 #include "system/block_factorisation.h"
 

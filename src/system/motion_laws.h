@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "interactions/laws/element_law.h"
-#include "interactions/laws/hysteretic_law.h"
+#include "laws/element_law.h"
+#include "laws/hysteretic_law.h"
 
 namespace pounding {
 

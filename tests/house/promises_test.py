@@ -79,7 +79,7 @@ class Promises(unittest.TestCase):
 
     def test_a_test_that_is_gone_is_seen(self):
         for name in ("input/corpus_test.py::Corpus.test_nothing", "input/none_test.py::Corpus.test_options",
-                     "unit/interactions/lcp_test.cpp::Lcp.Nothing", "fuzz/main.cpp::nothing"):
+                     "unit/solvers/lcp_test.cpp::Lcp.Nothing", "fuzz/main.cpp::nothing"):
             self.assertFalse(exists(name), name)
 
 

@@ -8,7 +8,7 @@
 
 #include "common/parallel.h"
 #include "dynamics/cd_lagrange.h"
-#include "interactions/laws/yield_law.h"
+#include "laws/yield_law.h"
 #include "stability/stable_time_step.h"
 #include "support/mast.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "interactions/solvers/sparse_rows.h"
+#include "solvers/sparse_rows.h"
 
 namespace pounding {
 

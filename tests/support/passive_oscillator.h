@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "interactions/laws/link_law.h"
+#include "laws/link_law.h"
 
 namespace pounding::interactions {
 

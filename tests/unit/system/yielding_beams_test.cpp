@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "interactions/laws/hysteresis_path.h"
+#include "laws/hysteresis_path.h"
 #include "system/inelastic_laws.h"
 
 namespace pounding {

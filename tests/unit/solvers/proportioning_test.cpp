@@ -1,0 +1,243 @@
+#include "solvers/proportioning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/magnitude.h"
+#include "solvers/lcp.h"
+#include "support/full_rows.h"
+
+namespace pounding::interactions {
+namespace proportioning_test {
+
+using Vector = std::vector<double>;
+
+/// Two plates of unit sides that meet, `nodes` x `nodes` points against bilinear facets of another
+/// plate of `facets` x `facets`, `heavier` times as heavy.
+struct Plates {
+  SparseRows delassus;
+  Vector rate;
+
+  Plates(int nodes, int facets, double heavier, unsigned seed) {
+    const int corners = facets + 1;
+    std::vector<std::map<int, double>> rows(nodes * nodes);
+    std::vector<std::vector<int>> rows_of(corners * corners);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> velocity(-1, 1);
+    Vector primary(corners * corners);
+    for (double& v : primary) v = velocity(random);
+    for (int i = 0; i < nodes * nodes; ++i) {
+      const int row = i / nodes;
+      const double x = static_cast<double>(row) / (nodes - 1) * facets;
+      const double y = static_cast<double>(i - row * nodes) / (nodes - 1) * facets;
+      const int a = std::min(static_cast<int>(x), facets - 1);
+      const int b = std::min(static_cast<int>(y), facets - 1);
+      rate.push_back(-velocity(random));
+      for (int corner = 0; corner < 4; ++corner) {
+        const double s = corner / 2 == 0 ? 1 - (x - a) : x - a;
+        const double t = corner % 2 == 0 ? 1 - (y - b) : y - b;
+        const int number = (a + corner / 2) * corners + b + corner % 2;
+        if (s * t == 0) continue;
+        rows[i][number] = s * t;
+        rows_of[number].push_back(i);
+        rate.back() += s * t * primary[number];
+      }
+    }
+    const double mass = 1.0 / (nodes * nodes);
+    const double primary_mass = heavier / (corners * corners);
+    for (int i = 0; i < nodes * nodes; ++i) {
+      std::map<int, double> entries{{i, 1 / mass}};
+      for (const auto& [number, weight] : rows[i]) {
+        for (const int j : rows_of[number]) {
+          entries[j] += weight / primary_mass * rows[j].at(number);
+        }
+      }
+      for (const auto& [column, value] : entries) delassus.add(column, value);
+      delassus.end_row();
+    }
+  }
+  std::size_t rows() const { return rate.size(); }
+};
+
+Vector dense(const SparseRows& matrix) {
+  const std::size_t n = matrix.rows();
+  Vector full(n * n);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = matrix.begin[i]; k < matrix.begin[i + 1]; ++k) {
+      full[i * n + static_cast<std::size_t>(matrix.column[k])] = matrix.value[k];
+    }
+  }
+  return full;
+}
+
+struct Answer {
+  LcpResult result;
+  Vector impulse;
+};
+
+Answer solve(const SparseRows& delassus, const Vector& rate, Vector guess = {}) {
+  ProportioningSolver solver(delassus.rows(), delassus.entries());
+  guess.resize(rate.size());
+  Answer answer{{}, std::move(guess)};
+  answer.result = solver.solve(delassus, rate, answer.impulse);
+  return answer;
+}
+
+TEST(Proportioning, AgreesWithTheExactSolver) {
+  for (const double heavier : {1e-2, 1.0, 1e3}) {
+    for (unsigned seed = 0; seed < 5; ++seed) {
+      const Plates plates(13, 7 + static_cast<int>(seed), heavier, seed);
+      const Answer answer = solve(plates.delassus, plates.rate);
+      Vector exact(plates.rows());
+      LcpSolver(static_cast<int>(plates.rows())).solve(dense(plates.delassus), plates.rate, exact);
+      EXPECT_EQ(answer.result.method, LcpMethod::active_set);
+      EXPECT_LE(answer.result.residual, 20 * answer.result.roundoff);
+      EXPECT_NEAR(answer.result.residual,
+                  complementarity_residual(dense(plates.delassus), plates.rate, answer.impulse),
+                  1e-18);
+      const double scale = largest_magnitude(exact);
+      for (std::size_t i = 0; i < exact.size(); ++i) {
+        EXPECT_NEAR(answer.impulse[i], exact[i], 1e-12 * scale) << "row " << i;
+      }
+    }
+  }
+}
+
+TEST(Proportioning, NeedsAsManyProductsForTenThousandRowsAsForFew) {
+  const Plates few(20, 15, 1, 1);
+  const Plates many(100, 77, 1, 1);
+  const Answer small = solve(few.delassus, few.rate);
+  const Answer large = solve(many.delassus, many.rate);
+  EXPECT_EQ(large.result.method, LcpMethod::active_set);
+  EXPECT_LE(large.result.residual, 1e-14);
+  EXPECT_LE(large.result.iterations, 60);
+  EXPECT_LE(large.result.iterations, 2 * small.result.iterations);
+}
+
+/// More rows than motions: H has no inverse, the impulses are not unique, the velocities are.
+TEST(Proportioning, SolvesASingularDelassus) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  constexpr std::size_t rows = 120;
+  constexpr std::size_t motions = 30;
+  Vector constraints(rows * motions);
+  for (double& value : constraints) value = normal(random);
+  Vector delassus(rows * rows);
+  Vector rate(rows);
+  for (std::size_t i = 0; i < rows; ++i) {
+    for (std::size_t j = 0; j < rows; ++j) {
+      for (std::size_t k = 0; k < motions; ++k) {
+        delassus[i * rows + j] += constraints[i * motions + k] * constraints[j * motions + k];
+      }
+    }
+    for (std::size_t k = 0; k < motions; ++k)
+      rate[i] += constraints[i * motions + k] * (k % 3 - 1.0);
+  }
+  const Answer answer = solve(full_rows(delassus), rate);
+  EXPECT_EQ(answer.result.method, LcpMethod::active_set);
+  EXPECT_LE(answer.result.residual, 20 * answer.result.roundoff);
+  const Answer other = solve(full_rows(delassus), rate, Vector(rows, 1.0));
+  for (std::size_t i = 0; i < rows; ++i) {
+    double difference = 0;
+    for (std::size_t j = 0; j < rows; ++j) {
+      difference += delassus[i * rows + j] * (answer.impulse[j] - other.impulse[j]);
+    }
+    EXPECT_NEAR(difference, 0, 1e-10) << "row " << i;
+  }
+}
+
+TEST(Proportioning, GivesTheSameBitsAndScalesWithTheRates) {
+  const Plates plates(15, 11, 1, 3);
+  const Answer answer = solve(plates.delassus, plates.rate);
+  EXPECT_EQ(answer.impulse, solve(plates.delassus, plates.rate).impulse);
+  Vector rate = plates.rate;
+  for (double& value : rate) value *= 0x1p-600;
+  const Answer tiny = solve(plates.delassus, rate);
+  for (std::size_t i = 0; i < rate.size(); ++i) {
+    EXPECT_EQ(tiny.impulse[i], answer.impulse[i] * 0x1p-600);
+  }
+}
+
+TEST(Proportioning, StartsFromAnyGuess) {
+  const Plates plates(15, 11, 1, 3);
+  const Answer answer = solve(plates.delassus, plates.rate);
+  const Answer again = solve(plates.delassus, plates.rate, answer.impulse);
+  EXPECT_LE(again.result.iterations, 6);
+  Vector bad(plates.rows(), -7.0);
+  bad[3] = std::numeric_limits<double>::quiet_NaN();
+  bad[5] = 1e30;
+  const Answer other = solve(plates.delassus, plates.rate, bad);
+  EXPECT_EQ(other.result.method, LcpMethod::active_set);
+  const double scale = largest_magnitude(answer.impulse);
+  for (std::size_t i = 0; i < bad.size(); ++i) {
+    EXPECT_NEAR(other.impulse[i], answer.impulse[i], 1e-11 * scale);
+    EXPECT_NEAR(again.impulse[i], answer.impulse[i], 1e-13 * scale);
+  }
+}
+
+TEST(Proportioning, SaysWhatCannotBe) {
+  const Plates plates(11, 7, 1, 3);
+  Vector rate = plates.rate;
+  rate[4] = std::numeric_limits<double>::infinity();
+  const Answer bad = solve(plates.delassus, rate);
+  EXPECT_EQ(bad.result.method, LcpMethod::not_finite);
+  EXPECT_TRUE(std::ranges::all_of(bad.impulse, [](double value) { return value == 0; }));
+  std::ranges::fill(rate, 0.5);
+  EXPECT_EQ(solve(plates.delassus, rate).result.method, LcpMethod::separated);
+  SparseRows immobile;  // two rows that move, one that nothing opens
+  for (const double h : {2.0, 0.0, 4.0}) {
+    immobile.add(static_cast<int>(immobile.rows()), h);
+    immobile.end_row();
+  }
+  const Answer stuck = solve(immobile, {-1, -1, -1});
+  EXPECT_EQ(stuck.result.infeasible_rows, 1);
+  EXPECT_DOUBLE_EQ(stuck.impulse[0], 0.5);
+  EXPECT_EQ(stuck.impulse[1], 0);
+  EXPECT_DOUBLE_EQ(stuck.impulse[2], 0.25);
+}
+
+TEST(Proportioning, CorrectionRemovesTheRatesOfRowsInContact) {
+  const Plates plates(13, 9, 1, 5);
+  ProportioningSolver solver(plates.rows(), plates.delassus.entries());
+  Vector impulse(plates.rows());
+  solver.solve(plates.delassus, plates.rate, impulse);
+  const Vector before = impulse;
+  Vector left(plates.rows());
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    left[i] = 1e-9 * std::sin(static_cast<double>(i));
+  }
+  Vector increment(plates.rows());
+  solver.correct(left, impulse, increment);
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    EXPECT_EQ(impulse[i], before[i] + increment[i]);
+    const double rate = left[i] + row_product(plates.delassus, i, increment);
+    if (impulse[i] > 0) {
+      EXPECT_NEAR(rate, 0, 1e-16) << "row " << i;
+    } else {
+      EXPECT_EQ(increment[i], -before[i]) << "row " << i;
+    }
+  }
+}
+
+TEST(CoupledLcp, BothSolversAnswerAlikeAtTheirBorder) {
+  for (const int nodes : {9, 10}) {  // 81 and 100 rows
+    const Plates plates(nodes, 7, 1, 2);
+    CoupledLcp solver(plates.rows(), plates.delassus.entries());
+    Vector impulse(plates.rows());
+    const LcpResult result = solver.solve(plates.delassus, plates.rate, impulse);
+    const Answer sparse = solve(plates.delassus, plates.rate);
+    EXPECT_LE(result.residual, 1e-14);
+    for (std::size_t i = 0; i < impulse.size(); ++i) {
+      EXPECT_NEAR(impulse[i], sparse.impulse[i], 1e-13 * largest_magnitude(impulse));
+    }
+  }
+}
+
+}  // namespace proportioning_test
+}  // namespace pounding::interactions
