@@ -7,10 +7,11 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 /// Bytes that one process of a machine writes and another reads, from a file, a pipe or rank 0. One
-/// function that takes either stream describes the order for both directions.
+/// list of members describes the order for both directions.
 namespace pounding {
 
 /// Takes bytes that come one after the other.
@@ -19,33 +20,52 @@ using WriteBytes = std::function<void(std::span<const char>)>;
 /// Fills the whole span with the next bytes, or throws.
 using ReadBytes = std::function<void(std::span<char>)>;
 
-/// Writes plain values, text, arrays and lists one after the other, for the same machine to read.
+/// A struct that lists its members for streams: `members(self, stream)` calls
+/// `stream(self.a, self.b, ...)`, in the one order of both directions.
+template <typename Value, typename Stream>
+concept ListsMembers = requires(Value& value, Stream& stream) {
+  std::remove_const_t<Value>::members(value, stream);
+};
+
+/// Writes values one after the other, for the same machine to read: plain ones as bytes, texts,
+/// vectors and structs that list their members.
 class ByteWriter {
  public:
   explicit ByteWriter(const WriteBytes& write) : write_(write) {}
 
-  template <typename Value>
-  void operator()(const Value& value) {
-    static_assert(std::is_trivially_copyable_v<Value>);
-    pass_on(&value, sizeof(Value));
-  }
-  void operator()(const std::string& text) {
-    (*this)(static_cast<std::uint64_t>(text.size()));
-    pass_on(text.data(), text.size());
-  }
-  template <typename Value>
-  void array(const std::vector<Value>& values) {
-    static_assert(std::is_trivially_copyable_v<Value>);
-    (*this)(static_cast<std::uint64_t>(values.size()));
-    pass_on(values.data(), values.size() * sizeof(Value));
-  }
-  template <typename Value, typename Visit>
-  void list(const std::vector<Value>& values, const Visit& visit) {
-    (*this)(static_cast<std::uint64_t>(values.size()));
-    for (const Value& value : values) visit(value);
+  template <typename... Values>
+  void operator()(const Values&... values) {
+    (put(values), ...);
   }
 
  private:
+  template <typename Value>
+  void put(const Value& value) {
+    if constexpr (std::is_trivially_copyable_v<Value>) {
+      pass_on(&value, sizeof(Value));
+    } else {
+      static_assert(ListsMembers<const Value, ByteWriter>);
+      Value::members(value, *this);
+    }
+  }
+  void put(const std::string& text) {
+    put(static_cast<std::uint64_t>(text.size()));
+    pass_on(text.data(), text.size());
+  }
+  template <typename One, typename Other>
+  void put(const std::pair<One, Other>& both) {
+    (*this)(both.first, both.second);
+  }
+  template <typename Value>
+  void put(const std::vector<Value>& values) {
+    put(static_cast<std::uint64_t>(values.size()));
+    if constexpr (std::is_trivially_copyable_v<Value>) {
+      pass_on(values.data(), values.size() * sizeof(Value));
+    } else {
+      for (const Value& value : values) put(value);
+    }
+  }
+
   void pass_on(const void* data, std::size_t count) {
     if (count > 0) write_({static_cast<const char*>(data), count});
   }
@@ -59,32 +79,44 @@ class ByteReader {
   /// `most`: bytes that there are.
   ByteReader(const ReadBytes& read, std::size_t most) : read_(read), left_(most) {}
 
-  template <typename Value>
-  void operator()(Value& value) {
-    static_assert(std::is_trivially_copyable_v<Value>);
-    take(&value, 1, sizeof(Value));
-  }
-  void operator()(std::string& text) {
-    text.resize(count(1));
-    take(text.data(), text.size(), 1);
-  }
-  template <typename Value>
-  void array(std::vector<Value>& values) {
-    values.resize(count(sizeof(Value)));
-    take(values.data(), values.size(), sizeof(Value));
-  }
-  template <typename Value, typename Visit>
-  void list(std::vector<Value>& values, const Visit& visit) {
-    // Every item of a list takes a byte at least.
-    const std::size_t size = count(1);
-    for (std::size_t i = 0; i < size; ++i) visit(values.emplace_back());
+  template <typename... Values>
+  void operator()(Values&... values) {
+    (get(values), ...);
   }
 
  private:
+  template <typename Value>
+  void get(Value& value) {
+    if constexpr (std::is_trivially_copyable_v<Value>) {
+      take(&value, 1, sizeof(Value));
+    } else {
+      static_assert(ListsMembers<Value, ByteReader>);
+      Value::members(value, *this);
+    }
+  }
+  void get(std::string& text) {
+    text.resize(count(1));
+    take(text.data(), text.size(), 1);
+  }
+  template <typename One, typename Other>
+  void get(std::pair<One, Other>& both) {
+    (*this)(both.first, both.second);
+  }
+  template <typename Value>
+  void get(std::vector<Value>& values) {
+    if constexpr (std::is_trivially_copyable_v<Value>) {
+      values.resize(count(sizeof(Value)));
+      take(values.data(), values.size(), sizeof(Value));
+    } else {
+      // Every item of a list takes a byte at least.
+      values.clear();
+      for (std::size_t left = count(1); left > 0; --left) get(values.emplace_back());
+    }
+  }
   /// A number of items of a size that the rest can hold.
   std::size_t count(std::size_t size) {
     std::uint64_t number = 0;
-    (*this)(number);
+    get(number);
     if (number > left_ / size) throw std::runtime_error("the content is cut short");
     return number;
   }

@@ -70,29 +70,22 @@ void broadcast_array(MPI_Comm comm, std::vector<Value, Allocator>& values, int r
   }
 }
 
-/// The values of rank 0 that `pass(stream)` describes, on every rank; lists of the others must be
-/// empty before. Collective.
-template <typename Pass>
-void broadcast_values(MPI_Comm comm, const Pass& pass) {
+/// Values of rank `root`, which a byte stream takes, on every rank. Collective.
+template <typename... Values>
+void broadcast_values(MPI_Comm comm, int root, Values&... values) {
   std::vector<char> bytes;
-  const WriteBytes take = [&](std::span<const char> values) {
-    bytes.insert(bytes.end(), values.begin(), values.end());
+  const WriteBytes take = [&](std::span<const char> next) {
+    bytes.insert(bytes.end(), next.begin(), next.end());
   };
-  const bool root = rank_of(comm) == 0;
-  if (root) {
-    ByteWriter writer(take);
-    pass(writer);
-  }
-  broadcast_array(comm, bytes);
+  const bool writes = rank_of(comm) == root;
+  if (writes) ByteWriter{take}(values...);
+  broadcast_array(comm, bytes, root);
   std::size_t place = 0;
-  const ReadBytes give = [&](std::span<char> values) {
-    std::copy_n(bytes.data() + place, values.size(), values.data());
-    place += values.size();
+  const ReadBytes give = [&](std::span<char> next) {
+    std::copy_n(bytes.data() + place, next.size(), next.data());
+    place += next.size();
   };
-  if (!root) {
-    ByteReader reader(give, bytes.size());
-    pass(reader);
-  }
+  if (!writes) ByteReader{give, bytes.size()}(values...);
 }
 
 /// Rows of all ranks, one after the other, on all of them. Collective.

@@ -46,7 +46,8 @@ void share_fit(MPI_Comm comm, Soil& soil) {
 /// Shares the findings of rank 0 in the whole meshes. Collective.
 void share_findings(MPI_Comm comm, Scene& scene, WholeMeshes& whole,
                     const ContactsKnown& contacts_known, Model& model) {
-  broadcast_values(comm, [&](auto& stream) { pass_shared_findings(stream, whole, model); });
+  pass_shared_findings(whole, model,
+                       [&](auto&... values) { broadcast_values(comm, 0, values...); });
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     Structure& structure = scene.structures[s];
     if (!structure.soil) continue;

@@ -94,64 +94,26 @@ std::string identity_of(const Ingredients& ingredients, int ranks) {
   return hash.text();
 }
 
-template <typename Stream, typename Head>
-void pass_head(Stream& stream, Head& head) {
-  pass_each(stream, head.kind, head.ranks);
-  stream.list(head.opened,
-              [&](auto& files) { stream.list(files, [&](auto& file) { stream(file); }); });
-  stream.list(head.ingredients, [&](auto& each) { pass_each(stream, each.first, each.second); });
-}
-
 struct Head {
   std::string kind = common_kind;
   std::int32_t ranks = 0;
   std::vector<std::vector<std::string>> opened;  ///< by Gmsh, of each structure: from its mesh
   Ingredients ingredients;
+
+  static void members(auto& self, auto& stream) {
+    stream(self.kind, self.ranks, self.opened, self.ingredients);
+  }
 };
 
-template <typename Stream, typename Reports>
-void pass_reports(Stream& stream, Reports& reports) {
-  stream.list(reports, [&](auto& report) {
-    pass_each(stream, report.contact, report.passes, report.pairs, report.matched,
-              report.unmatched_nodes, report.smallest_gap, report.largest_gap, report.geometric_gap,
-              report.half_thickness, report.overlapping, report.carried, report.left_behind,
-              report.farthest_behind, report.inner_facets, report.normal, report.tangent_axes);
-    stream.array(report.patch_pairs);
-    pass_each(stream, report.filler_area, report.filler_thickness);
-  });
-}
-
-template <typename Stream, typename Findings>
-void pass_findings(Stream& stream, Findings& findings) {
-  auto& connectivity = findings.connectivity;
-  stream.list(findings.files.opened, [&](auto& file) { stream(file); });
-  stream.array(connectivity.pieces);
-  pass_each(stream, connectivity.coincident_inside, connectivity.coincident_apart,
-            connectivity.ends_inside, connectivity.hinges, connectivity.lone_hinges);
-  stream.list(findings.unused, [&](auto& unused) {
-    pass_each(stream, unused.group, unused.kind, unused.count, unused.left_out, unused.place);
-  });
-  stream.list(findings.divided, [&](auto& divided) {
-    pass_each(stream, divided.group, divided.lines, divided.beams, divided.whole);
-  });
-  pass_each(stream, findings.waves.frequency, findings.waves.element_size, findings.waves.group);
-}
-
-/// The one description of the common piece behind its head, for both directions.
-template <typename Stream, typename Whole, typename AnyModel>
-void pass_common(Stream& stream, Whole& whole, AnyModel& model) {
-  for (auto& mesh : whole.meshes) pass_marks(stream, mesh);
-  pass_shared_findings(stream, whole, model);
+/// Passes the common piece behind its head, in either direction.
+void pass_common(auto& stream, auto& whole, auto& model) {
+  for (auto& mesh : whole.meshes) NodeMarks::members(mesh, stream);
+  pass_shared_findings(whole, model, stream);
   for (auto& building : model.buildings) {
-    pass_findings(stream, building.findings);
-    stream(building.absorbing);
-    stream.array(building.spread);
+    stream(building.findings, building.absorbing, building.spread);
   }
-  pass_reports(stream, model.interface.reports);
-  for (auto* const warnings : {&model.interface.warnings, &model.warnings}) {
-    stream.list(*warnings, [&](auto& warning) { stream(warning); });
-  }
-  pass_each(stream, model.partition_imbalance, model.partition_edge_cut);
+  stream(model.interface.reports, model.interface.warnings, model.warnings,
+         model.partition_imbalance, model.partition_edge_cut);
 }
 
 /// Writes a sealed file. Throws UserError.
@@ -248,7 +210,7 @@ void cut_and_write(const Scene& scene, const WholeMeshes& whole, Model& model) {
   }
   const std::string fresh = common_path(scene) + ".new";
   write_sealed(fresh, [&](ByteWriter& stream) {
-    pass_head(stream, head);
+    stream(head);
     pass_common(stream, whole, std::as_const(model));
   });
   std::error_code failure;
@@ -290,10 +252,9 @@ double write_mesh_piece(const Scene& scene, int rank, const std::string& identit
                         const std::function<MeshParcel(std::size_t)>& parcel_of) {
   const std::string path = piece_path(scene, rank);
   write_sealed(path, [&](ByteWriter& stream) {
-    stream(std::string(piece_kind));
-    stream(identity);
+    stream(std::string(piece_kind), identity);
     for (std::size_t s = 0; s < scene.structures.size(); ++s) {
-      parcel_of(s).for_each_array([&](const auto& array) { stream.array(array); });
+      stream(parcel_of(s));
     }
   });
   return static_cast<double>(fs::file_size(path));
@@ -305,7 +266,7 @@ CommonPiece read_common_piece(const Scene& scene, int ranks, Model& model) {
   common.whole.meshes.resize(count);
   read_sealed(scene, common_path(scene), [&](ByteReader& stream) {
     Head head;
-    pass_head(stream, head);
+    stream(head);
     if (head.kind != common_kind) throw std::runtime_error("another format");
     const Ingredients now = ingredients_of(scene, head.opened);
     const std::string differ = difference(head.ingredients, now);
@@ -332,10 +293,10 @@ std::vector<MeshParcel> read_mesh_piece(const Scene& scene, int rank, const std:
   read_sealed(scene, piece_path(scene, rank), [&](ByteReader& stream) {
     std::string kind;
     std::string cut;
-    pass_each(stream, kind, cut);
+    stream(kind, cut);
     if (kind != piece_kind || cut != identity) throw std::runtime_error("of another cut");
     for (MeshParcel& parcel : parcels) {
-      parcel.for_each_array([&](auto& array) { stream.array(array); });
+      stream(parcel);
       check_parcel(parcel, scene.structures[&parcel - parcels.data()].regions.size());
     }
   });

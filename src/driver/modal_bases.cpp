@@ -306,7 +306,7 @@ void find_bases(MPI_Comm comm, const Scene& scene, std::span<const GlobalMesh> m
   });
   for (Reduction& reduction : reductions) {
     if (reduction.workers.comm != MPI_COMM_NULL) MPI_Comm_free(&reduction.workers.comm);
-    broadcast_basis(comm, reduction.workers.first, reduction.basis);
+    broadcast_values(comm, reduction.workers.first, reduction.basis);
     const std::string& file = reduction.structure.modal->basis_file;
     if (reduction.stored == 0 && !file.empty()) {
       on_rank0(comm, [&] {

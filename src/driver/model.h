@@ -46,6 +46,10 @@ struct MeshFindings {
   MeshFiles files;
   std::vector<DividedLines> divided;  ///< regions whose lines were cut into beams
   MeshWaves waves;
+
+  static void members(auto& self, auto& stream) {
+    stream(self.files.opened, self.connectivity, self.unused, self.divided, self.waves);
+  }
 };
 
 /// One structure of the scene as it was built: its mesh and its system, and all that was found out

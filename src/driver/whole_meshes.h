@@ -20,38 +20,10 @@ struct WholeMeshes {
   std::vector<MatPlace> mats;      ///< likewise, of those on soil
 };
 
-/// Values one after the other, to a byte stream or from it.
-template <typename Stream, typename... Values>
-void pass_each(Stream& stream, Values&... values) {
-  (stream(values), ...);
-}
-
-/// All that ranks have to know of the whole meshes beside their parts, to a byte stream or from it
-/// (common/byte_stream.h).
-template <typename Stream, typename Whole, typename AnyModel>
-void pass_shared_findings(Stream& stream, Whole& whole, AnyModel& model) {
-  stream.array(whole.mats);
-  interactions::pass_rows(stream, model.interface);
-  stream.list(model.probes, [&](auto& probe) {
-    pass_each(stream, probe.name, probe.structure);
-    stream.array(probe.nodes);
-    pass_each(stream, probe.position, probe.snap_distance, probe.element_size);
-  });
-  stream.list(model.forces, [&](auto& force) {
-    stream(force.structure);
-    stream.array(force.elements);
-    stream.array(force.regions);
-    stream.array(force.nodes);
-  });
-  stream.list(model.loads, [&](auto& load) {
-    stream(load.structure);
-    stream.array(load.forces);
-    pass_each(stream, load.nodes, load.extent, load.force, load.moment);
-  });
-  stream.list(model.starts, [&](auto& start) {
-    stream.array(start.displacement);
-    stream.array(start.velocity);
-  });
+/// Hands all that ranks have to know of the whole meshes beside their parts to
+/// `stream(values...)`.
+void pass_shared_findings(auto& whole, auto& model, auto&& stream) {
+  stream(whole.mats, model.interface, model.probes, model.forces, model.loads, model.starts);
 }
 
 /// The meshes of all structures, checked, with contacts, probes and forces found in them. Throws

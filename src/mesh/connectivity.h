@@ -49,6 +49,11 @@ struct Connectivity {
   bool wholly_held() const;
   /// The largest piece that nothing holds; there must be one.
   const Piece& loose_piece() const;
+
+  static void members(auto& self, auto& stream) {
+    stream(self.pieces, self.coincident_inside, self.coincident_apart, self.ends_inside,
+           self.hinges, self.lone_hinges);
+  }
 };
 
 inline constexpr double coincidence = 1e-6;  ///< of the diagonal of a structure's mesh

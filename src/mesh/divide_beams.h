@@ -15,6 +15,10 @@ struct DividedLines {
   GlobalIndex lines = 0;  ///< as in the mesh
   GlobalIndex beams = 0;  ///< that they became
   GlobalIndex whole = 0;  ///< of the lines, edges of other elements, which stay as they are
+
+  static void members(auto& self, auto& stream) {
+    stream(self.group, self.lines, self.beams, self.whole);
+  }
 };
 
 /// Beams in a half wave of bending that `divide: auto` asks for.

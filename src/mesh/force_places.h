@@ -18,6 +18,10 @@ struct ResolvedForce {
   std::vector<std::int64_t> elements;
   std::vector<int> regions;        ///< of each of them, since a point may be several elements
   std::vector<GlobalIndex> nodes;  ///< of these elements, sorted
+
+  static void members(auto& self, auto& stream) {
+    stream(self.structure, self.elements, self.regions, self.nodes);
+  }
 };
 
 /// Whether a total counts the forces on a component of a node at `x` [m]: it is free and above the

@@ -27,6 +27,8 @@ struct TiedNode {
   GlobalIndex node = 0;  ///< file order
   int group = 0;         ///< index into the structure's rigid groups
   std::vector<Carrier> carriers;
+
+  static void members(auto& self, auto& stream) { stream(self.node, self.group, self.carriers); }
 };
 
 /// A clamped node on a support that moves on its own.
@@ -95,6 +97,10 @@ struct UnusedElements {
   /// Elements of `count` that are not faces or edges of elements in use: left out of the structure.
   GlobalIndex left_out = 0;
   Vector3 place{0, 0, 0};  ///< of the first that is left out, or else of the first [m]
+
+  static void members(auto& self, auto& stream) {
+    stream(self.group, self.kind, self.count, self.left_out, self.place);
+  }
 };
 
 /// Nodes that move together.
@@ -105,6 +111,10 @@ struct RigidNodes {
   std::vector<GlobalIndex> nodes;  ///< sorted; of ties the carriers as well
   std::vector<std::uint8_t> rows;  ///< components in which each node follows; empty: all of those
   std::vector<TiedNode> tied;      ///< of ties
+
+  static void members(auto& self, auto& stream) {
+    stream(self.group, self.kind, self.components, self.nodes, self.rows, self.tied);
+  }
 };
 
 /// Marks of nodes of a structure beside its elements; every rank learns them.
@@ -115,27 +125,11 @@ struct NodeMarks {
   std::vector<SupportedNode> supported;  ///< sorted; empty where the ground moves as one
   /// The support with which all the ground moves, into the scene's supports; -1: there is none.
   int ground_support = -1;
-};
 
-/// Marks, to a byte stream or from it (common/byte_stream.h).
-template <typename Stream, typename Marks>
-void pass_marks(Stream& stream, Marks& marks) {
-  stream.list(marks.rigid, [&](auto& part) {
-    stream(part.group);
-    stream(part.kind);
-    stream(part.components);
-    stream.array(part.nodes);
-    stream.array(part.rows);
-    stream.list(part.tied, [&](auto& tied) {
-      stream(tied.node);
-      stream(tied.group);
-      stream.array(tied.carriers);
-    });
-  });
-  stream.array(marks.absorbing);
-  stream.array(marks.supported);
-  stream(marks.ground_support);
-}
+  static void members(auto& self, auto& stream) {
+    stream(self.rigid, self.absorbing, self.supported, self.ground_support);
+  }
+};
 
 struct GlobalMesh : NodeMarks {
   std::vector<double> coordinates;      ///< shape (n_nodes, 3) [m]

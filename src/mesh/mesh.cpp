@@ -99,7 +99,7 @@ void take_rigid_parts(std::vector<RigidNodes>& rigid, Mesh& mesh) {
 /// on supports that it has, ghosts as well.
 void share_marks(MPI_Comm comm, const NodeMarks& of_rank0, Mesh& mesh) {
   NodeMarks marks = rank_of(comm) == 0 ? of_rank0 : NodeMarks{};
-  broadcast_values(comm, [&](auto& stream) { pass_marks(stream, marks); });
+  broadcast_values(comm, 0, marks);
   take_rigid_parts(marks.rigid, mesh);
   std::ranges::copy_if(
       marks.absorbing, std::back_inserter(mesh.absorbing),
@@ -147,11 +147,13 @@ Mesh distribute_mesh(MPI_Comm comm, const std::string& name, const GlobalMesh& g
     const MeshCutter cutter(global, partition, structure);
     mine = cutter.parcel(0);
     for (int rank = 1; rank < size_of(comm); ++rank) {
-      MeshParcel parcel = cutter.parcel(rank);
-      parcel.for_each_array([&](const auto& array) { send_array(comm, rank, array); });
+      const MeshParcel parcel = cutter.parcel(rank);
+      const auto send = [&](const auto&... arrays) { (send_array(comm, rank, arrays), ...); };
+      MeshParcel::members(parcel, send);
     }
   } else {
-    mine.for_each_array([&](auto& array) { receive_array(comm, 0, array); });
+    const auto receive = [&](auto&... arrays) { (receive_array(comm, 0, arrays), ...); };
+    MeshParcel::members(mine, receive);
   }
   return join_parcel(comm, name, std::move(mine), global);
 }

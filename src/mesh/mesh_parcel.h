@@ -26,19 +26,9 @@ struct MeshParcel {
   std::vector<LocalIndex> connectivity;
   std::vector<std::uint8_t> counted;
 
-  template <typename Function>
-  void for_each_array(Function&& function) {
-    function(sizes);
-    function(file_node);
-    function(coordinates);
-    function(free_components);
-    function(global_dof);
-    function(region);
-    function(share);
-    function(names);
-    function(tags);
-    function(connectivity);
-    function(counted);
+  static void members(auto& self, auto& stream) {
+    stream(self.sizes, self.file_node, self.coordinates, self.free_components, self.global_dof,
+           self.region, self.share, self.names, self.tags, self.connectivity, self.counted);
   }
 };
 

@@ -25,6 +25,10 @@ struct MeshWaves {
   double frequency = 0;  ///< that elements of nine tenths of the mass carry [Hz]; 0: few carry any
   double element_size = 0;  ///< of those that carry no more [m]
   std::string group;        ///< that they are of
+
+  static void members(auto& self, auto& stream) {
+    stream(self.frequency, self.element_size, self.group);
+  }
 };
 
 /// Elements of rigid bodies carry no waves. Serial.

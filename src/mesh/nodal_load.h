@@ -23,6 +23,10 @@ struct NodalLoad {
   double extent = 0;               ///< of its lines, surfaces or volumes [m, m2, m3]
   Vector3 force{0, 0, 0};          ///< sum of the forces [N]
   Vector3 moment{0, 0, 0};         ///< sum of the moments, and of the forces about the origin [N m]
+
+  static void members(auto& self, auto& stream) {
+    stream(self.structure, self.forces, self.nodes, self.extent, self.force, self.moment);
+  }
 };
 
 /// Displacements and velocities at t = 0 of nodes of one structure that differ from those of all
@@ -32,6 +36,8 @@ struct NodalStart {
   std::vector<NodalValue> velocity;
 
   bool empty() const { return displacement.empty() && velocity.empty(); }
+
+  static void members(auto& self, auto& stream) { stream(self.displacement, self.velocity); }
 };
 
 }  // namespace pounding

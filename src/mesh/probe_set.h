@@ -17,6 +17,11 @@ struct ResolvedProbe {
   Vector3 position{0, 0, 0};       ///< mean of the nodes [m]
   double snap_distance = 0;        ///< largest from a point asked for to its node, rank 0 [m]
   double element_size = 0;  ///< largest distance between nodes of an element there, rank 0 [m]
+
+  static void members(auto& self, auto& stream) {
+    stream(self.name, self.structure, self.nodes, self.position, self.snap_distance,
+           self.element_size);
+  }
 };
 
 /// Snaps points to their nearest nodes and looks groups up; a probe that is not averaged becomes

@@ -16,6 +16,8 @@ struct RawElements {
   int type = 0;                     ///< Gmsh's number: 1 line, 2 triangle, 3 quadrangle, ...
   std::vector<std::int64_t> tags;   ///< as in the file
   std::vector<std::int64_t> nodes;  ///< node tags, shape (elements, nodes of the type)
+
+  static void members(auto& self, auto& stream) { stream(self.type, self.tags, self.nodes); }
 };
 
 /// A point, curve, surface or volume of the geometry with the elements on it.
@@ -24,6 +26,10 @@ struct RawEntity {
   int tag = 0;
   bool bounds_another = false;  ///< an entity of the next dimension ends on it
   std::vector<RawElements> elements;
+
+  static void members(auto& self, auto& stream) {
+    stream(self.dimension, self.tag, self.bounds_another, self.elements);
+  }
 };
 
 /// A physical group of one dimension; its number takes the place of a missing name.
@@ -31,6 +37,10 @@ struct RawGroup {
   std::string name;
   int dimension = 0;
   std::vector<int> entities;  ///< their tags
+
+  static void members(auto& self, auto& stream) {
+    stream(self.name, self.dimension, self.entities);
+  }
 };
 
 /// A Gmsh element type that the mesh holds.
@@ -38,12 +48,16 @@ struct RawType {
   int type = 0;
   int nodes = 0;     ///< of one element
   std::string name;  ///< "Hexahedron 8"
+
+  static void members(auto& self, auto& stream) { stream(self.type, self.nodes, self.name); }
 };
 
 /// A parameter that has another value after a geometry was read than it was given.
 struct ChangedParameter {
   std::string name;
   std::string value;  ///< afterwards; empty where it is no number
+
+  static void members(auto& self, auto& stream) { stream(self.name, self.value); }
 };
 
 struct RawMesh {
@@ -54,6 +68,11 @@ struct RawMesh {
   std::vector<RawType> types;
   std::vector<std::string> files;  ///< that Gmsh opened, absolute paths, each once, in that order
   std::vector<ChangedParameter> changed;
+
+  static void members(auto& self, auto& stream) {
+    stream(self.node_tags, self.coordinates, self.entities, self.groups, self.types, self.files,
+           self.changed);
+  }
 };
 
 /// The mesh, or why there is none.
@@ -62,6 +81,10 @@ struct RawAnswer {
   std::string error;     ///< empty or a line of Gmsh's
   std::string denied;    ///< empty or the deed at which the file was stopped: "start a program"
   bool landlock = true;  ///< Landlock guarded the process as well
+
+  static void members(auto& self, auto& stream) {
+    stream(self.error, self.denied, self.landlock, self.mesh);
+  }
 };
 
 /// Writes the answer, for the same machine to read, array by array.

@@ -408,27 +408,4 @@ ModalBasis compute_modal_basis(const LinearSystem& system, const Mesh& mesh,
   return BasisMaker(system, mesh, request).make();
 }
 
-void broadcast_basis(MPI_Comm comm, int root, ModalBasis& basis) {
-  std::array<std::int64_t, 5> counts{basis.modes, basis.attachment_vectors, basis.residual_vectors,
-                                     basis.full_dofs, basis.independent_dofs};
-  MPI_Bcast(counts.data(), 5, MPI_INT64_T, root, comm);
-  basis.modes = static_cast<int>(counts[0]);
-  basis.attachment_vectors = static_cast<int>(counts[1]);
-  basis.residual_vectors = static_cast<int>(counts[2]);
-  basis.full_dofs = counts[3];
-  basis.independent_dofs = counts[4];
-  MPI_Bcast(&basis.largest_without_residual, 1, MPI_DOUBLE, root, comm);
-  MPI_Bcast(&basis.total_mass, 1, MPI_DOUBLE, root, comm);
-  MPI_Bcast(&basis.mass, 1, MPI_DOUBLE, root, comm);
-  MPI_Bcast(basis.centre_of_mass.data(), 3, MPI_DOUBLE, root, comm);
-  MPI_Bcast(basis.inertia.data(), 6, MPI_DOUBLE, root, comm);
-  broadcast_array(comm, basis.mode_numbers, root);
-  broadcast_array(comm, basis.points, root);
-  for (auto* const values : {&basis.squared_frequency, &basis.residual_squared_frequency,
-                             &basis.participation, &basis.rows, &basis.support_participation,
-                             &basis.support_rows, &basis.load_parts, &basis.start_parts}) {
-    broadcast_array(comm, *values, root);
-  }
-}
-
 }  // namespace pounding

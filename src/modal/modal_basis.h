@@ -42,6 +42,42 @@ struct ModalBasis {
   std::vector<double> start_parts;
 
   std::size_t size() const { return squared_frequency.size(); }
+
+  /// Shape of an array in a file: columns of its rows, 0 of a plain vector, `each_coordinate` k;
+  /// `maybe`: it is left out where it is empty.
+  struct Shape {
+    int columns = 0;
+    bool maybe = false;
+  };
+  static constexpr int each_coordinate = -1;
+
+  /// Calls `member(name, value, shape)` with all that a file of the basis and other ranks have.
+  static void describe(auto& self, const auto& member) {
+    member("modes", self.modes, {});
+    member("attachment_vectors", self.attachment_vectors, {});
+    member("residual_vectors", self.residual_vectors, {});
+    member("full_dofs", self.full_dofs, {});
+    member("independent_dofs", self.independent_dofs, {});
+    member("largest_without_residual", self.largest_without_residual, {});
+    member("total_mass", self.total_mass, {});
+    member("mass", self.mass, {});
+    member("squared_frequency", self.squared_frequency, {});
+    member("residual_squared_frequency", self.residual_squared_frequency, {0, true});
+    member("mode_numbers", self.mode_numbers, {});
+    member("participation", self.participation, {each_coordinate});
+    member("centre_of_mass", self.centre_of_mass, {});
+    member("inertia", self.inertia, {});
+    member("points", self.points, {2});
+    member("rows", self.rows, {each_coordinate});
+    member("load_parts", self.load_parts, {each_coordinate, true});
+    member("start_parts", self.start_parts, {each_coordinate, true});
+    member("support_participation", self.support_participation, {each_coordinate, true});
+    member("support_rows", self.support_rows, {0, true});
+  }
+
+  static void members(auto& self, auto& stream) {
+    describe(self, [&](const char* /*name*/, auto& value, Shape /*shape*/) { stream(value); });
+  }
 };
 
 /// The lowest modes, and beside them the attachment vectors: static responses to gravity, where the
@@ -70,8 +106,5 @@ struct ModalBasis {
 /// no mode lies below the cut-off. Collective.
 ModalBasis compute_modal_basis(const LinearSystem& system, const Mesh& mesh,
                                const ModalRequest& request);
-
-/// The basis of rank `root` on every rank. Collective.
-void broadcast_basis(MPI_Comm comm, int root, ModalBasis& basis);
 
 }  // namespace pounding

@@ -32,6 +32,7 @@ std::string difference(const Hdf5Reader& file, const BasisKey& key) {
   return names;
 }
 
+constexpr const char* wrong_sizes = "sizes that do not belong together";
 constexpr double most_coordinates = 1e9;  // an int holds them
 constexpr double largest_number = 9e15;   // whole numbers above are not distinguished
 constexpr double last_component = component_names.size() - 1.0;
@@ -44,60 +45,70 @@ double whole(double value, double largest) {
   return value;
 }
 
-ModalBasis read_arrays(const Hdf5Reader& file, std::size_t loads, bool start) {
+void from_file(const std::vector<double>& numbers, std::vector<double>& values) {
+  values = numbers;
+}
+template <std::size_t size>
+void from_file(const std::vector<double>& numbers, std::array<double, size>& values) {
+  if (numbers.size() != size) throw std::runtime_error(wrong_sizes);
+  std::ranges::copy(numbers, values.begin());
+}
+void from_file(const std::vector<double>& numbers, std::vector<int>& values) {
+  for (const double number : numbers) {
+    values.push_back(static_cast<int>(whole(number, most_coordinates)));
+  }
+}
+void from_file(const std::vector<double>& numbers, std::vector<TracePoint>& points) {
+  if (numbers.size() % 2 != 0) throw std::runtime_error(wrong_sizes);
+  for (std::size_t i = 0; i < numbers.size(); i += 2) {
+    points.push_back({static_cast<GlobalIndex>(whole(numbers[i], largest_number)),
+                      static_cast<int>(whole(numbers[i + 1], last_component))});
+  }
+}
+
+std::vector<double> to_file(const auto& values) {
+  return {values.begin(), values.end()};
+}
+std::vector<double> to_file(const std::vector<TracePoint>& points) {
+  std::vector<double> numbers;
+  for (const TracePoint& point : points) {
+    numbers.insert(numbers.end(),
+                   {static_cast<double>(point.node), static_cast<double>(point.component)});
+  }
+  return numbers;
+}
+
+ModalBasis read_members(const Hdf5Reader& file, std::size_t loads, bool start) {
   ModalBasis basis;
-  basis.modes = static_cast<int>(whole(file.number("/", "modes"), most_coordinates));
-  basis.attachment_vectors =
-      static_cast<int>(whole(file.number("/", "attachment_vectors"), most_coordinates));
-  basis.residual_vectors =
-      static_cast<int>(whole(file.number("/", "residual_vectors"), most_coordinates));
-  basis.full_dofs = static_cast<GlobalIndex>(whole(file.number("/", "full_dofs"), largest_number));
-  basis.independent_dofs =
-      static_cast<GlobalIndex>(whole(file.number("/", "independent_dofs"), largest_number));
-  basis.largest_without_residual = file.number("/", "largest_without_residual");
-  basis.total_mass = file.number("/", "total_mass");
-  basis.mass = file.number("/", "mass");
-  basis.squared_frequency = file.array("squared_frequency");
-  if (basis.residual_vectors > 0) {
-    basis.residual_squared_frequency = file.array("residual_squared_frequency");
-  }
-  for (const double number : file.array("mode_numbers")) {
-    basis.mode_numbers.push_back(static_cast<int>(whole(number, most_coordinates)));
-  }
-  basis.participation = file.array("participation");
-  const std::vector<double> centre = file.array("centre_of_mass");
-  const std::vector<double> inertia = file.array("inertia");
-  const std::vector<double> points = file.array("points");
-  basis.rows = file.array("rows");
-  if (loads > 0) basis.load_parts = file.array("load_parts");
-  if (start) basis.start_parts = file.array("start_parts");
+  const std::vector<std::string> arrays = file.names("/");
+  ModalBasis::describe(basis, [&](const char* name, auto& value, ModalBasis::Shape shape) {
+    using Value = std::remove_reference_t<decltype(value)>;
+    if constexpr (std::is_floating_point_v<Value>) {
+      value = file.number("/", name);
+    } else if constexpr (std::is_integral_v<Value>) {
+      value = static_cast<Value>(
+          whole(file.number("/", name), sizeof value == 4 ? most_coordinates : largest_number));
+    } else if (!shape.maybe || std::ranges::find(arrays, name) != arrays.end()) {
+      const std::vector<double> numbers = file.array(name);
+      if (!std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); })) {
+        throw std::runtime_error("a value is not finite");
+      }
+      from_file(numbers, value);
+    }
+  });
   const std::size_t size = basis.size();
   const auto modes = std::ranges::count_if(basis.mode_numbers, [](int n) { return n > 0; });
   if (size == 0 || basis.mode_numbers.size() != size || modes != basis.modes ||
-      basis.participation.size() != 6 * size || centre.size() != 3 || inertia.size() != 6 ||
-      points.size() % 2 != 0 || basis.rows.size() != points.size() / 2 * size ||
+      basis.participation.size() != 6 * size || basis.rows.size() != basis.points.size() * size ||
       basis.load_parts.size() != loads * size ||
       basis.start_parts.size() != (start ? 2 * size : 0) ||
       basis.residual_squared_frequency.size() != static_cast<std::size_t>(basis.residual_vectors) ||
       basis.modes + basis.attachment_vectors + basis.residual_vectors != static_cast<int>(size)) {
-    throw std::runtime_error("sizes that do not belong together");
-  }
-  for (const auto* values : std::initializer_list<const std::vector<double>*>{
-           &basis.squared_frequency, &basis.residual_squared_frequency, &basis.participation,
-           &centre, &inertia, &points, &basis.rows, &basis.load_parts, &basis.start_parts}) {
-    if (!std::ranges::all_of(*values, [](double value) { return std::isfinite(value); })) {
-      throw std::runtime_error("a value is not finite");
-    }
+    throw std::runtime_error(wrong_sizes);
   }
   if (!(basis.squared_frequency.front() >= 0) || !std::ranges::is_sorted(basis.squared_frequency) ||
       !(basis.mass > 0) || !(basis.total_mass > 0)) {
     throw std::runtime_error("frequencies or masses that cannot be");
-  }
-  std::copy(centre.begin(), centre.end(), basis.centre_of_mass.begin());
-  std::copy(inertia.begin(), inertia.end(), basis.inertia.begin());
-  for (std::size_t i = 0; i < points.size(); i += 2) {
-    basis.points.push_back({static_cast<GlobalIndex>(whole(points[i], largest_number)),
-                            static_cast<int>(whole(points[i + 1], last_component))});
   }
   return basis;
 }
@@ -214,35 +225,16 @@ void write_modal_basis(const std::string& path, const BasisKey& key, const Modal
   Hdf5File file(path + ".new", Hdf5File::Kind::sealed);
   file.write_attribute("/", "format", format);
   schema::write(file, schema::basis);
-  file.write_attribute("/", "modes", basis.modes);
-  file.write_attribute("/", "attachment_vectors", basis.attachment_vectors);
-  file.write_attribute("/", "residual_vectors", basis.residual_vectors);
-  file.write_attribute("/", "full_dofs", static_cast<double>(basis.full_dofs));
-  file.write_attribute("/", "independent_dofs", static_cast<double>(basis.independent_dofs));
-  file.write_attribute("/", "largest_without_residual", basis.largest_without_residual);
-  file.write_attribute("/", "total_mass", basis.total_mass);
-  file.write_attribute("/", "mass", basis.mass);
-  file.write_array("squared_frequency", 0, basis.squared_frequency);
-  if (basis.residual_vectors > 0) {
-    file.write_array("residual_squared_frequency", 0, basis.residual_squared_frequency);
-  }
+  ModalBasis::describe(basis, [&](const char* name, const auto& value, ModalBasis::Shape shape) {
+    if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>) {
+      file.write_attribute("/", name, static_cast<double>(value));
+    } else if (!(shape.maybe && value.empty())) {
+      file.write_array(name,
+                       shape.columns == ModalBasis::each_coordinate ? basis.size() : shape.columns,
+                       to_file(value));
+    }
+  });
   for (const auto& [name, hash] : key) file.write_attribute(key_holder, name, hash);
-  file.write_array("mode_numbers", 0,
-                   std::vector<double>(basis.mode_numbers.begin(), basis.mode_numbers.end()));
-  file.write_array("participation", basis.size(), basis.participation);
-  file.write_array("centre_of_mass", 0, basis.centre_of_mass);
-  file.write_array("inertia", 0, basis.inertia);
-  std::vector<double> points;
-  for (const TracePoint& point : basis.points) {
-    points.insert(points.end(),
-                  {static_cast<double>(point.node), static_cast<double>(point.component)});
-  }
-  file.write_array("points", 2, points);
-  file.write_array("rows", basis.size(), basis.rows);
-  if (!basis.load_parts.empty()) file.write_array("load_parts", basis.size(), basis.load_parts);
-  if (!basis.start_parts.empty()) {
-    file.write_array("start_parts", basis.size(), basis.start_parts);
-  }
   file.close();
   file.move_to(path);
 }
@@ -255,7 +247,7 @@ StoredBasis read_modal_basis(const std::string& path, const BasisKey& key, std::
     schema::require(file, schema::basis);
     StoredBasis stored;
     stored.differs = difference(file, key);
-    if (stored.differs.empty()) stored.basis = read_arrays(file, loads, start);
+    if (stored.differs.empty()) stored.basis = read_members(file, loads, start);
     return stored;
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(path + ": no modal basis, or a damaged one (" + error.what() + ")");

@@ -88,7 +88,7 @@ void distribute(MPI_Comm comm, const ModelRequest& request, SteppedModel& model)
     partition =
         partition_meshes(meshes, interactions::facing_nodes(model.interface), size_of(comm));
   });
-  broadcast_values(comm, [&](auto& stream) { interactions::pass_rows(stream, model.interface); });
+  broadcast_values(comm, 0, model.interface);
   for (std::size_t s = 0; s < meshes.size(); ++s) {
     model.meshes.push_back(distribute_mesh(comm, "s" + std::to_string(s + 1), meshes[s], partition,
                                            static_cast<int>(s)));

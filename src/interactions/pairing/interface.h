@@ -50,6 +50,10 @@ struct SlidingFaces {
   std::vector<int> candidates;
 
   bool empty() const { return rows.empty(); }
+
+  static void members(auto& self, auto& stream) {
+    stream(self.nodes, self.facets, self.rows, self.candidates);
+  }
 };
 
 /// One term of a constraint: coefficient times the displacement component of a node.
@@ -95,6 +99,11 @@ struct Constraint {
 
   /// Gap of the faces where hard contact has `gap` [m].
   double of_faces(double gap) const { return gap - filler.depth; }
+
+  static void members(auto& self, auto& stream) {
+    stream(self.contact, self.terms, self.initial_gap, self.geometric_gap, self.facet_size, self.at,
+           self.place, self.level, self.share, self.matched, self.friction, self.filler);
+  }
 };
 
 /// Initial gap of a row that faces nothing yet [m].
@@ -125,6 +134,14 @@ struct InterfaceReport {
   std::vector<int> patch_pairs;              ///< pairs in each patch of the gap
   double filler_area = 0;                    ///< of all pairs [m2]; 0: no filler
   std::array<double, 2> filler_thickness{};  ///< smallest and largest [m]
+
+  static void members(auto& self, auto& stream) {
+    stream(self.contact, self.passes, self.pairs, self.matched, self.unmatched_nodes,
+           self.smallest_gap, self.largest_gap, self.geometric_gap, self.half_thickness,
+           self.overlapping, self.carried, self.left_behind, self.farthest_behind,
+           self.inner_facets, self.normal, self.tangent_axes, self.patch_pairs, self.filler_area,
+           self.filler_thickness);
+  }
 };
 
 struct Interface {
@@ -137,6 +154,11 @@ struct Interface {
   /// Rows of second passes that are not taken: they never act, and a run looks how far nodes of the
   /// primary go into the secondary.
   std::vector<Constraint> watched;
+
+  /// Members that every rank has: rows and extents.
+  static void members(auto& self, auto& stream) {
+    stream(self.constraints, self.watched, self.sliding, self.extents, self.model_size);
+  }
 };
 
 /// Whether some contact has a filler, a strip that is crushed, or a spring.
@@ -148,34 +170,6 @@ void drop_repeated(std::size_t first, Interface& interface, InterfaceReport& rep
 
 /// Facing nodes, for the partition.
 std::vector<NodeLink> facing_nodes(const Interface& interface);
-
-/// Rows of an interface, to a byte stream or from it (common/byte_stream.h).
-template <typename Stream, typename AnyInterface>
-void pass_rows(Stream& stream, AnyInterface& interface) {
-  const auto pass_row = [&](auto& row) {
-    stream(row.contact);
-    stream.array(row.terms);
-    stream(row.initial_gap);
-    stream(row.geometric_gap);
-    stream(row.facet_size);
-    stream(row.at);
-    stream(row.place);
-    stream(row.level);
-    stream(row.share);
-    stream(row.matched);
-    stream(row.friction);
-    stream(row.filler);
-  };
-  stream.list(interface.constraints, pass_row);
-  stream.list(interface.watched, pass_row);
-  auto& sliding = interface.sliding;
-  stream.array(sliding.nodes);
-  stream.array(sliding.facets);
-  stream.array(sliding.rows);
-  stream.array(sliding.candidates);
-  stream.array(interface.extents);
-  stream(interface.model_size);
-}
 
 /// The outward normal of the secondary side of a constraint, whose terms are the last ones: a unit
 /// vector.
