@@ -104,6 +104,16 @@ void on_every_rank(MPI_Comm comm, const std::function<void()>& work) {
   raise(static_cast<Failure>(kind), std::string(bytes.begin(), bytes.end()));
 }
 
+void share_extreme(MPI_Comm comm, MPI_Op extreme, double& value, std::string& name) {
+  struct {
+    double value;
+    int rank;
+  } found{value, rank_of(comm)};
+  MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_DOUBLE_INT, extreme, comm);
+  value = found.value;
+  broadcast_values(comm, found.rank, name);
+}
+
 std::vector<double> gather_rows(MPI_Comm comm, const std::vector<double>& rows) {
   const auto ranks = static_cast<std::size_t>(size_of(comm));
   const int count = static_cast<int>(rows.size());

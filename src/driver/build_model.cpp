@@ -39,8 +39,7 @@ Progress begin(MPI_Comm comm, const Scene& scene, const Structure& structure, co
 void share_fit(MPI_Comm comm, Soil& soil) {
   if (soil.table.empty()) return;
   if (!soil.fitted) soil.fitted.emplace();
-  broadcast_array(comm, soil.fitted->parts, 0);
-  broadcast_array(comm, soil.fitted->misfits, 0);
+  broadcast_values(comm, 0, soil.fitted->parts, soil.fitted->misfits);
 }
 
 /// Shares the findings of rank 0 in the whole meshes. Collective.

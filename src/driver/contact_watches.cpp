@@ -67,8 +67,7 @@ class SlideWatch final : public Observer {
   void report(RunStatistics& statistics) override {
     statistics.slides = slides_;
     statistics.other_passes = passes_;
-    broadcast_array(run_.comm, statistics.slides, gather_.root());
-    broadcast_array(run_.comm, statistics.other_passes, gather_.root());
+    broadcast_values(run_.comm, gather_.root(), statistics.slides, statistics.other_passes);
   }
 
  private:

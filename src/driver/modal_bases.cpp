@@ -82,8 +82,7 @@ void add_link_points(MPI_Comm comm, const Structure& structure, const GlobalMesh
     links = link_points(structure, mesh);
     sections = section_points(structure, mesh);
   }
-  broadcast_array(comm, links, 0);
-  broadcast_array(comm, sections, 0);
+  broadcast_values(comm, 0, links, sections);
   for (const TracePoint& point : sections) list.add(point, request.yielding_points);
   for (const TracePoint& point : links) list.add(point, request.other_points);
 }

@@ -48,10 +48,8 @@ SparseRows rows_of_all(MPI_Comm comm, const KnownRows& mine, std::span<int> row_
     if (counts[rank] == 0) continue;
     KnownRows theirs;
     if (rank == rank_of(comm)) theirs = mine;
-    broadcast_array(comm, theirs.dof, rank);
-    broadcast_array(comm, theirs.rows.begin, rank);
-    broadcast_array(comm, theirs.rows.column, rank);
-    broadcast_array(comm, theirs.rows.value, rank);
+    broadcast_values(comm, rank, theirs.dof, theirs.rows.begin, theirs.rows.column,
+                     theirs.rows.value);
     for (std::size_t k = 0; k < theirs.dof.size(); ++k) {
       row_of[theirs.dof[k]] = static_cast<int>(all.rows());
       for (std::size_t at = theirs.rows.begin[k]; at < theirs.rows.begin[k + 1]; ++at) {

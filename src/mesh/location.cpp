@@ -49,10 +49,7 @@ std::string describe_element(const Mesh& mesh, const ElementBlock& block, std::s
 }
 
 std::string locate_largest(const Mesh& mesh, std::span<const double> values) {
-  struct {
-    double value;
-    int rank;
-  } largest{-1, rank_of(mesh.comm)};
+  double largest = -1;
   LocalIndex place = -1;
   int component = 0;
   for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
@@ -62,8 +59,8 @@ std::string locate_largest(const Mesh& mesh, std::span<const double> values) {
       const double value = values[dof];
       const double size =
           std::isfinite(value) ? std::abs(value) : std::numeric_limits<double>::infinity();
-      if (size > largest.value) {
-        largest.value = size;
+      if (size > largest) {
+        largest = size;
         place = node;
         component = c;
       }
@@ -74,10 +71,8 @@ std::string locate_largest(const Mesh& mesh, std::span<const double> values) {
     mine = "node at " + describe_position(mesh.position(place)) + ", component " +
            (component < 3 ? "u" : "r") + direction_names[component % 3] + element_at(mesh, place);
   }
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, mesh.comm);
-  std::vector<char> bytes(mine.begin(), mine.end());
-  broadcast_array(mesh.comm, bytes, largest.rank);
-  return {bytes.begin(), bytes.end()};
+  share_extreme(mesh.comm, MPI_MAXLOC, largest, mine);
+  return mine;
 }
 
 RegionShare busiest_region(const Mesh& mesh, std::span<const double> values) {

@@ -226,22 +226,19 @@ std::string describe_coordinate(const ModalBasis& basis, std::size_t coordinate)
 
 std::string locate_largest(const LinearSystem& system, const ModalBasis& basis,
                            std::span<const double> values) {
-  struct {
-    double value;
-    int rank;
-  } largest{-1, rank_of(system.comm)};
-  int place = 0;
+  double largest = -1;
+  std::size_t place = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double size =
         std::isfinite(values[i]) ? std::abs(values[i]) : std::numeric_limits<double>::infinity();
-    if (size > largest.value) {
-      largest.value = size;
-      place = static_cast<int>(i);
+    if (size > largest) {
+      largest = size;
+      place = i;
     }
   }
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, system.comm);
-  MPI_Bcast(&place, 1, MPI_INT, largest.rank, system.comm);
-  return describe_coordinate(basis, static_cast<std::size_t>(place));
+  std::string mine = values.empty() ? "" : describe_coordinate(basis, place);
+  share_extreme(system.comm, MPI_MAXLOC, largest, mine);
+  return mine;
 }
 
 }  // namespace pounding

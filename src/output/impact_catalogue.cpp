@@ -173,8 +173,7 @@ void ImpactCatalogue::finish(MPI_Comm comm, int root) {
   for (std::size_t c = 0; c < open_.size(); ++c) {
     if (is_open_[c] != 0) close(c);
   }
-  broadcast_array(comm, impacts_, root);
-  broadcast_array(comm, row_impulses_, root);
+  broadcast_values(comm, root, impacts_, row_impulses_);
   std::stable_sort(impacts_.begin(), impacts_.end(),
                    [](const Impact& a, const Impact& b) { return a.start < b.start; });
 }

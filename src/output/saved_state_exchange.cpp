@@ -59,9 +59,7 @@ SavedTables collect_tables(MPI_Comm comm, const SavedTables& tables) {
 
 void broadcast_tables(MPI_Comm comm, SavedTables& tables) {
   Parcel parcel = pack(tables);
-  broadcast_array(comm, parcel.names);
-  broadcast_array(comm, parcel.sizes);
-  broadcast_array(comm, parcel.values);
+  broadcast_values(comm, 0, parcel.names, parcel.sizes, parcel.values);
   unpack(parcel, tables);
 }
 

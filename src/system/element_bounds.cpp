@@ -46,19 +46,6 @@ std::string shape_key(std::span<const double> stiffness, std::span<const double>
   return key;
 }
 
-/// The extreme value over the ranks, MPI_MAXLOC or MPI_MINLOC, and the name that belongs to it.
-void share_extreme(MPI_Comm comm, MPI_Op extreme, double& value, std::string& name) {
-  struct {
-    double value;
-    int rank;
-  } found{value, rank_of(comm)};
-  MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_DOUBLE_INT, extreme, comm);
-  value = found.value;
-  std::vector<char> letters(name.begin(), name.end());
-  broadcast_array(comm, letters, found.rank);
-  name.assign(letters.begin(), letters.end());
-}
-
 /// Steps that are compared: a geometric series from the present one to a thousand times it.
 constexpr int candidates = 142;
 constexpr double ratio = 1.05;

@@ -75,19 +75,6 @@ double rounded(double force, double unit) {
   return unit > 0 ? std::round(force / unit) * unit : 0;
 }
 
-/// The largest value over the ranks, and the text that belongs to it.
-void share_largest(MPI_Comm comm, LargestCompression& largest) {
-  struct {
-    double value;
-    int rank;
-  } found{largest.force, rank_of(comm)};
-  MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm);
-  largest.force = found.value;
-  std::vector<char> letters(largest.place.begin(), largest.place.end());
-  broadcast_array(comm, letters, found.rank);
-  largest.place.assign(letters.begin(), letters.end());
-}
-
 }  // namespace
 
 ElementForces::ElementForces(const LinearSystem& system, const Mesh& mesh,
@@ -232,7 +219,7 @@ LargestCompression set_axial_forces(const Structure& structure,
       }
     }
   }
-  share_largest(mesh.comm, result);
+  share_extreme(mesh.comm, MPI_MAXLOC, result.force, result.place);
   return result;
 }
 

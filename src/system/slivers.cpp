@@ -74,13 +74,9 @@ std::string first_at_most(const Mesh& mesh, const ElementBlock& block,
       name = describe_element(mesh, block, e);
     }
   }
-  std::int64_t lowest = first;
-  MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPI_INT64_T, MPI_MIN, mesh.comm);
-  int holder = first == lowest ? rank_of(mesh.comm) : size_of(mesh.comm);
-  MPI_Allreduce(MPI_IN_PLACE, &holder, 1, MPI_INT, MPI_MIN, mesh.comm);
-  std::vector<char> letters(name.begin(), name.end());
-  broadcast_array(mesh.comm, letters, holder);
-  return {letters.begin(), letters.end()};
+  auto tag = static_cast<double>(first);
+  share_extreme(mesh.comm, MPI_MINLOC, tag, name);
+  return name;
 }
 
 }  // namespace
