@@ -88,8 +88,8 @@ void broadcast_values(MPI_Comm comm, int root, Values&... values) {
   if (!writes) ByteReader{give, bytes.size()}(values...);
 }
 
-/// The extreme value over the ranks, MPI_MAXLOC or MPI_MINLOC, and the name of the rank that has it.
-/// Collective.
+/// The extreme value over the ranks, MPI_MAXLOC or MPI_MINLOC, and the name on the rank that has
+/// it. Collective.
 void share_extreme(MPI_Comm comm, MPI_Op extreme, double& value, std::string& name);
 
 /// Rows of all ranks, one after the other, on all of them. Collective.

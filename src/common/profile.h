@@ -34,7 +34,7 @@ class Profile {
     MemoryUse& noted = memory_[static_cast<std::size_t>(phase)];
     noted = {use.held, std::max(noted.peak, use.peak)};
   }
-  /// Its largest memory and that at its end; zeros if it was not noted.
+  /// Memory of a phase, the largest and that at its end; zeros if it was not noted.
   const MemoryUse& memory(Phase phase) const { return memory_[static_cast<std::size_t>(phase)]; }
 
  private:

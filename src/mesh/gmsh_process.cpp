@@ -160,7 +160,7 @@ class GmshRun::Process {
     }
   }
 
-  /// Its exit as waitpid reports it; ends it if it still runs.
+  /// Exit of the process as waitpid reports it; ends it if it still runs.
   int end(bool by_force = true) {
     if (process_ > 0) {
       if (by_force) kill(-process_, SIGKILL);

@@ -96,6 +96,10 @@ void require_converged(EPS solver, const LinearSystem& system, const Mesh& mesh,
   }
 }
 
+void scale_by_root_mass(const LinearSystem& system, std::vector<double>& x) {
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] *= std::sqrt(system.lumped_mass[i]);
+}
+
 MatHandle mass_scaled(const LinearSystem& system, Mat matrix) {
   std::vector<double> scale = inverse_root_mass(system);
   const VecHandle diagonal = wrap_vector(system, scale);

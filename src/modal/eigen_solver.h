@@ -12,6 +12,9 @@
 /// Symmetric eigenvalue problems of a structure in y = M^1/2 x, by SLEPc.
 namespace pounding {
 
+/// M^1/2 x into x, by owned dof, of the lumped mass. Local.
+void scale_by_root_mass(const LinearSystem& system, std::vector<double>& x);
+
 /// M^-1/2 A M^-1/2, a new matrix. Collective.
 MatHandle mass_scaled(const LinearSystem& system, Mat matrix);
 

@@ -17,11 +17,6 @@
 namespace pounding {
 namespace {
 
-/// M^1/2 x.
-void weigh(const LinearSystem& system, std::vector<double>& x) {
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] *= std::sqrt(system.lumped_mass[i]);
-}
-
 /// Bound of every circular frequency [rad/s]. Elements with stiffness and no mass, springs, have no
 /// bound of their own: then that of the rows of M^-1/2 K M^-1/2, of motions that rigid bodies and
 /// ties admit, since their followers may have next to no mass of their own.
@@ -107,6 +102,30 @@ void for_each_translation(const Mesh& mesh, Visit&& visit) {
   }
 }
 
+/// A mode with its shape, if that is kept. Its vector is weighed by the roots of the masses, where
+/// these are coupled. Collective.
+Mode examine(FoundPair& pair, const LinearSystem& system, const Mesh& mesh,
+             const RigidMotions& motions, bool keep_shape) {
+  std::vector<double>& field = pair.vector;
+  double scaled = system.coupled_mass ? system.coupled_mass->added_product(field.data()) : 0;
+  for (const LocalIndex dof : system.condensed) {  // their lent mass
+    scaled += system.lumped_mass[dof] * field[dof] * field[dof];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &scaled, 1, MPI_DOUBLE, MPI_SUM, system.comm);
+  std::vector<double> shape;
+  if (keep_shape) shape = field;
+  if (system.mass_is_coupled()) {
+    scale_by_root_mass(system, field);
+  } else {
+    for (std::size_t i = 0; i < shape.size(); ++i) shape[i] /= std::sqrt(system.lumped_mass[i]);
+  }
+  Mode mode = describe_mode(pair.value, motions.participation(field.data()), motions.inertia());
+  mode.scaled_part = scaled;
+  mode.shape = std::move(shape);
+  mode.region = busiest_region(mesh, field);
+  return mode;
+}
+
 }  // namespace
 
 double reference_frequency(const Structure& structure, const ModalResult& modal) {
@@ -181,7 +200,7 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
   std::vector<FoundPair> found;
   const auto to_coordinates = [&](std::vector<double>& field) {
     if (admissible) admissible->to_coordinates(field);
-    if (diagonal_mass) weigh(system, field);
+    if (diagonal_mass) scale_by_root_mass(system, field);
   };
   const LowestProblem problem{system, mesh, matrix.get(), mass.get(), fastest, to_coordinates};
   if (must_iterate(system, matrix.get(), choice)) {
@@ -193,27 +212,10 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
     find_missed(problem, wanted, bound, found);
   }
   for (FoundPair& pair : found) {
-    std::vector<double>& field = pair.vector;
-    if (admissible) admissible->to_motion(field);
-    double scaled = system.coupled_mass ? system.coupled_mass->added_product(field.data()) : 0;
-    for (const LocalIndex dof : system.condensed) {  // their lent mass
-      scaled += system.lumped_mass[dof] * field[dof] * field[dof];
-    }
-    MPI_Allreduce(MPI_IN_PLACE, &scaled, 1, MPI_DOUBLE, MPI_SUM, system.comm);
-    std::vector<double> shape;
-    if (keep_shapes) shape = field;
-    if (!diagonal_mass) {
-      weigh(system, field);
-    } else {
-      for (std::size_t i = 0; i < shape.size(); ++i) shape[i] /= std::sqrt(system.lumped_mass[i]);
-    }
-    result.modes.push_back(
-        describe_mode(pair.value, motions.participation(field.data()), motions.inertia()));
-    result.modes.back().scaled_part = scaled;
-    result.modes.back().shape = std::move(shape);
-    result.modes.back().region = busiest_region(mesh, field);
-    if (pair.value < bound) result.modes.back().location = locate_largest(mesh, field);
-    field = {};
+    if (admissible) admissible->to_motion(pair.vector);
+    result.modes.push_back(examine(pair, system, mesh, motions, keep_shapes));
+    if (pair.value < bound) result.modes.back().location = locate_largest(mesh, pair.vector);
+    pair.vector = {};
   }
   std::stable_sort(result.modes.begin(), result.modes.end(),
                    [](const Mode& a, const Mode& b) { return a.frequency < b.frequency; });
@@ -243,7 +245,7 @@ LargestFrequency largest_frequency(const LinearSystem& system, const Mesh& mesh,
   std::vector<double> vector = lanczos.vector();
   if (system.mass_is_coupled()) {
     scaled.to_motion(vector);
-    weigh(system, vector);
+    scale_by_root_mass(system, vector);
   }
   LargestFrequency result;
   result.omega_max = std::sqrt(square);

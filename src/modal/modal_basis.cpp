@@ -19,7 +19,6 @@
 #include "modal/shifted_solver.h"
 #include "modal/static_loads.h"
 #include "system/admissible_motions.h"
-#include "system/load_shapes.h"
 #include "system/support_shapes.h"
 
 namespace pounding {
@@ -122,11 +121,11 @@ class BasisMaker {
   void from_coordinates(std::vector<double>& z) const {
     if (!admissible_) return;
     admissible_->to_motion(z);
-    for (std::size_t i = 0; i < dofs_; ++i) z[i] *= std::sqrt(system_.lumped_mass[i]);
+    scale_by_root_mass(system_, z);
   }
   void to_coordinates(std::vector<double>& y) const {
     if (!admissible_) return;
-    for (std::size_t i = 0; i < dofs_; ++i) y[i] *= std::sqrt(system_.lumped_mass[i]);
+    scale_by_root_mass(system_, y);
     admissible_->to_coordinates_of_force(y);
   }
   /// Takes out of y the part that no rigid body admits.
@@ -271,13 +270,18 @@ class BasisMaker {
     find_modes_in(rotation, basis);
     add_participation(rotation, basis);
     add_rows(rotation, basis);
-    if (system_.supports) add_supports(rotation, basis);
-    if (system_.loads) add_loads(rotation, basis);
-    if (system_.start) add_start(rotation, basis);
+    const auto parts = [&](const DenseMatrix& fields) {
+      return transposed_product(rotation, space_.parts(fields)).numbers();
+    };
+    if (system_.loads) basis.load_parts = parts(scaled_loads(system_));
+    if (system_.start) basis.start_parts = parts(scaled_start(system_));
+    if (!system_.supports) return;
+    basis.support_participation = parts(support_loads(system_));
+    add_support_rows(basis);
   }
 
-  /// Their Rayleigh quotients, and the largest eigenvalue of the space without them. They are the
-  /// last of the space.
+  /// Rayleigh quotients of residual vectors, and the largest eigenvalue of the space without them.
+  /// They are the last of the space.
   void describe_residual_vectors(const DenseMatrix& projected, ModalBasis& basis) const {
     const std::size_t others = space_.size() - static_cast<std::size_t>(basis.residual_vectors);
     for (std::size_t j = others; j < space_.size(); ++j) {
@@ -333,12 +337,10 @@ class BasisMaker {
     basis.participation = transposed_product(rotation, of_space).numbers();
   }
 
-  /// After the points are known.
-  void add_supports(const DenseMatrix& rotation, ModalBasis& basis) const {
+  /// Motion of the points with the supports, after the points are known.
+  void add_support_rows(ModalBasis& basis) const {
     const SupportShapes& supports = *system_.supports;
     const std::size_t columns = supports.columns.size();
-    basis.support_participation =
-        transposed_product(rotation, space_.parts(support_loads(system_))).numbers();
     basis.support_rows.assign(columns * basis.points.size(), 0.0);
     for (std::size_t p = 0; p < basis.points.size(); ++p) {
       const LocalIndex dof = owned_dof(mesh_, basis.points[p]);
@@ -348,23 +350,6 @@ class BasisMaker {
       }
     }
     add_over_ranks(system_.comm, basis.support_rows);
-  }
-
-  void add_loads(const DenseMatrix& rotation, ModalBasis& basis) const {
-    DenseMatrix scaled(dofs_, 0);
-    for (const LoadShape& shape : system_.loads->loads) scaled.append(scaled_load(system_, shape));
-    basis.load_parts = transposed_product(rotation, space_.parts(scaled)).numbers();
-  }
-
-  void add_start(const DenseMatrix& rotation, ModalBasis& basis) const {
-    DenseMatrix scaled(dofs_, 0);  // M^1/2 u
-    for (const std::vector<double>* field :
-         {&system_.start->displacement, &system_.start->velocity}) {
-      std::vector<double> column = *field;
-      for (std::size_t i = 0; i < dofs_; ++i) column[i] *= std::sqrt(system_.lumped_mass[i]);
-      scaled.append(column);
-    }
-    basis.start_parts = transposed_product(rotation, space_.parts(scaled)).numbers();
   }
 
   void add_rows(const DenseMatrix& rotation, ModalBasis& basis) const {

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <limits>
 
+#include "modal/eigen_solver.h"
 #include "modal/orthonormal_space.h"
+#include "system/load_shapes.h"
 #include "system/support_shapes.h"
 
 namespace pounding {
@@ -104,22 +106,33 @@ std::vector<TracePoint> free_points(MPI_Comm comm, const Mesh& mesh,
   return free;
 }
 
-std::vector<double> scaled_load(const LinearSystem& system, const LoadShape& shape) {
-  std::vector<double> load(system.lumped_mass.size(), 0.0);
-  for (std::size_t k = 0; k < shape.dofs.size(); ++k) {
-    const LocalIndex dof = shape.dofs[k];
-    load[dof] = std::sqrt(system.inverse_mass[dof]) * shape.force[k];
+DenseMatrix scaled_loads(const LinearSystem& system) {
+  DenseMatrix scaled(system.lumped_mass.size(), 0);
+  for (const LoadShape& shape : system.loads->loads) {
+    std::vector<double> load(scaled.rows, 0.0);
+    for (std::size_t k = 0; k < shape.dofs.size(); ++k) {
+      const LocalIndex dof = shape.dofs[k];
+      load[dof] = std::sqrt(system.inverse_mass[dof]) * shape.force[k];
+    }
+    scaled.append(load);
   }
-  return load;
+  return scaled;
+}
+
+DenseMatrix scaled_start(const LinearSystem& system) {
+  DenseMatrix scaled(system.lumped_mass.size(), 0);
+  for (std::vector<double> field : {system.start->displacement, system.start->velocity}) {
+    scale_by_root_mass(system, field);
+    scaled.append(field);
+  }
+  return scaled;
 }
 
 DenseMatrix static_loads(const LinearSystem& system, const Mesh& mesh,
                          const ModalRequest& request) {
   DenseMatrix loads(system.lumped_mass.size(), 0);
   if (request.gravity != Vector3{0, 0, 0}) loads.append(weight_of(system, request.gravity));
-  for (std::size_t l = 0; system.loads && l < system.loads->loads.size(); ++l) {
-    loads.append(scaled_load(system, system.loads->loads[l]));
-  }
+  if (system.loads) loads.append_columns(scaled_loads(system));
   if (!request.attachment) return loads;
   add_contact_loads(system, mesh, request, loads);
   for (const TracePoint& point : free_points(system.comm, mesh, request.yielding_points)) {
@@ -161,7 +174,7 @@ DenseMatrix support_loads(const LinearSystem& system) {
   DenseMatrix loads(system.lumped_mass.size(), 0);
   for (std::vector<double> load : system.supports->shape) {
     load.resize(loads.rows, 0.0);
-    for (std::size_t i = 0; i < loads.rows; ++i) load[i] *= std::sqrt(system.lumped_mass[i]);
+    scale_by_root_mass(system, load);
     loads.append(load);
   }
   return loads;

@@ -8,7 +8,6 @@
 #include "mesh/mesh.h"
 #include "mesh/nodal_load.h"
 #include "system/linear_system.h"
-#include "system/load_shapes.h"
 
 namespace pounding {
 
@@ -35,12 +34,15 @@ struct ModalRequest {
 /// Owned dof of a point, -1 if it is clamped, does not exist or is another rank's. Local.
 LocalIndex owned_dof(const Mesh& mesh, const TracePoint& point);
 
-/// Those of the points that are dofs, on whatever rank, in their order. Collective.
+/// Points that are dofs, on whatever rank, in their order. Collective.
 std::vector<TracePoint> free_points(MPI_Comm comm, const Mesh& mesh,
                                     const std::vector<TracePoint>& points);
 
-/// M^-1/2 p of a load, by owned dof. Local.
-std::vector<double> scaled_load(const LinearSystem& system, const LoadShape& shape);
+/// M^-1/2 p of the loads of a system, shape (owned dofs, loads). Local.
+DenseMatrix scaled_loads(const LinearSystem& system);
+
+/// M^1/2 u_0 and M^1/2 v_0 of the start of a system, shape (owned dofs, 2). Local.
+DenseMatrix scaled_start(const LinearSystem& system);
 
 /// M^-1/2 times the forces whose static responses a basis is to hold, shape (owned dofs, forces):
 /// gravity, the system's loads, unit forces at contact points or equal ones on their patches, and

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "scene/option_values.h"
+#include "scene/structure_reader.h"
 
 namespace pounding {
 namespace {
@@ -94,8 +95,7 @@ constexpr std::string_view stop_along = "<contact>_along";
 constexpr std::string_view stop_stiffness = "<contact>_stiffness";
 constexpr std::string_view stop_dashpot = "<contact>_dashpot";
 
-}  // namespace
-
+/// Values of the gap, its random part, and patches.
 InitialGap read_gap(OptionReader& options, const std::string& contact, bool is_wall) {
   const OptionReader::Names names{contact};
   InitialGap gap;
@@ -113,6 +113,7 @@ InitialGap read_gap(OptionReader& options, const std::string& contact, bool is_w
   return gap;
 }
 
+/// The filler of the joint, or the strip of its faces to crush, if it has one.
 std::optional<Filler> read_filler(OptionReader& options, const std::string& contact) {
   const OptionReader::Names names{contact};
   if (!options.given(filler_option, names) || options.text(filler_option, names) == "none") {
@@ -134,6 +135,8 @@ std::optional<Filler> read_filler(OptionReader& options, const std::string& cont
   return filler;
 }
 
+/// Refuses faces that slide, matrices that would not hold the filler or the strip, and friction
+/// beside a strip. `exports`: the run writes matrices.
 void check_filler(const OptionReader& options, const Contact& contact, bool exports) {
   const OptionReader::Names names{contact.name};
   const bool crushes = contact.crushes();
@@ -156,12 +159,7 @@ void check_filler(const OptionReader& options, const Contact& contact, bool expo
   }
 }
 
-std::optional<Vector3> point_of_side(const std::string& side) {
-  const auto numbers = parse_reals(side);
-  if (!numbers || numbers->size() != 3) return std::nullopt;
-  return Vector3{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
-}
-
+/// The stop between nodes that a contact is, if `along` is given.
 std::optional<Stop> read_stop(OptionReader& options, const std::string& contact) {
   const OptionReader::Names names{contact};
   if (!options.given(stop_along, names)) {
@@ -173,7 +171,7 @@ std::optional<Stop> read_stop(OptionReader& options, const std::string& contact)
   options.read(stop, names);
   const std::string word = options.text(stop_along, names);
   if (word != "line") {
-    const auto along = point_of_side(word);
+    const auto along = parse_point(word);
     const double length = along ? std::hypot((*along)[0], (*along)[1], (*along)[2]) : 0;
     if (!(length > 0) || !std::isfinite(length)) options.refuse(stop_along, names);
     stop.along = Vector3{(*along)[0] / length, (*along)[1] / length, (*along)[2] / length};
@@ -184,6 +182,8 @@ std::optional<Stop> read_stop(OptionReader& options, const std::string& contact)
   return stop;
 }
 
+/// Refuses options of faces beside a stop, gaps that it cannot have, friction where it gives way,
+/// and matrices that would not hold it. `exports`: the run writes matrices.
 void check_stop(const OptionReader& options, const Contact& contact, bool exports) {
   const OptionReader::Names names{contact.name};
   const std::string why =
@@ -216,6 +216,85 @@ void check_stop(const OptionReader& options, const Contact& contact, bool export
                    "stop " + contact.name + " gives way, which is no matrix; not with -" +
                        option_name(stop_stiffness, names));
   }
+}
+
+ContactSide read_side(OptionReader& options, Scene& scene, std::string_view pattern,
+                      const std::string& contact) {
+  const std::vector<std::string> words = split(options.text(pattern, {contact}), ':');
+  if (words.size() != 2 || words[0].empty() || words[1].empty()) {
+    options.refuse(pattern, {contact});
+  }
+  named_structure(options, scene, pattern, {contact}, words[0]);
+  group_points(scene, option_name(pattern, {contact}), words[0], words[1]);
+  return {words[0], words[1]};
+}
+
+/// Whether the gap is that of the rest that the run starts from.
+void read_gap_state(OptionReader& options, const Scene& scene, Contact& contact) {
+  const std::string state = options.choice("<contact>_gap_at", {contact.name});
+  const std::vector<double>& values = contact.gap.values;
+  const auto negative = [](double gap) { return gap < 0; };
+  const auto above_zero = [](double gap) { return gap > 0; };
+  if (state == "rest" && std::ranges::any_of(values, negative)) {
+    options.refuse("<contact>_gap_at", {contact.name},
+                   "at rest the joint is open or just closed; give a gap of 0 or more");
+  }
+  const bool laid_in = contact.filler || contact.is_elastic();
+  if (state == "unloaded" && laid_in && scene.preload) {
+    options.refuse("<contact>_gap_at", {contact.name},
+                   std::string(contact.crushes() ? "a strip that is crushed"
+                               : contact.filler  ? "the filler"
+                                                 : "a stop that gives way") +
+                       " is laid into the joint as it is at rest; leave it out");
+  }
+  const auto is_open = [](const GapPatch& patch) { return patch.gap > 0; };
+  const bool faces = !contact.primary.is_wall();
+  const bool open = faces && !values.empty() && std::ranges::all_of(values, above_zero) &&
+                    std::ranges::all_of(contact.gap.patches, is_open);
+  const bool open_in_part = faces && !open &&
+                            (std::ranges::any_of(values, above_zero) ||
+                             std::ranges::any_of(contact.gap.patches, is_open));
+  if (state == "auto" && scene.preload && open_in_part && !laid_in) {
+    options.refuse("<contact>_gap", {contact.name},
+                   "open in one part and not in another, under -preload static; say with -" +
+                       option_name("<contact>_gap_at", {contact.name}) +
+                       " rest or unloaded in which state the joint has these gaps");
+  }
+  const bool assumed = state == "auto" && (open || laid_in);
+  contact.gap_at_rest = scene.preload && (state == "rest" || assumed);
+  contact.gap_assumed_so = contact.gap_at_rest && assumed;
+}
+
+}  // namespace
+
+Contact read_contact(OptionReader& options, Scene& scene, const std::string& name) {
+  Contact contact;
+  contact.name = name;
+  contact.secondary = read_side(options, scene, "<contact>_secondary", name);
+  contact.primary = options.text("<contact>_primary", {name}) == "wall"
+                        ? ContactSide{"wall", ""}
+                        : read_side(options, scene, "<contact>_primary", name);
+  options.read(contact, {name});
+  if (contact.primary.is_wall() && contact.passes == 2) {
+    options.refuse("<contact>_passes", {name}, "a wall has no nodes");
+  }
+  contact.gap = read_gap(options, name, contact.primary.is_wall());
+  contact.stop = read_stop(options, name);
+  if (contact.stop) {
+    check_stop(options, contact, !scene.export_matrices.empty());
+  } else {
+    contact.filler = read_filler(options, name);
+  }
+  read_gap_state(options, scene, contact);
+  if (contact.sliding > 0 && contact.primary.is_wall()) {
+    options.refuse("<contact>_sliding", {name}, "a wall is endless; leave it out");
+  }
+  if (contact.filler) check_filler(options, contact, !scene.export_matrices.empty());
+  if (contact.sliding > 0 && !scene.export_matrices.empty()) {
+    options.refuse("export_matrices", {},
+                   "the rows of contact " + name + " change; not with -" + name + "_sliding");
+  }
+  return contact;
 }
 
 }  // namespace pounding

@@ -82,7 +82,7 @@ struct YieldingSection {
     bool shear = false;
     std::size_t axis = 0;  ///< 1: local y, 2: local z, along which or about which it acts
   };
-  /// Its laws in the order in which they are numbered.
+  /// Laws in the order in which they are numbered.
   std::vector<Law> laws() const;
   /// Their names.
   std::vector<std::string> names() const;
@@ -96,7 +96,7 @@ struct YieldingSection {
   }
 };
 
-/// Same law of another unit of elongation: each elongation times `length`, forces times `strength`.
+/// A law in another unit of elongation: each elongation times `length`, forces times `strength`.
 Hysteresis scaled(const Hysteresis& law, double length, double strength);
 
 /// Shell that cracks by damage, see laws/cracking_shell.h. Ratios are of slopes: of

@@ -19,7 +19,8 @@ void read_place(OptionReader& options, const Scene& scene, Load& load) {
   }
   load.structure = words[0];
   load.group = words[1];
-  const Structure& structure = named_structure(options, scene, pattern, load.name, load.structure);
+  const Structure& structure =
+      named_structure(options, scene, pattern, {load.name}, load.structure);
   if (!structure.matrices.empty()) {
     options.refuse(pattern, {load.name},
                    "structure " + load.structure + " is made of matrices, which have no groups");
@@ -139,7 +140,7 @@ ForceItem read_force(OptionReader& options, const Scene& scene, const std::strin
   force.name = name;
   options.read(force, {name});
   const Structure& structure =
-      named_structure(options, scene, "<force>_structure", name, force.structure);
+      named_structure(options, scene, "<force>_structure", {name}, force.structure);
   if (structure.modal && structure.p_delta && force.kind != ForceKind::shells) {
     options.refuse("<force>_kind", {name},
                    "structure " + structure.name +

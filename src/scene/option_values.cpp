@@ -106,6 +106,12 @@ std::optional<std::vector<double>> parse_reals(std::string_view text) {
   return values;
 }
 
+std::optional<Vector3> parse_point(std::string_view text) {
+  const auto numbers = parse_reals(text);
+  if (!numbers || numbers->size() != 3) return std::nullopt;
+  return Vector3{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+}
+
 std::optional<std::vector<double>> parse_increasing(std::string_view text) {
   const std::vector<std::string> parts = split(text, ':');
   auto values = parts.size() == 3   ? parse_range(parts)

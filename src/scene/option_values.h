@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "common/types.h"
+
 /// Values of options from their text. No locale, no exceptions: nothing comes back where the text
 /// is not wholly of the kind asked for.
 namespace pounding {
@@ -31,6 +33,9 @@ std::optional<bool> parse_boolean(std::string_view text);
 
 /// "1, 0,0": finite numbers between commas, at least one.
 std::optional<std::vector<double>> parse_reals(std::string_view text);
+
+/// "x,y,z": three such numbers.
+std::optional<Vector3> parse_point(std::string_view text);
 
 /// "start:stop:COUNTlog", "start:stop:COUNTlin" (ends included exactly) or "f1,f2,...": strictly
 /// increasing finite numbers; a logarithmic range needs start > 0.

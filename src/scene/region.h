@@ -129,6 +129,14 @@ struct Region {
     option("<structure>_<group>_dashpot_exponent", real("-", "1", closed(0.01, 2)), "power of the rate to which its dashpots go; their unit is N (s/m)^it", for_bars_and_springs);
     option("<structure>_<group>_dashpot_stiffness", reals("N/m, N m", "0,0,0,0,0,0", "six numbers along and about x, y, z (bar: one)", not_negative), "spring in series with each dashpot; 0: none, it is rigid", for_bars_and_springs);
     option("<structure>_<group>_series_stiffness", reals("N/m, N m", "0,0,0,0,0,0", "six numbers along and about x, y, z", not_negative), "spring in series with its spring and dashpot together; 0: none, it is rigid", for_springs);
+    // clang-format on
+    describe_laws(option);
+  }
+
+  /// Options of laws and of damping; and how the group starts.
+  static void describe_laws(auto& option) {
+    using namespace option_words;
+    // clang-format off
     option("<structure>_<group>_yield_force", reals("N, N m", "0", "one number (bar), or three or six along and about x, y, z", not_negative), "force at which it yields; 0: never", for_bars_and_springs);
     option("<structure>_<group>_hardening", real("-", "0", below_1), "stiffness after yield over that before", for_bars_and_springs);
     option("<structure>_<group>_rule", word(rule_words, "kinematic"), "way back from the skeleton and towards it again of a spring or bar that yields, see docs/reference/nonlinear.md", for_bars_and_springs);

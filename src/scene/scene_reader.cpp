@@ -51,7 +51,7 @@ class SceneReader {
       require_full_order(scene_.structures.back());
     }
     for (const std::string& name : listed_.at(OptionBlock::contact)) {
-      scene_.contacts.push_back(read_contact(name));
+      scene_.contacts.push_back(read_contact(options_, scene_, name));
     }
     for (std::size_t d = 0; d < 3; ++d) {
       scene_.motion[d] = read_motion(options_, direction_names[d]);
@@ -65,7 +65,7 @@ class SceneReader {
     check_supports(options_, scene_);
     for (const std::string& name : listed_.at(OptionBlock::load)) {
       scene_.loads.push_back(read_load(options_, scene_, name));
-      group_points(name + "_on", scene_.loads.back().structure, scene_.loads.back().group);
+      group_points(scene_, name + "_on", scene_.loads.back().structure, scene_.loads.back().group);
     }
     for (const Structure& structure : scene_.structures) require_forces_at_rest(structure);
     for (const std::string& name : listed_.at(OptionBlock::probe)) {
@@ -210,15 +210,6 @@ class SceneReader {
     }
   }
 
-  void require_structure(std::string_view pattern, const Names& names,
-                         const std::string& structure) const {
-    const std::vector<std::string>& known = listed_.at(OptionBlock::structure);
-    if (std::ranges::find(known, structure) == known.end()) {
-      options_.refuse(pattern, names,
-                      "there is no structure '" + structure + "'" + suggestion(structure, known));
-    }
-  }
-
   /// A file holds the basis of one structure.
   void require_own_basis(const Structure& structure) const {
     for (const Structure& other : scene_.structures) {
@@ -230,100 +221,11 @@ class SceneReader {
     }
   }
 
-  /// Points in place of a group, of a side of a stop or of a load, are a group by that name.
-  void group_points(const std::string& option, const std::string& structure,
-                    const std::string& place) {
-    PointGroup group{place, option, {}};
-    for (const std::string& item : split(place, ';')) {
-      const auto point = point_of_side(item);
-      if (!point) return;
-      group.points.push_back(*point);
-    }
-    auto& groups = std::ranges::find(scene_.structures, structure, &Structure::name)->point_groups;
-    if (std::ranges::count(groups, place, &PointGroup::name) == 0) groups.push_back(group);
-  }
-
-  ContactSide read_side(std::string_view pattern, const std::string& contact) {
-    const std::vector<std::string> words = split(options_.text(pattern, {contact}), ':');
-    if (words.size() != 2 || words[0].empty() || words[1].empty()) {
-      options_.refuse(pattern, {contact});
-    }
-    require_structure(pattern, {contact}, words[0]);
-    group_points(option_name(pattern, {contact}), words[0], words[1]);
-    return {words[0], words[1]};
-  }
-
-  /// Whether the gap is that of the rest that the run starts from.
-  void read_gap_state(Contact& contact) {
-    const std::string state = options_.choice("<contact>_gap_at", {contact.name});
-    const std::vector<double>& values = contact.gap.values;
-    const auto negative = [](double gap) { return gap < 0; };
-    const auto above_zero = [](double gap) { return gap > 0; };
-    if (state == "rest" && std::ranges::any_of(values, negative)) {
-      options_.refuse("<contact>_gap_at", {contact.name},
-                      "at rest the joint is open or just closed; give a gap of 0 or more");
-    }
-    const bool laid_in = contact.filler || contact.is_elastic();
-    if (state == "unloaded" && laid_in && scene_.preload) {
-      options_.refuse("<contact>_gap_at", {contact.name},
-                      std::string(contact.crushes() ? "a strip that is crushed"
-                                  : contact.filler  ? "the filler"
-                                                    : "a stop that gives way") +
-                          " is laid into the joint as it is at rest; leave it out");
-    }
-    const auto is_open = [](const GapPatch& patch) { return patch.gap > 0; };
-    const bool faces = !contact.primary.is_wall();
-    const bool open = faces && !values.empty() && std::ranges::all_of(values, above_zero) &&
-                      std::ranges::all_of(contact.gap.patches, is_open);
-    const bool open_in_part = faces && !open &&
-                              (std::ranges::any_of(values, above_zero) ||
-                               std::ranges::any_of(contact.gap.patches, is_open));
-    if (state == "auto" && scene_.preload && open_in_part && !laid_in) {
-      options_.refuse("<contact>_gap", {contact.name},
-                      "open in one part and not in another, under -preload static; say with -" +
-                          option_name("<contact>_gap_at", {contact.name}) +
-                          " rest or unloaded in which state the joint has these gaps");
-    }
-    const bool assumed = state == "auto" && (open || laid_in);
-    contact.gap_at_rest = scene_.preload && (state == "rest" || assumed);
-    contact.gap_assumed_so = contact.gap_at_rest && assumed;
-  }
-
-  Contact read_contact(const std::string& name) {
-    Contact contact;
-    contact.name = name;
-    contact.secondary = read_side("<contact>_secondary", name);
-    contact.primary = options_.text("<contact>_primary", {name}) == "wall"
-                          ? ContactSide{"wall", ""}
-                          : read_side("<contact>_primary", name);
-    options_.read(contact, {name});
-    if (contact.primary.is_wall() && contact.passes == 2) {
-      options_.refuse("<contact>_passes", {name}, "a wall has no nodes");
-    }
-    contact.gap = read_gap(options_, name, contact.primary.is_wall());
-    contact.stop = read_stop(options_, name);
-    if (contact.stop) {
-      check_stop(options_, contact, !scene_.export_matrices.empty());
-    } else {
-      contact.filler = read_filler(options_, name);
-    }
-    read_gap_state(contact);
-    if (contact.sliding > 0 && contact.primary.is_wall()) {
-      options_.refuse("<contact>_sliding", {name}, "a wall is endless; leave it out");
-    }
-    if (contact.filler) check_filler(options_, contact, !scene_.export_matrices.empty());
-    if (contact.sliding > 0 && !scene_.export_matrices.empty()) {
-      options_.refuse("export_matrices", {},
-                      "the rows of contact " + name + " change; not with -" + name + "_sliding");
-    }
-    return contact;
-  }
-
   Probe read_probe(const std::string& name) {
     Probe probe;
     probe.name = name;
     options_.read(probe, {name});
-    require_structure("<probe>_structure", {name}, probe.structure);
+    named_structure(options_, scene_, "<probe>_structure", {name}, probe.structure);
     const bool at = !probe.points.empty();
     if (at == !probe.group.empty()) {
       throw UserError("probe " + name + ": give " + (at ? "only " : "") + "one of -" + name +
@@ -342,7 +244,7 @@ class SceneReader {
     for (const std::string& item : options_.list("loops")) {
       const std::vector<std::string> words = split(item, ':');
       if (words.size() == 2 && !words[0].empty() && !words[1].empty()) {
-        require_structure("loops", {}, words[0]);
+        named_structure(options_, scene_, "loops", {}, words[0]);
         scene_.loops.push_back({item, words[0], words[1], "", points});
         continue;
       }

@@ -125,7 +125,7 @@ class BrickLines final : public ElementLines {
     std::vector<PairEnd> ends;
   };
 
-  /// Those of one step, in the order of their dofs.
+  /// Sorts the stores of one step in the order of their dofs.
   void sort_stores(std::size_t begin, std::size_t end) {
     const auto first_of = [this](const Store& store) {
       return chains_.at(store.place.chain).range.begin;

@@ -134,6 +134,18 @@ std::array<std::size_t, 8> corners_along(std::size_t third) {
   return corners;
 }
 
+/// Isotropic stress of a gradient of displacement.
+[[gnu::always_inline]] inline void mean_stress(const ElementLanes& lame, const ElementLanes& shear,
+                                               const ElementLanes (&g)[3][3],
+                                               ElementLanes (&stress)[3][3]) {
+  const ElementLanes pressure = lame * (g[0][0] + g[1][1] + g[2][2]);
+#pragma GCC unroll 4
+  for (std::size_t i = 0; i < 3; ++i) stress[i][i] = plus(pressure, shear + shear, g[i][i]);
+  stress[0][1] = stress[1][0] = shear * (g[0][1] + g[1][0]);
+  stress[1][2] = stress[2][1] = shear * (g[1][2] + g[2][1]);
+  stress[2][0] = stress[0][2] = shear * (g[2][0] + g[0][2]);
+}
+
 }  // namespace
 
 template <bool extruded>
@@ -163,14 +175,8 @@ void HexahedronStrains<extruded>::product(const ElementLanes* n, ElementLanes* v
       }
     }
   }
-  const ElementLanes pressure = n[lame] * (g[0][0] + g[1][1] + g[2][2]);
-  const ElementLanes shear = n[lame + 1];
   ElementLanes stress[3][3];
-#pragma GCC unroll 4
-  for (std::size_t i = 0; i < 3; ++i) stress[i][i] = plus(pressure, shear + shear, g[i][i]);
-  stress[0][1] = stress[1][0] = shear * (g[0][1] + g[1][0]);
-  stress[1][2] = stress[2][1] = shear * (g[1][2] + g[2][1]);
-  stress[2][0] = stress[0][2] = shear * (g[2][0] + g[0][2]);
+  mean_stress(n[lame], n[lame + 1], g, stress);
   ElementLanes strain[strain_count];
   ElementLanes work[strain_count];
 #pragma GCC unroll 16
@@ -210,6 +216,16 @@ Field multiplied(std::span<const double> stiffness, const Field& field) {
     }
   }
   return force;
+}
+
+/// Displacements of a unit shear in the plane of i and j.
+Field sheared_field(const std::array<Vector3, node_count>& x, std::size_t i, std::size_t j) {
+  Field field{};
+  for (std::size_t a = 0; a < node_count; ++a) {
+    field[3 * a + i] = x[a][j];
+    field[3 * a + j] = x[a][i];
+  }
+  return field;
 }
 
 double product_of(const Field& a, const Field& b) {
@@ -252,11 +268,7 @@ std::array<double, HexahedronStrains<extruded>::number_count> HexahedronStrains<
   std::array<Vector3, mode_count> mean_of{};
   for (std::size_t j = 0; j < 3; ++j) {
     const std::size_t i = (j + 1) % 3;
-    Field sheared{};
-    for (std::size_t a = 0; a < node_count; ++a) {
-      sheared[3 * a + i] = x[a][j];
-      sheared[3 * a + j] = x[a][i];
-    }
+    const Field sheared = sheared_field(x, i, j);
     const Field force = multiplied(stiffness, sheared);
     n[lame + 1] = product_of(force, sheared) / 4;
     for (std::size_t m = 0; m < mode_count; ++m) {
