@@ -158,28 +158,20 @@ Facts energy_facts(const RunStatistics& run) {
   const EnergyLine& energy = run.energy;
   Facts facts{{{"relative_residual", run.energy_residual},
                {"kinetic", energy.kinetic},
-               {"strain", energy.strain},
-               {"damping", energy.damping_loss},
-               {"contact", energy.contact_work},
-               {"friction", energy.friction_loss},
-               {"input", energy.input_work},
-               {"gravity", energy.gravity_work},
-               {"loads", energy.load_work},
-               {"devices", energy.device_work},
-               {"plastic", energy.plastic_loss}}};
+               {"strain", energy.strain}}};
+  std::string sentences;
+  for (std::size_t r = 0; r < ledger_rows.size(); ++r) {
+    const LedgerRow& row = ledger_rows[r];
+    if (row.key.empty()) continue;
+    facts.values[std::string(row.key)] = energy.rows[r];
+    if (std::abs(energy.rows[r]) > 1e-12 * std::abs(energy.energy())) {
+      sentences += told(row.sentence, facts.values);
+    }
+  }
   facts.say(
       "\nenergy at the end [J]: kinetic {kinetic:.4g}, strain {strain:.4g}, damping loss "
       "{damping:.4g}, contact work {contact:.4g}, input work {input:.4g}\n");
-  facts.say(
-      "[  friction of contacts took {friction:.4g}\n]"
-      "[  yielding, damage and crushing took {plastic:.4g}\n]"
-      "[  of the input work that of gravity {gravity:.4g}\n]"
-      "[  of the input work that of loads {loads:.4g}\n]");
-  if (std::abs(energy.device_work) > 1e-12 * std::abs(energy.energy())) {
-    facts.say(
-        "  device work {devices:.4g}: of dashpots, one-way bars and springs, bearings that slide, "
-        "and of regions with damping\n  of their own beside that of their structure\n");
-  }
+  facts.text += sentences;
   facts.say(
       "  largest residual of the energy identity: {relative_residual:.2e} of the largest term\n");
   return facts;

@@ -94,7 +94,7 @@ double energy_round_off(const Model& model, std::size_t structure, const Structu
 }
 
 void watch_passivity(const EnergyLine& line, double largest_term, bool leaning) {
-  const auto refuse = [&](const char* what, double loss,
+  const auto refuse = [&](std::string_view what, double loss,
                           const char* remedy = "a smaller time step") {
     throw DivergenceError(
         sentence("{} gave {} J more than it took until t = {} s (largest term of the energies {} "
@@ -102,11 +102,14 @@ void watch_passivity(const EnergyLine& line, double largest_term, bool leaning) 
                  {what, -loss, line.time, largest_term, remedy}));
   };
   const double allowed = given_energy * largest_term;
-  if (line.link_loss < -allowed) refuse("links", line.link_loss);
-  if (line.plastic_loss < -allowed) refuse("yielding elements", line.plastic_loss);
-  const double dashpots = line.device_work - line.link_loss;
-  if (line.damping_loss + dashpots + std::abs(line.slow_relief) < -allowed) {
-    refuse("damping", line.damping_loss + dashpots,
+  for (std::size_t r = 0; r < ledger_rows.size(); ++r) {
+    const std::string_view taker = ledger_rows[r].taker;
+    if (!taker.empty() && line.rows[r] < -allowed) refuse(taker, line.rows[r]);
+  }
+  const double dashpots = line.rows[ledger_row("device_work")] - line.rows[ledger_row("link_loss")];
+  const double damped = line.rows[ledger_row("damping_loss")] + dashpots;
+  if (damped + std::abs(line.slow_relief) < -allowed) {
+    refuse("damping", damped,
            leaning ? "damping_alpha alone: beta damps with the stiffness that is left, and beside "
                      "p_delta that is below 0 where columns yield and lean, at any time step"
                    : "a smaller time step");

@@ -40,37 +40,24 @@ void EnergyBalance::take_energies(std::span<const StepSums> sums) {
 void EnergyBalance::add_step(std::span<const StepSums> sums,
                              const std::array<double, 3>& ground_acceleration, bool with_energies) {
   if (with_energies) take_energies(sums);
-  for (const StepSums& structure : sums) {
-    open_.links += structure.link_loss_before;
-    open_.plastic += structure.plastic_loss_before;
+  for (std::size_t r = 0; steps_ > 1 && r < ledger_rows.size(); ++r) {
+    if (ledger_rows[r].before == nullptr) continue;
+    for (const StepSums& structure : sums) open_[r] += structure.*ledger_rows[r].before;
   }
   if (steps_ == 1) {
     initial_lagged_damping_ = lagged_damping_;
     initial_stored_work_ = stored_work_;
-    initial_ -= open_.contact - open_.friction + open_.contact_supports;
-    contact_.add(open_.contact);
-    friction_.add(open_.friction);
-    input_.add(open_.contact_supports);
+    double begun = 0;
+    for (std::size_t r = 0; r < ledger_rows.size(); ++r) begun -= ledger_rows[r].sign * open_[r];
+    initial_ -= begun;
   }
-  if (steps_ > 1) {
-    damping_.add(open_.damping);
-    input_.add(open_.input);
-    contact_.add(open_.contact);
-    device_.add(open_.device);
-    links_.add(open_.links);
-    plastic_.add(open_.plastic);
-    gravity_.add(open_.gravity);
-    loads_.add(open_.loads);
-    friction_.add(open_.friction);
-    for (std::size_t b = 0; b < systems_.size(); ++b) {
-      damping_.add(open_filtered_[b]);
-      filtered_[b].add(open_filtered_[b]);
-    }
-  }
+  for (std::size_t r = 0; r < ledger_rows.size(); ++r) closed_[r].add(open_[r]);
   for (std::size_t b = 0; b < systems_.size(); ++b) {
-    open_filtered_[b] = time_step_ / 2 * sums[b].filtered;
+    closed_[ledger_row("damping_loss")].add(open_filtered_[b]);
+    filtered_[b].add(open_filtered_[b]);
+    open_filtered_[b] = steps_ > 0 ? time_step_ / 2 * sums[b].filtered : 0;
   }
-  open_ = works(sums, ground_acceleration);
+  open_rows(sums, ground_acceleration);
   ++steps_;
 }
 
@@ -84,30 +71,16 @@ double EnergyBalance::stored_work(std::span<const StepSums> sums) const {
   return stored;
 }
 
-/// Works of the step just made.
-EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
-                                          const std::array<double, 3>& ground_acceleration) const {
-  Works result;
+void EnergyBalance::open_rows(std::span<const StepSums> sums,
+                              const std::array<double, 3>& ground_acceleration) {
+  open_ = {};
   for (std::size_t b = 0; b < systems_.size(); ++b) {
-    const Rayleigh& damping = systems_[b].damping;
-    result.damping += time_step_ / 4 * mass_damping_[b] * sums[b].mass_sum;
-    if (damping.beta != 0) result.damping += time_step_ / 2 * sums[b].stiffness_work;
-    result.damping += sums[b].damping_loss;
-    for (std::size_t d = 0; d < 3; ++d) {
-      result.input +=
-          time_step_ / 2 * (systems_[b].gravity[d] - ground_acceleration[d]) * sums[b].momentum[d];
-      result.gravity += time_step_ / 2 * systems_[b].gravity[d] * sums[b].momentum[d];
+    const LedgerStep step{sums[b], systems_[b], time_step_, mass_damping_[b], ground_acceleration};
+    for (std::size_t r = 0; r < ledger_rows.size(); ++r) {
+      const LedgerRow::Work add = steps_ == 0 ? ledger_rows[r].start : ledger_rows[r].add;
+      if (add != nullptr) add(step, open_[r]);
     }
-    result.loads += time_step_ / 2 * sums[b].load;
-    result.device += time_step_ / 2 * sums[b].device;
-    result.links += sums[b].link_loss;
-    result.plastic += sums[b].plastic_loss;
-    result.contact += sums[b].contact_work;
-    result.friction += sums[b].friction_loss;
-    result.input += sums[b].link_input + sums[b].support_input + sums[b].contact_support_input;
-    result.contact_supports += sums[b].contact_support_input;
   }
-  return result;
 }
 
 StructureEnergy EnergyBalance::energy(std::size_t structure, const StepSums& sums) const {
@@ -133,18 +106,15 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
   }
   MPI_Allreduce(MPI_IN_PLACE, structures.data(), static_cast<int>(values * structures.size()),
                 MPI_DOUBLE, MPI_SUM, comm_);
-  std::array<double, 10> sums{initial_,
-                              damping_.total() - (stored_work_ - initial_stored_work_),
-                              contact_.total(),
-                              input_.total(),
-                              device_.total() + lagged_damping_ - initial_lagged_damping_,
-                              links_.total(),
-                              gravity_.total(),
-                              friction_.total(),
-                              loads_.total(),
-                              plastic_.total()};
+  std::array<double, ledger_rows.size() + 1> sums{};
+  for (std::size_t r = 0; r < ledger_rows.size(); ++r) sums[r] = closed_[r].total();
+  sums[ledger_row("damping_loss")] -= stored_work_ - initial_stored_work_;
+  double& devices = sums[ledger_row("device_work")];
+  devices = devices + lagged_damping_ - initial_lagged_damping_;
+  sums.back() = initial_;
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
                 comm_);
+  devices += sums[ledger_row("link_loss")];
   EnergyLine line;
   line.time = static_cast<double>(closed_steps() - 1) * time_step_;
   for (const StructureEnergy& structure : structures) {
@@ -152,37 +122,24 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
     line.strain += structure.strain;
     line.slow_relief += structure.slow_relief;
   }
-  line.damping_loss = sums[1];
-  line.contact_work = sums[2];
-  line.input_work = sums[3];
-  line.link_loss = sums[5];
-  line.gravity_work = sums[6];
-  line.friction_loss = sums[7];
-  line.load_work = sums[8];
-  line.plastic_loss = sums[9];
-  line.device_work = sums[4] + line.link_loss;
-  line.residual = line.energy() - sums[0] + line.damping_loss + line.device_work +
-                  line.plastic_loss - line.contact_work + line.friction_loss - line.input_work;
+  line.residual = line.energy() - sums.back();
+  for (std::size_t r = 0; r < ledger_rows.size(); ++r) {
+    line.rows[r] = sums[r];
+    line.residual += ledger_rows[r].sign * sums[r];
+  }
   return line;
 }
 
 template <typename Balance, typename Function>
 void EnergyBalance::for_each_sum(Balance& balance, Function&& function) {
-  for (auto* sum :
-       {&balance.damping_, &balance.input_, &balance.contact_, &balance.device_, &balance.links_,
-        &balance.plastic_, &balance.gravity_, &balance.loads_, &balance.friction_}) {
-    function(sum->value);
-    function(sum->correction);
+  for (auto& sum : balance.closed_) {
+    function(sum.value);
+    function(sum.correction);
   }
   function(balance.initial_);
   function(balance.initial_lagged_damping_);
   function(balance.initial_stored_work_);
-  for (auto* work :
-       {&balance.open_.damping, &balance.open_.input, &balance.open_.contact, &balance.open_.device,
-        &balance.open_.links, &balance.open_.plastic, &balance.open_.gravity, &balance.open_.loads,
-        &balance.open_.friction, &balance.open_.contact_supports}) {
-    function(*work);
-  }
+  for (auto& work : balance.open_) function(work);
   for (auto& sum : balance.filtered_) {
     function(sum.value);
     function(sum.correction);
@@ -213,10 +170,10 @@ void EnergyBalance::load(const SavedState& saved) {
 
 void EnergyBalance::note(const EnergyLine& line) {
   largest_residual_ = std::max(largest_residual_, std::abs(line.residual));
-  largest_term_ =
-      std::max({largest_term_, std::abs(line.kinetic), std::abs(line.strain),
-                std::abs(line.device_work), std::abs(line.plastic_loss), line.damping_loss,
-                std::abs(line.contact_work), std::abs(line.input_work), line.friction_loss});
+  largest_term_ = std::max({largest_term_, std::abs(line.kinetic), std::abs(line.strain)});
+  for (std::size_t r = 0; r < ledger_rows.size(); ++r) {
+    if (ledger_rows[r].sign != 0) largest_term_ = std::max(largest_term_, std::abs(line.rows[r]));
+  }
 }
 
 }  // namespace pounding

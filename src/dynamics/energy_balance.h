@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <mpi.h>
@@ -13,25 +14,96 @@
 
 namespace pounding {
 
+/// A step of one structure, as the rows of the ledger see it.
+struct LedgerStep {
+  const StepSums& sums;
+  const LinearSystem& system;
+  double time_step = 0;     ///< [s]
+  double mass_damping = 0;  ///< alpha as the step has it [1/s]
+  const std::array<double, 3>& ground_acceleration;
+};
+
+/// A row of the energy ledger: energy that left the structures or came to them since the start.
+struct LedgerRow {
+  using Work = void (*)(const LedgerStep& step, double& work);
+
+  std::string_view name;  ///< column of energy.csv
+  /// Key of summary.json; empty: the row is in no file, the watchdog alone looks at it.
+  std::string_view key;
+  int sign = 0;  ///< of the row in the identity: 1 taken, -1 given, 0 a part of another row
+  Work add;      ///< adds the work of a step [J]
+  /// Adds the part that counts of the first half step, before which the balance begins; or null.
+  Work start = nullptr;
+  double StepSums::*before = nullptr;  ///< of the step before, which came with this one
+  /// Parts that can only take, of which this is the loss: a run in which they gave is stopped.
+  std::string_view taker{};
+  std::string_view sentence{};  ///< of the report, where the row is more than round-off
+};
+
+/// A number of the step, added as it is; or as a power summed over both ends of the step.
+template <auto number>
+void plain(const LedgerStep& step, double& work) {
+  work += step.sums.*number;
+}
+template <auto number>
+void mean_power(const LedgerStep& step, double& work) {
+  work += step.time_step / 2 * step.sums.*number;
+}
+
+inline void damping_work(const LedgerStep& step, double& work) {
+  work += step.time_step / 4 * step.mass_damping * step.sums.mass_sum;
+  if (step.system.damping.beta != 0) work += step.time_step / 2 * step.sums.stiffness_work;
+  work += step.sums.damping_loss;
+}
+inline void gravity_work(const LedgerStep& step, double& work) {
+  for (std::size_t d = 0; d < 3; ++d) {
+    work += step.time_step / 2 * step.system.gravity[d] * step.sums.momentum[d];
+  }
+}
+inline void input_work(const LedgerStep& step, double& work) {
+  for (std::size_t d = 0; d < 3; ++d) {
+    const double pull = step.system.gravity[d] - step.ground_acceleration[d];
+    work += step.time_step / 2 * pull * step.sums.momentum[d];
+  }
+  work += step.sums.link_input + step.sums.support_input + step.sums.contact_support_input;
+}
+
+/// The rows, in the order of energy.csv. A new one is a line here about a number in StepSums.
+inline constexpr auto ledger_rows = std::to_array<LedgerRow>({
+    {"damping_loss", "damping", 1, damping_work},
+    {"contact_work", "contact", -1, plain<&StepSums::contact_work>, plain<&StepSums::contact_work>},
+    {"friction_loss", "friction", 1, plain<&StepSums::friction_loss>,
+     plain<&StepSums::friction_loss>, nullptr, "", "  friction of contacts took {friction:.4g}\n"},
+    {"input_work", "input", -1, input_work, plain<&StepSums::contact_support_input>},
+    {"gravity_work", "gravity", 0, gravity_work, nullptr, nullptr, "",
+     "  of the input work that of gravity {gravity:.4g}\n"},
+    {"load_work", "loads", 0, mean_power<&StepSums::load>, nullptr, nullptr, "",
+     "  of the input work that of loads {loads:.4g}\n"},
+    {"device_work", "devices", 1, mean_power<&StepSums::device>, nullptr, nullptr, "",
+     "  device work {devices:.4g}: of dashpots, one-way bars and springs, bearings that slide, and "
+     "of regions with damping\n  of their own beside that of their structure\n"},
+    {"link_loss", "", 0, plain<&StepSums::link_loss>, nullptr, &StepSums::link_loss_before,
+     "links"},  // a part of the device work
+    {"plastic_loss", "plastic", 1, plain<&StepSums::plastic_loss>, nullptr,
+     &StepSums::plastic_loss_before, "yielding elements",
+     "  yielding, damage and crushing took {plastic:.4g}\n"},
+});
+
+/// Number of a row; another name is no constant, and does not compile.
+consteval std::size_t ledger_row(std::string_view name) {
+  std::size_t row = 0;
+  while (ledger_rows.at(row).name != name) ++row;
+  return row;
+}
+
 /// One line of the ledger, all structures together [J].
 struct EnergyLine {
-  double time = 0;     ///< t_n; the energies are half a step later
-  double kinetic = 0;  ///< 1/2 v^T (M + S - dt/2 C) v
-  double strain = 0;   ///< 1/2 u_{n+1}^T K u_n, and the energy of links
-  double damping_loss = 0;
-  double contact_work = 0;
-  double input_work = 0;  ///< of ground motion, a wave from below and gravity
-  /// Taken up by dashpots, by the damping of regions beyond the structure's, and by links that do
-  /// not yield.
-  double device_work = 0;
-  double plastic_loss = 0;  ///< taken by yielding, damage and crushing, and not kept
-  double residual = 0;      ///< energy - initial energy + damping loss + device work + plastic loss
-                            ///< + friction loss - contact work - input work
-  double link_loss = 0;     ///< of links in the device work: taken and not kept
-  double slow_relief = 0;   ///< see StructureEnergy
-  double gravity_work = 0;  ///< of gravity alone, a part of the input work
-  double load_work = 0;     ///< of loads alone, a part of the input work
-  double friction_loss = 0;  ///< of Coulomb's friction in contacts, apart from the contact work
+  double time = 0;      ///< t_n; the energies are half a step later
+  double kinetic = 0;   ///< 1/2 v^T (M + S - dt/2 C) v
+  double strain = 0;    ///< 1/2 u_{n+1}^T K u_n, and the energy of links
+  double residual = 0;  ///< energy - initial energy + rows taken - rows given
+  std::array<double, ledger_rows.size()> rows{};  ///< as in ledger_rows
+  double slow_relief = 0;                         ///< see StructureEnergy
 
   double energy() const { return kinetic + strain; }
 };
@@ -121,27 +193,14 @@ class EnergyBalance {
     void add(double term);
     double total() const { return value + correction; }
   };
-  /// Works of a step that is not closed yet.
-  struct Works {
-    double damping = 0;  ///< of alpha, and of q of structures with beta
-    double input = 0;
-    double contact = 0;
-    double device = 0;
-    double links = 0;
-    double plastic = 0;
-    double gravity = 0;  ///< part of the input
-    double loads = 0;    ///< part of the input
-    double friction = 0;
-    double contact_supports = 0;  ///< part of the input: of supports against contact impulses
-  };
   /// Calls `function` with each number of this rank that adds up over ranks.
   template <typename Balance, typename Function>
   static void for_each_sum(Balance& balance, Function&& function);
 
   /// Energies before the step at hand.
   void take_energies(std::span<const StepSums> sums);
-  Works works(std::span<const StepSums> sums,
-              const std::array<double, 3>& ground_acceleration) const;
+  /// Opens the rows of the step just made; of the first one, those that count from it on.
+  void open_rows(std::span<const StepSums> sums, const std::array<double, 3>& ground_acceleration);
   /// Stored part of the work of q at a line, of structures with beta: above, in brackets [J].
   double stored_work(std::span<const StepSums> sums) const;
   StructureEnergy energy(std::size_t structure, const StepSums& sums) const;
@@ -160,16 +219,8 @@ class EnergyBalance {
   double initial_lagged_damping_ = 0;
   double stored_work_ = 0;  ///< of q, where energies are asked for, and at the start [J]
   double initial_stored_work_ = 0;
-  Works open_;
-  Sum damping_;
-  Sum input_;
-  Sum contact_;
-  Sum device_;
-  Sum links_;
-  Sum plastic_;
-  Sum gravity_;
-  Sum loads_;
-  Sum friction_;
+  std::array<double, ledger_rows.size()> open_{};  ///< of the step that is not closed yet
+  std::array<Sum, ledger_rows.size()> closed_{};
   /// Work of the uniform damping of each structure, closed and of the open step; a part of the
   /// damping loss.
   std::vector<Sum> filtered_;

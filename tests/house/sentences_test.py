@@ -36,11 +36,15 @@ def faults(text, known):
 class Sentences(unittest.TestCase):
     def test_slots_can_be_filled(self):
         known, seen = units(), 0
+        with open(os.path.join(SOURCE, "dynamics", "energy_balance.h")) as file:
+            ledger = file.read()
         self.assertIn("mm", known)
         for folder, _, files in os.walk(SOURCE):
             for name in files:
                 with open(os.path.join(folder, name)) as file:
                     text = file.read()
+                if "ledger_rows" in text:
+                    text += ledger
                 if not name.endswith(".cpp") or not re.search(r"driver/(facts|report)\.h", text):
                     continue
                 if name == "facts.cpp":

@@ -148,6 +148,8 @@ def energy_balance(result: Result) -> list:
              ("contact_work", "contact", "#C0392B"))
     not_always = (("friction_loss", "friction", "#56B4E9"), ("device_work", "links and dashpots", "#CC79A7"),
                   ("plastic_loss", "yielding and crushing", "#7A5195"))
+    drawn = {"time", "residual", "gravity_work", "load_work", *(term[0] for term in terms + not_always)}
+    not_always += tuple((column, column.replace("_", " "), None) for column in table if column not in drawn)
     terms += tuple(term for term in not_always if np.any(table.get(term[0], 0)))
     figure, (upper, lower) = plt.subplots(2, 1, figsize=(WIDTH, 5.4), sharex=True, height_ratios=(3, 2))
     for column, label, colour in terms:
@@ -157,11 +159,9 @@ def energy_balance(result: Result) -> list:
     upper.legend(loc="upper left", ncol=3)
     low, high = upper.get_ylim()
     upper.set_ylim(low, high + 0.28 * (high - low))
-    residual = np.abs(table["residual"])
-    residual = np.where(residual > 0, residual, np.nan)
+    residual = np.where(table["residual"] != 0, np.abs(table["residual"]), np.nan)
     scale = np.nanmax(np.abs(table["input_work"]), initial=0.0)
-    if scale > 0:
-        residual = residual / scale
+    residual = residual / (scale if scale > 0 else 1)
     plot_series(lower, table["time"], residual, color="#666666", lw=0.9)
     log_scale(lower, "y", residual, plain=False)
     lower.set(ylabel="|residual| / largest\nwork of the ground" if scale > 0 else "|residual| [J]", xlabel="time [s]")

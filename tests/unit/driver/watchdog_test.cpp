@@ -15,9 +15,9 @@ namespace watchdog_test {
 EnergyLine taken(double damping, double devices, double bars) {
   EnergyLine line;
   line.time = 2.5;
-  line.damping_loss = damping;
-  line.device_work = devices + bars;
-  line.link_loss = bars;
+  line.rows[ledger_row("damping_loss")] = damping;
+  line.rows[ledger_row("device_work")] = devices + bars;
+  line.rows[ledger_row("link_loss")] = bars;
   return line;
 }
 

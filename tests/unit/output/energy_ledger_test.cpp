@@ -6,7 +6,7 @@ namespace pounding {
 namespace energy_ledger_test {
 
 EnergyLine line_at(int number) {
-  return {static_cast<double>(number), 1, 2, 3, 4, 5, 6, 7, 8};
+  return {static_cast<double>(number), 1, 2, 8, {3, 4, 5}};
 }
 
 TEST(EnergyLedger, ThinsALongRunOut) {
