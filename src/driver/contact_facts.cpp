@@ -200,23 +200,6 @@ Facts joint_facts(const Scene& scene, const Model& model, const RunStatistics& r
   return facts;
 }
 
-std::vector<std::string> pass_warnings(const Scene& scene, std::span<const OtherPass> passes) {
-  std::vector<std::string> warnings;
-  for (std::size_t c = 0; c < passes.size(); ++c) {
-    const OtherPass& other = passes[c];
-    if (!(other.depth > std::min(OtherPass::deep, OtherPass::deep_part * other.facet_size))) {
-      continue;
-    }
-    const std::string& name = scene.contacts[c].name;
-    warnings.push_back(sentence(
-        "contact {}: in one pass nodes of its primary went up to {:.3g mm} into facets of the "
-        "secondary of {:.3g} m, at ({:.4g}, {:.4g}) m, t = {:.4g} s: impacts are missed or late "
-        "there; give -{}_passes 2",
-        {name, other.depth, other.facet_size, other.place[0], other.place[1], other.time, name}));
-  }
-  return warnings;
-}
-
 Facts impact_facts(const Scene& scene, const RunStatistics& run, const ImpactCatalogue& impacts) {
   Facts facts{values_of(run.all_impacts)};
   facts.add("force_window", scene.force_window);

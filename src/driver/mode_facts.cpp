@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "common/types.h"
+#include "driver/model_doubts.h"
 #include "driver/report.h"
 #include "stability/stable_time_step.h"
 
@@ -216,14 +217,6 @@ void add_residual_facts(const ModalModel& modal, const ModalBasis& basis, Facts&
 }
 
 }  // namespace
-
-double highest_mode(const ModalBasis& basis) {
-  double square = 0;
-  for (std::size_t i = 0; i < basis.size(); ++i) {
-    if (basis.mode_numbers[i] > 0) square = std::max(square, basis.squared_frequency[i]);
-  }
-  return hertz(square);
-}
 
 Facts reduction_facts(const Building& building) {
   const ModalModel& modal = *building.structure->modal;

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "common/error.h"
 #include "common/matrix3.h"
 #include "driver/facts.h"
-#include "driver/report.h"
 #include "mesh/mesh.h"
 
 namespace pounding {
@@ -269,6 +269,14 @@ std::vector<std::string> frequency_doubts(const Scene& scene, std::span<const Re
                  {structure, carried, waves.element_size, waves.group, of, asked}));
   }
   return doubts;
+}
+
+double highest_mode(const ModalBasis& basis) {
+  double square = 0;
+  for (std::size_t i = 0; i < basis.size(); ++i) {
+    if (basis.mode_numbers[i] > 0) square = std::max(square, basis.squared_frequency[i]);
+  }
+  return std::sqrt(square) / (2 * std::numbers::pi);
 }
 
 std::vector<std::string> mass_doubts(MPI_Comm comm, const Building& building) {

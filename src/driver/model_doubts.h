@@ -22,6 +22,9 @@ std::vector<std::string> place_doubts(const Scene& scene, std::span<const Global
 std::vector<std::string> frequency_doubts(const Scene& scene, std::span<const ResolvedProbe> probes,
                                           const Building& building);
 
+/// Frequency of the highest mode in a basis [Hz].
+double highest_mode(const ModalBasis& basis);
+
 /// Doubts about masses and frequencies of a structure that is built: point masses that are nothing
 /// beside the rest, matrices in other units. Collective.
 std::vector<std::string> mass_doubts(MPI_Comm comm, const Building& building);

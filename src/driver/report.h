@@ -73,8 +73,6 @@ Facts soil_facts(const Structure& structure);
 Facts spread_facts(const Building& building);
 Facts absorbing_facts(const Building& building);
 Facts reduction_facts(const Building& building);
-/// Frequency of the highest mode in a basis [Hz].
-double highest_mode(const ModalBasis& basis);
 Facts mode_facts(const Building& building);
 Facts scaling_facts(const Building& building);
 Facts step_limit_facts(const Building& building);

@@ -147,6 +147,27 @@ void Solver::make_stepper() {
   }
 }
 
+Solver::Parts solver_parts(MPI_Comm comm, const Scene& scene, const Model& model,
+                           std::span<const Mesh> meshes, Profile& profile) {
+  Solver::Parts parts{comm,
+                      model.systems,
+                      meshes,
+                      &model.interface,
+                      model.motion.get(),
+                      scene.gap_tolerance * model.interface.model_size,
+                      model.time_step,
+                      {},
+                      &profile,
+                      scene.progress_interval,
+                      scene.contacts,
+                      model.supports.get(),
+                      model.load_histories.get()};
+  for (const Building& building : model.buildings) {
+    parts.energy_margins.push_back(building.energy_margin);
+  }
+  return parts;
+}
+
 std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSystem> systems,
                                         std::span<const double> energy_margins, double time_step,
                                         const interactions::ContactProblem* contact,

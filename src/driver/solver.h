@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/profile.h"
+#include "driver/model.h"
 #include "dynamics/cd_lagrange.h"
 #include "dynamics/unilateral_contact.h"
 #include "interactions/contact_problem.h"
@@ -108,6 +109,10 @@ class Solver {
   std::vector<double> impulses_;  ///< see row_actions; room where something gives way
   std::vector<double> works_;
 };
+
+/// Parts of the solver of a model; `meshes`: those of its structures.
+Solver::Parts solver_parts(MPI_Comm comm, const Scene& scene, const Model& model,
+                           std::span<const Mesh> meshes, Profile& profile);
 
 /// Bounds of the gap rates of structures at a time step [s] with their energy margins (see
 /// EnergyNorm), the same on all ranks; `contact` may be null. `progress_interval` [s]: see

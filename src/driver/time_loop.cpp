@@ -24,27 +24,6 @@ void remember(int signal) {
 
 }  // namespace
 
-Solver::Parts solver_parts(MPI_Comm comm, const Scene& scene, const Model& model,
-                           std::span<const Mesh> meshes, Profile& profile) {
-  Solver::Parts parts{comm,
-                      model.systems,
-                      meshes,
-                      &model.interface,
-                      model.motion.get(),
-                      scene.gap_tolerance * model.interface.model_size,
-                      model.time_step,
-                      {},
-                      &profile,
-                      scene.progress_interval,
-                      scene.contacts,
-                      model.supports.get(),
-                      model.load_histories.get()};
-  for (const Building& building : model.buildings) {
-    parts.energy_margins.push_back(building.energy_margin);
-  }
-  return parts;
-}
-
 TimeLoop::TimeLoop(MPI_Comm comm, const Scene& scene, const Model& model, Profile& profile)
     : comm_(comm),
       scene_(scene),

@@ -17,10 +17,6 @@
 
 namespace pounding {
 
-/// Parts of the solver of a model; `meshes`: those of its structures.
-Solver::Parts solver_parts(MPI_Comm comm, const Scene& scene, const Model& model,
-                           std::span<const Mesh> meshes, Profile& profile);
-
 /// Steps the model under the eyes of its observers.
 class TimeLoop {
  public:
