@@ -30,7 +30,7 @@ set(POUNDING_KERNEL_FILES
   "^common/row_products[.]"
   "^ensemble/octet_group"
   "^motion/oscillator"
-  "^output/recorder"
+  "^observers/recorder"
   "^system/(block_factorisation|coupled_mass|rigid_body|trace)")
 
 # Moves the kernels of a list of sources to another one.

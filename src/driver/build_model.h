@@ -7,8 +7,8 @@
 #include <mpi.h>
 
 #include "common/profile.h"
-#include "driver/model.h"
 #include "interactions/pairing/find_interface.h"
+#include "model/model.h"
 #include "scene/scene.h"
 
 namespace pounding {

@@ -5,10 +5,10 @@
 #include <span>
 
 #include "common/error.h"
+#include "common/facts.h"
 #include "common/parallel.h"
 #include "common/petsc.h"
 #include "common/types.h"
-#include "driver/facts.h"
 #include "io/csv_file.h"
 #include "io/matrix_market.h"
 #include "io/new_file.h"

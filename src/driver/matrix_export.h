@@ -2,7 +2,7 @@
 
 #include <mpi.h>
 
-#include "driver/model.h"
+#include "model/model.h"
 #include "scene/scene.h"
 
 namespace pounding {

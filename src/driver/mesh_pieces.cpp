@@ -14,11 +14,11 @@
 #include "common/parallel.h"
 #include "common/progress.h"
 #include "common/version.h"
-#include "driver/provenance.h"
-#include "driver/report.h"
-#include "driver/run_statistics.h"
 #include "io/file_seal.h"
 #include "io/new_file.h"
+#include "observers/run_statistics.h"
+#include "report/provenance.h"
+#include "report/report.h"
 
 namespace pounding {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <mpi.h>
 
-#include "driver/model.h"
 #include "driver/whole_meshes.h"
 #include "mesh/mesh_parcel.h"
+#include "model/model.h"
 #include "scene/scene.h"
 
 /// Meshes of a scene cut for a number of ranks, in a folder, so that no rank of a run holds one

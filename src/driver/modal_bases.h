@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "common/profile.h"
-#include "driver/model.h"
 #include "mesh/global_mesh.h"
 #include "mesh/mesh.h"
+#include "model/model.h"
 #include "scene/scene.h"
 #include "system/element_forces.h"
 #include "system/linear_system.h"

@@ -5,24 +5,24 @@
 #include <iterator>
 #include <optional>
 
+#include "checks/warnings.h"
 #include "common/error.h"
 #include "common/memory.h"
 #include "common/parallel.h"
 #include "common/process_state.h"
 #include "driver/build_model.h"
-#include "driver/field_plan.h"
-#include "driver/floor_spectra.h"
-#include "driver/loops.h"
 #include "driver/matrix_export.h"
 #include "driver/mesh_pieces.h"
-#include "driver/model_file.h"
-#include "driver/observers.h"
-#include "driver/provenance.h"
-#include "driver/report.h"
 #include "driver/time_loop.h"
-#include "driver/warnings.h"
 #include "io/new_file.h"
+#include "observers/field_plan.h"
+#include "observers/floor_spectra.h"
+#include "observers/loops.h"
+#include "observers/model_file.h"
+#include "observers/observers.h"
 #include "output/result_folder.h"
+#include "report/provenance.h"
+#include "report/report.h"
 
 namespace pounding {
 namespace {

@@ -9,10 +9,10 @@
 
 #include <mpi.h>
 
-#include "driver/model.h"
-#include "driver/observers.h"
-#include "driver/run_statistics.h"
-#include "driver/solver.h"
+#include "model/model.h"
+#include "model/solver.h"
+#include "observers/observers.h"
+#include "observers/run_statistics.h"
 #include "output/checkpoint.h"
 
 namespace pounding {

@@ -2,17 +2,17 @@
 
 #include <algorithm>
 
+#include "checks/mesh_checks.h"
+#include "checks/model_doubts.h"
+#include "checks/warnings.h"
 #include "common/progress.h"
-#include "driver/applied_loads.h"
-#include "driver/mesh_checks.h"
-#include "driver/model_doubts.h"
-#include "driver/warnings.h"
 #include "interactions/pairing/absorbing_faces.h"
 #include "mesh/find_supported_nodes.h"
 #include "mesh/gmsh_reader.h"
 #include "mesh/sliding_order.h"
 #include "mesh/soil_node.h"
 #include "mesh/start_states.h"
+#include "model/applied_loads.h"
 #include "scene/soil_file.h"
 #include "scene/soil_reader.h"
 #include "system/mass_scaling.h"

@@ -5,10 +5,10 @@
 
 #include <mpi.h>
 
-#include "driver/model.h"
 #include "interactions/pairing/find_interface.h"
 #include "mesh/global_mesh.h"
 #include "mesh/partition.h"
+#include "model/model.h"
 #include "scene/scene.h"
 
 namespace pounding {

@@ -5,11 +5,11 @@
 #include <limits>
 #include <map>
 
+#include "checks/warnings.h"
 #include "common/error.h"
 #include "common/parallel.h"
-#include "driver/rest.h"
-#include "driver/warnings.h"
 #include "interactions/pairing/contact_checks.h"
+#include "model/rest.h"
 #include "motion/load_histories.h"
 #include "motion/synthetic.h"
 

@@ -4,10 +4,10 @@
 #include <limits>
 
 #include "common/error.h"
-#include "driver/rest.h"
-#include "driver/time_step.h"
 #include "interactions/pairing/gap_field.h"
 #include "modal/reduced_system.h"
+#include "model/rest.h"
+#include "model/time_step.h"
 #include "scene/option_reader.h"
 #include "stability/stable_time_step.h"
 #include "system/load_shapes.h"

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "driver/model.h"
 #include "interactions/pairing/find_interface.h"
 #include "interactions/pairing/gap_field.h"
 #include "modal/modal_basis.h"
+#include "model/model.h"
 #include "scene/member_table.h"
 #include "scene/scene_reader.h"
 

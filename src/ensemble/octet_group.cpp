@@ -6,11 +6,11 @@
 
 #include "common/error.h"
 #include "common/row_products.h"
-#include "driver/floor_spectra.h"
 #include "driver/time_loop.h"
-#include "driver/watchdog.h"
 #include "motion/response_spectrum.h"
-#include "output/recorder.h"
+#include "observers/floor_spectra.h"
+#include "observers/recorder.h"
+#include "observers/watchdog.h"
 
 namespace pounding {
 namespace {

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "common/memory.h"
-#include "driver/contact_watches.h"
-#include "driver/field_plan.h"
-#include "driver/run_statistics.h"
 #include "dynamics/octet_step.h"
 #include "ensemble/member_scene.h"
 #include "mesh/mesh.h"
 #include "mesh/probe_set.h"
+#include "observers/contact_watches.h"
+#include "observers/field_plan.h"
+#include "observers/run_statistics.h"
 
 namespace pounding {
 

@@ -7,25 +7,25 @@
 #include <optional>
 #include <utility>
 
+#include "checks/warnings.h"
 #include "common/error.h"
 #include "common/memory.h"
 #include "common/parallel.h"
 #include "common/process_state.h"
 #include "driver/build_model.h"
-#include "driver/field_plan.h"
-#include "driver/floor_spectra.h"
-#include "driver/provenance.h"
-#include "driver/report.h"
-#include "driver/run_progress.h"
 #include "driver/time_loop.h"
-#include "driver/time_step.h"
-#include "driver/warnings.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/member_doubts.h"
 #include "ensemble/octet_group.h"
 #include "fidelity/fidelity_climb.h"
 #include "io/new_file.h"
+#include "model/time_step.h"
+#include "observers/field_plan.h"
+#include "observers/floor_spectra.h"
+#include "observers/run_progress.h"
 #include "output/result_folder.h"
+#include "report/provenance.h"
+#include "report/report.h"
 
 namespace pounding {
 namespace {

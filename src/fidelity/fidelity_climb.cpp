@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/error.h"
-#include "driver/facts.h"
+#include "common/facts.h"
 #include "fidelity/full_order_window.h"
 
 namespace pounding {

@@ -9,16 +9,16 @@
 #include <utility>
 #include <vector>
 
+#include "common/facts.h"
 #include "common/parallel.h"
 #include "driver/build_model.h"
-#include "driver/facts.h"
-#include "driver/field_plan.h"
-#include "driver/solver.h"
 #include "driver/time_loop.h"
 #include "fidelity/probe_means.h"
 #include "interactions/frictional_contact.h"
 #include "interactions/interface_rows.h"
+#include "model/solver.h"
 #include "motion/response_spectrum.h"
+#include "observers/field_plan.h"
 
 namespace pounding {
 namespace {

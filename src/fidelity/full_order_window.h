@@ -5,10 +5,10 @@
 
 #include <mpi.h>
 
-#include "driver/model.h"
-#include "driver/run_statistics.h"
-#include "output/impact_catalogue.h"
-#include "output/recorder.h"
+#include "model/model.h"
+#include "observers/impact_catalogue.h"
+#include "observers/recorder.h"
+#include "observers/run_statistics.h"
 #include "scene/scene.h"
 
 namespace pounding {

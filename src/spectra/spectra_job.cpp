@@ -13,7 +13,7 @@
 #include "io/csv_file.h"
 #include "motion/response_spectrum.h"
 #include "motion/spectrum_shape.h"
-#include "output/impact_catalogue.h"
+#include "observers/impact_catalogue.h"
 #include "spectra/signal_reader.h"
 
 namespace pounding {

@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "benchmark/timed_step.h"
-#include "driver/solver.h"
+#include "model/solver.h"
 #include "scene/option_table.h"
 #include "stability/stable_time_step.h"
 

@@ -6,7 +6,7 @@
 #include "motion/ground_motion.h"
 #include "motion/records/record_text.h"
 #include "motion/synthetic.h"
-#include "output/impact_catalogue.h"
+#include "observers/impact_catalogue.h"
 #include "scene/member_table.h"
 #include "scene/options_database.h"
 #include "scene/scene_reader.h"

@@ -11,7 +11,7 @@ FORM = re.compile(r"(?P<name>[\w/]*)(?::(?P<conversion>[-+]?\d*(?:\.\d+)?[defgs]
 
 
 def units():
-    with open(os.path.join(SOURCE, "driver", "facts.cpp")) as file:
+    with open(os.path.join(SOURCE, "common", "facts.cpp")) as file:
         return set(re.findall(r'ReportUnit\{"([^"]+)"', file.read()))
 
 
@@ -45,7 +45,7 @@ class Sentences(unittest.TestCase):
                     text = file.read()
                 if "ledger_rows" in text:
                     text += ledger
-                if not name.endswith(".cpp") or not re.search(r"driver/(facts|report)\.h", text):
+                if not name.endswith(".cpp") or not re.search(r"(common/facts|report/report)\.h", text):
                     continue
                 if name == "facts.cpp":
                     continue

@@ -1,0 +1,410 @@
+#include "checks/warnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include "common/facts.h"
+#include "model/time_step.h"
+#include "scene/option_table.h"
+#include "scene/option_values.h"
+#include "stability/stable_time_step.h"
+
+namespace pounding {
+namespace {
+
+/// Rayleigh damping above half of the critical one at one of these frequencies [Hz].
+void doubt_rayleigh(const std::string& owner, const Rayleigh& damping,
+                    const std::vector<double>& frequencies, std::vector<std::string>& warnings) {
+  constexpr double doubtful_share = 0.5;
+  for (const double frequency : frequencies) {
+    const double ratio = damping_ratio(damping, 2 * std::numbers::pi * frequency);
+    if (!(ratio > doubtful_share) || !(frequency > 0)) continue;
+    warnings.push_back(sentence(
+        "{}: alpha {:.4g} 1/s and beta {:.4g} s damp {:.4g %} of critical at {:.4g} Hz; are they "
+        "meant? -damping_ratio with two frequencies is surer",
+        {owner, damping.alpha, damping.beta, ratio, frequency}));
+    return;
+  }
+}
+
+/// Uniform damping whose filters are too few, or whose band is too narrow for the modes.
+void doubt_uniform(const Structure& structure, const std::vector<Mode>& modes,
+                   std::vector<std::string>& warnings) {
+  constexpr double large_ripple = 0.2;
+  constexpr double doubtful_part = 0.8;
+  const UniformDamping& uniform = *structure.uniform_damping;
+  const std::string& name = structure.name;
+  if (uniform.ripple > large_ripple) {
+    warnings.push_back(sentence(
+        "structure {}: {} filters hold the uniform damping within {:.3g %} of its ratio only; give "
+        "more -{}_damping_filters, or a narrower band",
+        {name, uniform.filters.size(), uniform.ripple, name}));
+  }
+  for (const Mode& mode : modes) {
+    const double found = uniform.ratio_at(2 * std::numbers::pi * mode.frequency);
+    const bool inside = mode.frequency >= uniform.lowest && mode.frequency <= uniform.highest;
+    if (!mode.location.empty() || inside || found >= doubtful_part * uniform.ratio) continue;
+    warnings.push_back(sentence(
+        "structure {}: a mode of {:.3g} Hz lies outside of the band of its uniform damping and has "
+        "{:.3g %} of critical instead of {:.3g %}; give a wider -{}_damping_band",
+        {name, mode.frequency, found, uniform.ratio, name}));
+    return;
+  }
+}
+
+constexpr double nearly = 1 + 1e-9;
+
+bool stands_still(const Scene& scene) {
+  const Vector3 zero{0, 0, 0};
+  const bool shaken = std::ranges::any_of(
+      scene.motion, [](const auto& component) { return component.has_value(); });
+  return !shaken && scene.loads.empty() &&
+         std::ranges::all_of(scene.structures, [&zero](const Structure& structure) {
+           return !structure.starts_displaced() && !structure.starts_in_motion() &&
+                  structure.gravity == zero;
+         });
+}
+
+const Accelerogram& samples(const Model& model, int direction) {
+  return model.motion->from_below() ? model.motion->incident(direction)
+                                    : model.motion->component(direction);
+}
+
+/// A record of its own that ends before the run. Synthetic motions are made as long as asked.
+void add_short_record(const Scene& scene, const Model& model, int direction,
+                      std::vector<std::string>& warnings) {
+  const Accelerogram& component = samples(model, direction);
+  const auto& asked = scene.motion[direction];
+  const double last = component.end();
+  if (std::holds_alternative<RecordedMotion>(asked->source) &&
+      scene.end_time > (last + component.time_step) * nearly) {
+    warnings.push_back(
+        sentence("option -end_time {} s: the record along {} ends at {} s, the ground stands still "
+                 "afterwards",
+                 {scene.end_time, direction_names[direction], last}));
+  }
+}
+
+/// The largest acceleration of a component until a time [m/s2].
+double peak_until(const Accelerogram& component, double end) {
+  double peak = std::abs(component.at(end));  // linear between samples, 0 beyond the last
+  for (std::size_t i = 0; i < component.acceleration.size(); ++i) {
+    if (component.start + component.time_step * static_cast<double>(i) > end * nearly) break;
+    peak = std::max(peak, std::abs(component.acceleration[i]));
+  }
+  return peak;
+}
+
+/// A motion whose peak comes after the end of the run.
+void add_late_peak(const Scene& scene, const Accelerogram& component, int direction,
+                   std::vector<std::string>& warnings) {
+  constexpr double whole = 0.99;
+  const double peak = component.peak();
+  const double felt = peak_until(component, scene.end_time);
+  if (felt >= whole * peak) return;
+  warnings.push_back(sentence(
+      "option -end_time {:.4g} s: the motion along {} has its peak of {:.4g} m/s2 later; the run "
+      "feels {:.4g} m/s2 at most",
+      {scene.end_time, direction_names[direction], peak, felt}));
+}
+
+/// Between the samples of a direction as they are given: resampling adds nothing to step over.
+double given_interval(const Model& model, int direction) {
+  for (const MotionDescription& description : model.motion->descriptions()) {
+    if (description.direction == direction_names[direction]) return description.time_step;
+  }
+  return samples(model, direction).time_step;
+}
+
+using NodeSet = std::set<std::pair<int, GlobalIndex>>;  // structure and node
+
+NodeSet contact_nodes(const interactions::Interface& interface) {
+  NodeSet nodes;
+  for (const interactions::Constraint& constraint : interface.constraints) {
+    for (const interactions::ConstraintTerm& term : constraint.terms) {
+      nodes.emplace(term.structure, term.node);
+    }
+  }
+  return nodes;
+}
+
+/// "probe roof: 2 of its 4 nodes are"; "probe roof: its node is".
+std::string subject(const ResolvedProbe& probe, std::size_t count) {
+  if (probe.nodes.size() == 1) return "probe " + probe.name + ": its node is";
+  return sentence("probe {}: {} of its {} nodes are", {probe.name, count, probe.nodes.size()});
+}
+
+/// Whether somebody asked for frequencies of spectra.
+bool frequencies_are_asked(const Scene& scene) {
+  const auto preset = parse_increasing(std::string(option_row("spectra_frequencies").preset.text));
+  return scene.spectra.frequencies != preset;
+}
+
+/// Spectra beyond half the sampling frequency of the probes, or, where no impacts are looked for,
+/// of the motion.
+void add_high_spectra(const Scene& scene, const Model& model, std::vector<std::string>& warnings) {
+  if (scene.probes.empty()) return;
+  const double highest = scene.spectra.frequencies.back();
+  const auto add = [&](const std::string& of, double interval, const std::string& what) {
+    if (!(highest * 2 * interval > nearly)) return;
+    warnings.push_back(sentence(
+        "spectra go to {:.4g} Hz (-spectra_frequencies), {} every {:.4g} s tell nothing above "
+        "{:.4g} Hz{}",
+        {highest, of, interval, 0.5 / interval, what}));
+  };
+  if (scene.output_interval != parse_real(option_row("output_interval").preset.text)) {
+    add("samples of the probes", scene.output_interval, "; give a shorter -output_interval");
+  }
+  if (!scene.contacts.empty() || !frequencies_are_asked(scene)) return;
+  double coarsest = 0;
+  for (int direction = 0; direction < 3; ++direction) {
+    if (samples(model, direction).acceleration.empty()) continue;
+    coarsest = std::max(coarsest, given_interval(model, direction));
+  }
+  add("samples of the motion", coarsest,
+      ": beyond, only motion between the samples shows (-resampling)");
+}
+
+}  // namespace
+
+std::vector<std::string> sliver_warnings(const LinearSystem& system) {
+  std::vector<std::string> warnings;
+  for (const Sliver& sliver : system.slivers) {
+    warnings.push_back(sentence(
+        "structure {}: sliver: {} allows by itself {:.4g} s, the median of its group {:.4g} s ({} "
+        "such elements in it); mend the mesh",
+        {system.name, sliver.element, sliver.time_step, sliver.median, sliver.count}));
+  }
+  return warnings;
+}
+
+std::vector<std::string> damping_warnings(const Structure& structure, const ModalResult& modal) {
+  constexpr double highest = 50;  // Hz
+  std::vector<double> frequencies;
+  for (const Mode& mode : modal.modes) {
+    const bool vibrates = mode.location.empty();  // else its frequency is round-off
+    if (vibrates && (frequencies.empty() || mode.frequency <= highest)) {
+      frequencies.push_back(mode.frequency);
+    }
+  }
+  if (frequencies.empty()) frequencies = {1, highest};
+  std::vector<std::string> warnings;
+  const bool by_mode = structure.modal && !structure.modal->damping_ratios.empty();
+  const std::string owner = "structure " + structure.name;
+  if (structure.uniform_damping) {
+    doubt_uniform(structure, modal.modes, warnings);
+  } else if (!by_mode) {
+    doubt_rayleigh(owner, structure.damping, frequencies, warnings);
+  }
+  for (const Region& region : structure.regions) {
+    if (!region.damping || by_mode) continue;
+    doubt_rayleigh(owner + ", group " + region.group, *region.damping, frequencies, warnings);
+  }
+  return warnings;
+}
+
+std::vector<std::string> shift_warnings(const LinearSystem& system, const ModalResult& modal) {
+  constexpr double highest = 33;  // Hz
+  double worst = 0.1;
+  if (!system.uniform_damping) return {};
+  const UniformDamping& uniform = *system.uniform_damping;
+  std::vector<std::string> warnings;
+  for (const Mode& mode : modal.modes) {
+    if (!mode.location.empty() || !(mode.frequency > 0) || mode.frequency > highest) continue;
+    const double moved = uniform.moved(mode.frequency);
+    const double shift = moved / mode.frequency - 1;
+    if (!(std::abs(shift) > worst)) continue;
+    worst = std::abs(shift);
+    warnings = {sentence(
+        "structure {}: uniform damping of {:.3g %} moves its mode of {:.3g} Hz by {:.3g %} to "
+        "{:.3g} Hz, since modes keep their place at {:.3g} Hz; give -{}_damping_reference where it "
+        "matters most",
+        {system.name, uniform.ratio, mode.frequency, shift, moved, uniform.reference,
+         system.name})};
+  }
+  return warnings;
+}
+
+std::vector<std::string> mechanism_warnings(const Scene& scene, const Model& model) {
+  std::vector<std::string> warnings;
+  const auto has_no_stiffness = [](const Mode& mode) { return !mode.location.empty(); };
+  for (std::size_t s = 0; s < model.buildings.size(); ++s) {
+    const std::vector<Mode>& modes = model.buildings[s].modal.modes;
+    const auto count = std::ranges::count_if(modes, has_no_stiffness);
+    const Connectivity& connectivity = model.buildings[s].findings.connectivity;
+    if (count == 0 || !connectivity.wholly_held() || scene.structures[s].allow_loose) continue;
+    warnings.push_back(sentence(
+        "structure {}: {} of its lowest modes have no stiffness (0 Hz), the first moves most at "
+        "{}; look for hinges, missing elements and supports",
+        {scene.structures[s].name, count,
+         std::ranges::find_if(modes, has_no_stiffness)->location}));
+  }
+  return warnings;
+}
+
+std::vector<std::string> displacement_warnings(double largest, double model_size) {
+  constexpr double small = 0.05;                                      // of the model
+  if (!(largest > small * model_size) || model_size == 0) return {};  // 0: a point
+  return {
+      sentence("displacements reach {:.3g} m in a model of {:.3g} m; the theory is one of small "
+               "displacements",
+               {largest, model_size})};
+}
+
+std::vector<std::string> contact_warnings(double residual) {
+  constexpr double solved = 1e-8;
+  if (!(residual > solved)) return {};
+  return {sentence(
+      "the contact problem of some step was not solved to the end: complementarity residual "
+      "{:.3g} of the largest closing velocity (below {:.3g} is as good as exact); look at contacts "
+      "that hold the same place twice, and at friction of bodies wedged between each other",
+      {residual, solved})};
+}
+
+std::vector<std::string> slide_warnings(const Scene& scene, const RunStatistics& statistics) {
+  std::vector<std::string> warnings;
+  for (std::size_t c = 0; c < statistics.slides.size(); ++c) {
+    const Slide& slide = statistics.slides[c];
+    if (slide.since < 0) continue;
+    const std::string& name = scene.contacts[c].name;
+    const double sliding = scene.contacts[c].sliding;
+    const std::string limit =
+        sliding > 0
+            ? sentence(
+                  "-{}_sliding {:.4g} m, from t = {:.4g} s on; parts farther off are not "
+                  "looked for: give more",
+                  {name, sliding, slide.since})
+            : sentence(
+                  "half of the facet there ({:.4g} m), from t = {:.4g} s on; nodes stay with "
+                  "the facets that they face at the start, so that impacts after that may "
+                  "hit what has moved away, or miss; -{}_sliding finds pairs anew",
+                  {slide.facet_size, slide.since, name});
+    warnings.push_back(
+        sentence("contact {}: its faces slid along each other by up to {:.4g} m, more than {}",
+                 {name, slide.distance, limit}));
+  }
+  return warnings;
+}
+
+std::vector<std::string> pass_warnings(const Scene& scene, std::span<const OtherPass> passes) {
+  std::vector<std::string> warnings;
+  for (std::size_t c = 0; c < passes.size(); ++c) {
+    const OtherPass& other = passes[c];
+    if (!(other.depth > std::min(OtherPass::deep, OtherPass::deep_part * other.facet_size))) {
+      continue;
+    }
+    const std::string& name = scene.contacts[c].name;
+    warnings.push_back(sentence(
+        "contact {}: in one pass nodes of its primary went up to {:.3g mm} into facets of the "
+        "secondary of {:.3g} m, at ({:.4g}, {:.4g}) m, t = {:.4g} s: impacts are missed or late "
+        "there; give -{}_passes 2",
+        {name, other.depth, other.facet_size, other.place[0], other.place[1], other.time, name}));
+  }
+  return warnings;
+}
+
+std::string scaled_by_closing(const Scene& scene) {
+  const bool loads = std::ranges::any_of(scene.loads, [&](const Load& load) {
+    return !scene.preload || load.function.kind != LoadFunction::Kind::constant;
+  });
+  const bool weight = std::ranges::any_of(scene.structures, [&](const Structure& structure) {
+    return !scene.preload && structure.gravity != Vector3{};
+  });
+  return std::string("motion") + (loads ? " and loads" : "") + (weight ? " and weight" : "");
+}
+
+std::vector<std::string> closing_warnings(const Scene& scene, const RunStatistics& statistics) {
+  const std::string scaled = scaled_by_closing(scene);
+  const bool closes = std::ranges::any_of(
+      statistics.closings, [](const JointClosing& joint) { return std::isfinite(joint.factor); });
+  if (scaled == "motion" || statistics.all_impacts.episodes > 0 || !closes) return {};
+  return {sentence(
+      "closing factors are of {} together, since one run cannot part them: "
+      "the motion alone closes a joint sooner where the others hold it open, later where they "
+      "close it{}; -motion_level shows",
+      {scaled, scene.preload ? "" : "; -preload static takes constant ones out"})};
+}
+
+std::vector<std::string> pendulum_warnings(const RunStatistics& statistics) {
+  std::vector<std::string> warnings;
+  for (const std::string& structure : statistics.overpressed) {
+    warnings.push_back("structure " + structure +
+                       ": more pressed on a friction pendulum than hardening times stiffness times "
+                       "its radius, and its slope was cut there; give a larger hardening");
+  }
+  return warnings;
+}
+
+void add_long_step(const std::string& of, double sample, double step,
+                   std::vector<std::string>& warnings) {
+  if (step > sample * nearly) {
+    warnings.push_back(
+        sentence("the time step {} s is longer than {}, {} s; give -time_step {} or less",
+                 {step, of, sample, sample}));
+  }
+}
+
+std::vector<std::string> run_warnings(const Scene& scene, const Model& model) {
+  std::vector<std::string> warnings;
+  if (stands_still(scene) && model.support_columns().empty() && !scene.dry_run &&
+      scene.export_matrices.empty()) {
+    warnings.emplace_back(
+        "nothing makes the scene move: no -motion_x_record or -motion_x_target (nor y, z), no "
+        "initial displacement or velocity, no gravity");
+  }
+  for (int direction = 0; direction < 3; ++direction) {
+    if (!samples(model, direction).acceleration.empty()) {
+      add_short_record(scene, model, direction, warnings);
+      add_late_peak(scene, samples(model, direction), direction, warnings);
+      add_long_step("a sample of the motion along " + std::string(direction_names[direction]),
+                    given_interval(model, direction), model.time_step, warnings);
+    }
+  }
+  for (const std::string& line : long_step_warnings(scene, model)) warnings.push_back(line);
+  add_high_spectra(scene, model, warnings);
+  // The interval that nobody asked for is as short as the step where that is longer.
+  const auto preset = parse_real(option_row("output_interval").preset.text);
+  if (!scene.probes.empty() && scene.output_interval != preset) {
+    add_long_step("-output_interval", scene.output_interval, model.time_step, warnings);
+  }
+  return warnings;
+}
+
+std::vector<std::string> probe_warnings(std::span<const ResolvedProbe> probes,
+                                        std::span<const GlobalMesh> meshes,
+                                        const interactions::Interface& interface) {
+  constexpr std::uint8_t translations = 7;
+  constexpr std::size_t nodes_per_doubt = 4;
+  const NodeSet touching = contact_nodes(interface);
+  std::vector<std::string> warnings;
+  for (const ResolvedProbe& probe : probes) {
+    const std::string far =
+        snap_doubt("probe " + probe.name, probe.snap_distance, probe.element_size);
+    if (!far.empty()) warnings.push_back(far);
+    const GlobalMesh& mesh = meshes[probe.structure];
+    const std::size_t clamped = std::ranges::count_if(probe.nodes, [&](GlobalIndex node) {
+      return (mesh.free_components[node] & translations) == 0;
+    });
+    if (clamped > 0) {
+      warnings.push_back(subject(probe, clamped) +
+                         (mesh.supported.empty()
+                              ? " clamped: the ground's own motion is recorded there"
+                              : " clamped: the motion of its support is recorded there"));
+    }
+    const std::size_t in_contact = std::ranges::count_if(probe.nodes, [&](GlobalIndex node) {
+      return touching.contains({probe.structure, node});
+    });
+    if (nodes_per_doubt * in_contact >= probe.nodes.size()) {
+      warnings.push_back(subject(probe, in_contact) +
+                         " part of a contact: the accelerations hold the impulses that act on it, "
+                         "and the samples go with 1/output_interval; for a floor take nodes "
+                         "one element away");
+    }
+  }
+  return warnings;
+}
+
+}  // namespace pounding

@@ -1,0 +1,47 @@
+#include "observers/base_motion.h"
+
+#include "system/trace.h"
+
+namespace pounding {
+
+BaseMotion::BaseMotion(std::span<const ResolvedProbe> bases, std::span<const LinearSystem> systems,
+                       std::span<const Mesh> meshes) {
+  for (const ResolvedProbe& base : bases) {
+    const auto s = static_cast<std::size_t>(base.structure);
+    const LinearSystem& system = systems[s];
+    const double share = 1 / static_cast<double>(base.nodes.size());
+    for (int d = 0; d < 3; ++d) {
+      std::vector<TracePoint> places;
+      for (const GlobalIndex node : base.nodes) {
+        if (meshes[s].owned_node(node) >= 0) places.push_back({node, d});
+      }
+      const Trace trace(system, meshes[s], places, false);
+      Row& row = rows_.emplace_back();
+      row.structure = s;
+      row.dofs = trace.dofs();
+      row.weights.assign(row.dofs.size(), system.generalised ? 0 : share);
+      for (std::size_t k = 0; k < places.size(); ++k) {
+        for (std::size_t i = 0; system.generalised && i < row.dofs.size(); ++i) {
+          row.weights[i] += share * trace.row(k)[i];
+        }
+        const std::span<const double> carried = trace.carried(k);
+        row.carried.resize(carried.size());
+        for (std::size_t c = 0; c < carried.size(); ++c) row.carried[c] += share * carried[c];
+      }
+    }
+  }
+}
+
+void BaseMotion::put(const State& state, double* out) const {
+  for (const Row& row : rows_) {
+    const std::vector<double>& owned = state.structures[row.structure].displacement;
+    double sum = 0;
+    for (std::size_t i = 0; i < row.dofs.size(); ++i) sum += row.weights[i] * owned[row.dofs[i]];
+    for (std::size_t c = 0; c < row.carried.size(); ++c) {
+      sum += row.carried[c] * state.supports.displacement[c];
+    }
+    *out++ = sum;
+  }
+}
+
+}  // namespace pounding

@@ -1,0 +1,64 @@
+#include "observers/energy_ledger.h"
+
+#include "io/csv_file.h"
+
+namespace pounding {
+namespace {
+
+/// Lines that are kept at most.
+constexpr std::int64_t most_lines = 5000;
+
+constexpr std::size_t ledger_columns = 4 + ledger_rows.size();
+
+/// The numbers of a line in a saved state.
+constexpr auto line_members = [](auto& line, const auto& take) {
+  take(line.time, line.kinetic, line.strain, line.residual);
+  for (auto& row : line.rows) take(row);
+};
+
+}  // namespace
+
+EnergyLedger::EnergyLedger(std::int64_t expected_lines)
+    : stride_((expected_lines + most_lines - 1) / most_lines) {}
+
+void EnergyLedger::add(const EnergyLine& line) {
+  last_ = line;
+  if (added_++ % stride_ == 0) lines_.push_back(line);
+}
+
+void EnergyLedger::save(SavedState& saved) const {
+  std::vector<EnergyLine> all = lines_;
+  all.push_back(last_);
+  saved.put("ledger", to_rows(all, line_members), ledger_columns);
+  saved.put("ledger_added", {static_cast<double>(added_)});
+}
+
+void EnergyLedger::load(const SavedState& saved) {
+  const std::vector<double>& numbers = saved.table("ledger", ledger_columns);
+  if (numbers.empty()) saved.refuse_values("ledger");
+  lines_.resize(numbers.size() / ledger_columns);
+  from_rows(numbers, lines_, line_members);
+  last_ = lines_.back();
+  lines_.pop_back();
+  added_ = saved.integer("ledger_added");
+}
+
+void write_energy(const std::string& path, const std::vector<EnergyLine>& lines, int digits) {
+  CsvFile file(path, digits);
+  std::string names = "time,kinetic,strain";
+  for (const LedgerRow& row : ledger_rows) {
+    if (!row.key.empty()) names += "," + std::string(row.name);
+  }
+  file.header(names + ",residual");
+  for (const EnergyLine& line : lines) {
+    std::vector<double> values{line.time, line.kinetic, line.strain};
+    for (std::size_t r = 0; r < ledger_rows.size(); ++r) {
+      if (!ledger_rows[r].key.empty()) values.push_back(line.rows[r]);
+    }
+    values.push_back(line.residual);
+    file.row("", values);
+  }
+  file.close();
+}
+
+}  // namespace pounding

@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+#include "common/error.h"
+#include "common/parallel.h"
+#include "io/hdf5_reader.h"
+#include "observers/field_writer.h"
+
+namespace pounding {
+namespace {
+
+/// Copies numbers from one place to another, but for zeros, which need no writing.
+void copy_numbers(const PlacedFile& from, std::int64_t source, const PlacedFile& to,
+                  std::int64_t target, std::int64_t count) {
+  constexpr std::int64_t at_a_time = 1 << 17;
+  std::vector<double> values;
+  for (std::int64_t done = 0; done < count; done += at_a_time) {
+    const auto bytes = done * static_cast<std::int64_t>(sizeof(double));
+    values.resize(static_cast<std::size_t>(std::min(at_a_time, count - done)));
+    from.read(source + bytes, values);
+    if (std::ranges::any_of(values, [](double value) { return value != 0; })) {
+      to.write(target + bytes, values);
+    }
+  }
+}
+
+}  // namespace
+
+void FieldWriter::save(SavedState& saved) {
+  const int rank = rank_of(layout_.comm);
+  if (rank == layout_.impulse_root && !impulses_.empty()) saved.put("fields_impulse", impulses_);
+  if (rank == 0) saved.put("fields_frames", {static_cast<double>(frames_)});
+  flush();
+}
+
+void FieldWriter::load(const SavedState& saved) {
+  frames_ = saved.integer("fields_frames");
+  if (frames_ < 0) saved.refuse_values("fields_frames");
+  if (!impulses_.empty()) saved.get("fields_impulse", impulses_);
+  on_rank0(layout_.comm, [&] {
+    try {
+      const Hdf5Reader file(layout_.continued);
+      bool same = file.number("/", "time_step") == layout_.time_step &&
+                  file.number("/", "first_step") == static_cast<double>(layout_.steps.first) &&
+                  file.number("/", "stride") == static_cast<double>(layout_.steps.stride) &&
+                  frames_ <= layout_.steps.count;
+      for (const StructureFields& fields : structures_) {
+        for (const Quantity& quantity : fields.quantities) {
+          if (frames_ == 0 || !same) continue;
+          const std::string last = path_of(fields, quantity, frames_ - 1);
+          same = file.extent(last) == fields.shape_of(quantity);
+        }
+      }
+      if (!same) {
+        throw std::runtime_error(layout_.continued +
+                                 ": written by another run than the checkpoint");
+      }
+      if (!(file.rows("frames", 0, 1)[0] >= static_cast<double>(frames_))) {
+        throw std::runtime_error(layout_.continued + ": fewer frames are whole than the " +
+                                 std::to_string(frames_) + " of the checkpoint");
+      }
+    } catch (const std::runtime_error& error) {
+      throw UserError(saved.source() + ": the fields beside it cannot be continued, " +
+                      error.what());
+    }
+  });
+}
+
+void FieldWriter::start(const CdLagrange& /*stepper*/, const SavedState* continued) {
+  if (continued == nullptr) return;
+  const std::string path = layout_.folder + "/fields.h5";
+  create(path + ".new");
+  on_rank0(layout_.comm, [&] {
+    copy_frames(path + ".new");
+    std::error_code failure;
+    std::filesystem::rename(path + ".new", path, failure);
+    if (failure) throw UserError(path + ": could not be written (" + failure.message() + ")");
+    for (std::int64_t frame = 0; layout_.xdmf && frame < frames_; ++frame) {
+      text_ += frame_text(frame);
+    }
+    // A list that this run does not keep would be that of the run before.
+    if (!layout_.xdmf) std::filesystem::remove(layout_.folder + "/fields.xdmf", failure);
+    if (!layout_.vtkhdf) std::filesystem::remove(layout_.folder + "/fields.vtkhdf", failure);
+  });
+  open();
+  flush();
+}
+
+void FieldWriter::copy_frames(const std::string& to) const try {
+  const Hdf5Reader old(layout_.continued);
+  const PlacedFile from(layout_.continued, PlacedFile::Access::read);
+  const PlacedFile into(to, PlacedFile::Access::write);
+  for (const StructureFields& fields : structures_) {
+    for (const Quantity& quantity : fields.quantities) {
+      for (std::int64_t frame = 0; frame < frames_; ++frame) {
+        copy_numbers(
+            from, old.place(path_of(fields, quantity, frame)), into,
+            quantity.places[static_cast<std::size_t>(frame)],
+            static_cast<std::int64_t>(quantity.of_cells ? fields.cells : 3 * fields.nodes));
+      }
+    }
+  }
+  const double frames = static_cast<double>(frames_);
+  into.write(frames_place_, {&frames, 1});
+} catch (const UserError&) {
+  throw;
+} catch (const std::runtime_error& error) {
+  throw UserError(std::string("the fields cannot be continued, ") + error.what());
+}
+
+}  // namespace pounding

@@ -1,0 +1,325 @@
+#include "observers/forces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "common/error.h"
+#include "common/facts.h"
+#include "common/parallel.h"
+#include "common/saved_state.h"
+#include "elements/force_rows.h"
+#include "io/csv_file.h"
+#include "observers/run_statistics.h"
+#include "system/element_forces.h"
+#include "system/links.h"
+
+namespace pounding {
+namespace {
+
+constexpr std::array<const char*, 6> total_names{"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
+
+bool has_history(const ForceItem& force) {
+  return !force.of_elements() || !force.points.empty();
+}
+
+/// Refuses a total of a reduced structure whose links are beside modes that hold them at their
+/// stiffest.
+void refuse_relieved(const ForceItem& force, const LinearSystem& system) {
+  if (!system.generalised || !system.links || !system.links->hold_stiffness()) return;
+  throw UserError("option -" + force.name + "_kind: structure " + force.structure +
+                  " is reduced and has elements that yield or act in one direction only; give -" +
+                  force.structure + "_model full, or -loops for these elements");
+}
+
+/// Refuses a total of a reduced structure made of matrices: it would be that of the elements.
+void refuse_beside_matrices(const ForceItem& force, const Structure& structure,
+                            const LinearSystem& system) {
+  if (!system.generalised || structure.matrices.empty()) return;
+  throw UserError("option -" + force.name + "_kind: structure " + force.structure +
+                  " is reduced and made of -" + force.structure +
+                  "_matrices, and forces of modes come from elements; give -" + force.structure +
+                  "_model full");
+}
+
+std::vector<std::string> components_of(const ForceItem& force, const Structure& structure) {
+  if (!force.of_elements()) return {total_names.begin(), total_names.end()};
+  const auto region = std::ranges::find(structure.regions, force.group, &Region::group);
+  const auto names = element_force_names(region->element);
+  return {names.begin(), names.end()};
+}
+
+/// Unit of a component: of shells forces and moments are per length.
+const char* unit_of(const std::string& component) {
+  const bool moment = component[0] == 'M' || component[0] == 'T';
+  const bool of_shells = std::ranges::find(shell_force_names, component) != shell_force_names.end();
+  if (of_shells) return moment ? "N" : "N/m";
+  return moment ? "N m" : "N";
+}
+
+/// `forces.csv`: the peak of every component of every element, of `digits` significant digits.
+/// Throws UserError if it cannot be written.
+void write_forces(const std::string& path, std::span<const ForceReport> reports, int digits) {
+  CsvFile file(path, digits);
+  file.header("item,component,unit,element,peak,time");
+  for (const ForceReport& report : reports) {
+    for (std::size_t e = 0; e < report.elements.size(); ++e) {
+      for (std::size_t c = 0; c < report.components.size(); ++c) {
+        const ForcePeak& peak = report.peaks[e * report.components.size() + c];
+        const std::string& element = report.elements[e];
+        const std::string& component = report.components[c];
+        file.row(report.name + "," + component + "," + unit_of(component),
+                 {element.empty() ? 0.0 : std::stod(element), peak.value, peak.time});
+      }
+    }
+  }
+  file.close();
+}
+
+/// The numbers of a peak in a saved state.
+constexpr auto peak_members = [](auto& peak, const auto& take) { take(peak.value, peak.time); };
+
+class Forces final : public Observer {
+ public:
+  explicit Forces(const ObservedRun& run);
+
+  std::int64_t next_due(std::int64_t step) const override { return run_.next_record_step(step); }
+  StepNeeds begin(const CdLagrange& stepper) override;
+  void observe(const CdLagrange& stepper) override;
+  void save(SavedState& saved) override;
+  void load(const SavedState& saved) override;
+  void report(RunStatistics& statistics) override;
+  std::optional<RecordColumns> columns() const override;
+
+ private:
+  struct Total {
+    std::size_t structure = 0;
+    std::size_t first = 0;
+    std::unique_ptr<TotalForce> force;
+  };
+  /// Elements of a structure whose forces are asked for.
+  struct Elements {
+    std::size_t structure = 0;
+    std::unique_ptr<ElementForces> forces;
+  };
+  void lay_out();
+
+  ObservedRun run_;
+  double peaks_start_;
+  std::vector<ForceReport> items_;
+  std::vector<std::size_t> first_;     ///< per item, of its columns
+  std::vector<std::string> recorded_;  ///< columns with a history, which are the first
+  std::string unit_ = "N, N m";
+  std::vector<Total> totals_;
+  std::vector<Elements> elements_;
+  std::vector<double> part_;     ///< of this rank, per column
+  std::vector<double> columns_;  ///< sums, rank 0
+  std::vector<ForcePeak> peaks_;
+};
+
+}  // namespace
+
+Forces::Forces(const ObservedRun& run) : run_(run), peaks_start_(run.scene.spectra.start) {
+  const Scene& scene = run.scene;
+  const Model& model = run.model;
+  lay_out();
+  for (std::size_t s = 0; s < model.systems.size(); ++s) {
+    std::vector<ElementForces::Row> rows;
+    on_every_rank(run.comm, [&] {
+      for (std::size_t i = 0; i < items_.size(); ++i) {
+        if (model.forces[i].structure != static_cast<int>(s)) continue;
+        const ForceItem& force = scene.forces[i];
+        const std::size_t first = first_[i];
+        const auto add = [&rows](std::vector<ElementForces::Row> more) {
+          std::ranges::move(more, std::back_inserter(rows));
+        };
+        if (force.of_elements()) {
+          add(member_rows(scene.structures[s], model.meshes[s], model.forces[i], first));
+          continue;
+        }
+        const bool cut = force.kind == ForceKind::cut;
+        if (!cut) {
+          refuse_relieved(force, model.systems[s]);
+          refuse_beside_matrices(force, scene.structures[s], model.systems[s]);
+        }
+        if (cut || model.systems[s].generalised) {
+          add(total_rows(scene.structures[s], model.meshes[s], force, model.forces[i], first));
+        }
+        if (cut) continue;
+        totals_.push_back(
+            {s, first, std::make_unique<TotalForce>(force, model.systems[s], model.meshes[s])});
+      }
+    });
+    if (rows.empty()) continue;
+    elements_.push_back(
+        {s, std::make_unique<ElementForces>(model.systems[s], model.meshes[s], rows)});
+  }
+  for (const Total& total : totals_) {
+    run.solver.stepper().watch_forces(total.structure, total.force->dofs());
+  }
+}
+
+void Forces::lay_out() {
+  const Scene& scene = run_.scene;
+  const Model& model = run_.model;
+  for (std::size_t i = 0; i < scene.forces.size(); ++i) {
+    const ForceItem& force = scene.forces[i];
+    ForceReport& item = items_.emplace_back();
+    item.name = force.name;
+    item.components =
+        components_of(force, scene.structures[static_cast<std::size_t>(model.forces[i].structure)]);
+    if (!force.of_elements()) {
+      item.elements = {""};
+      item.about = force.point();
+      continue;
+    }
+    for (const std::int64_t element : model.forces[i].elements) {
+      item.elements.push_back(std::to_string(element));
+    }
+  }
+  first_.resize(items_.size());
+  std::size_t next = 0;
+  for (const bool recorded : {true, false}) {
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+      if (has_history(scene.forces[i]) != recorded) continue;
+      if (recorded && scene.forces[i].kind == ForceKind::shells) {
+        unit_ = "N, N m; of shells N/m, N m/m";
+      }
+      first_[i] = next;
+      next += items_[i].elements.size() * items_[i].components.size();
+      for (std::size_t e = 0; recorded && e < items_[i].elements.size(); ++e) {
+        const std::string& element = items_[i].elements[e];
+        for (const std::string& component : items_[i].components) {
+          recorded_.push_back(items_[i].name + (element.empty() ? "" : "." + element) + "." +
+                              component);
+        }
+      }
+    }
+  }
+  part_.assign(next, 0.0);
+  columns_.assign(next, 0.0);
+  peaks_.assign(next, {});
+}
+
+StepNeeds Forces::begin(const CdLagrange& stepper) {
+  const State& state = stepper.state();
+  std::ranges::fill(part_, 0.0);
+  for (Elements& of : elements_) {
+    of.forces->add(state.structures[of.structure].displacement, state.supports.displacement, part_);
+  }
+  return {.forces = true};
+}
+
+void Forces::observe(const CdLagrange& stepper) {
+  for (const Total& total : totals_) {
+    Wrench sum{};
+    total.force->add(stepper.state().structures[total.structure], stepper.forces(total.structure),
+                     run_.solver.links(total.structure), sum);
+    for (std::size_t k = 0; k < sum.size(); ++k) part_[total.first + k] += sum[k];
+  }
+  MPI_Reduce(part_.data(), columns_.data(), static_cast<int>(part_.size()), MPI_DOUBLE, MPI_SUM, 0,
+             run_.comm);
+  if (rank_of(run_.comm) != 0 || stepper.time() < peaks_start_) return;
+  for (std::size_t c = 0; c < peaks_.size(); ++c) {
+    const ForcePeak now{columns_[c], stepper.time()};
+    if (std::abs(now.value) > std::abs(peaks_[c].value)) peaks_[c] = now;
+  }
+}
+
+std::optional<RecordColumns> Forces::columns() const {
+  if (recorded_.empty()) return std::nullopt;
+  RecordColumns columns{"forces", recorded_, {{"force", unit_}}, {}, {}};
+  if (rank_of(run_.comm) == 0) columns.take_all({columns_.data(), recorded_.size()});
+  return columns;
+}
+
+void Forces::save(SavedState& saved) {
+  if (rank_of(run_.comm) != 0) return;
+  saved.put("force_peaks", to_rows(peaks_, peak_members), 2);
+  saved.put("force_peaks_start", {peaks_start_});
+}
+
+void Forces::load(const SavedState& saved) {
+  const double time = run_.solver.stepper().time();
+  std::vector<double> table(2 * peaks_.size());
+  saved.get("force_peaks", table);
+  std::array<double, 1> start{};
+  saved.get("force_peaks_start", start);
+  if (start[0] != peaks_start_) {
+    if (time >= peaks_start_) {
+      throw UserError(
+          sentence("option -spectra_start {:.12g} s: the peaks of forces were counted from {:.12g} "
+                   "s on until the checkpoint at {:.12g} s; give -spectra_start {:.12g}, one after "
+                   "the checkpoint, or start anew",
+                   {peaks_start_, start[0], time, start[0]}));
+    }
+    std::ranges::fill(table, 0.0);  // summed up from zero
+  }
+  from_rows(table, peaks_, peak_members);
+}
+
+void Forces::report(RunStatistics& statistics) {
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    const auto first = peaks_.begin() + static_cast<std::ptrdiff_t>(first_[i]);
+    const std::size_t columns = items_[i].elements.size() * items_[i].components.size();
+    items_[i].peaks.assign(first, first + static_cast<std::ptrdiff_t>(columns));
+  }
+  statistics.forces = items_;
+  if (!statistics.complete) return;
+  on_rank0(run_.comm, [&] {
+    write_forces(run_.scene.output + "/forces.csv", statistics.forces, run_.scene.csv_digits);
+  });
+}
+
+std::unique_ptr<Observer> make_forces(const ObservedRun& run) {
+  return std::make_unique<Forces>(run);
+}
+
+TotalForce::TotalForce(const ForceItem& item, const LinearSystem& system, const Mesh& mesh)
+    : point_(item.point()) {
+  std::vector<Counted> of_dof(mesh.owned_dofs, {-1, 0, {}});
+  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
+    const Vector3 x = mesh.position(node);
+    for (int c = 0; c < 6; ++c) {
+      if (!counts(item, mesh.free_components[node], x, c)) continue;
+      const LocalIndex dof = mesh.dof(node, c);
+      of_dof[dof] = {dof, c, x};
+    }
+  }
+  for (const Counted& counted : of_dof) {
+    if (counted.dof >= 0 && !system.generalised) counted_.push_back(counted);
+  }
+  for (std::size_t b = 0; system.links && b < system.links->links().size(); ++b) {
+    const Link& link = system.links->links()[b];
+    Wrench& unit = links_.emplace_back();
+    for (std::size_t i = 0; i < link.place.size(); ++i) {
+      if (link.place[i] < 0) continue;
+      const Counted& counted =
+          of_dof[system.links->dofs()[static_cast<std::size_t>(link.place[i])]];
+      if (counted.dof >= 0) add_force(counted, link.weight[i], unit);
+    }
+  }
+}
+
+std::vector<LocalIndex> TotalForce::dofs() const {
+  std::vector<LocalIndex> dofs;
+  for (const Counted& counted : counted_) dofs.push_back(counted.dof);
+  return dofs;
+}
+
+void TotalForce::add(const StructureState& state, const KeptForces& forces,
+                     const interactions::StructureLinks* links, Wrench& total) const {
+  for (const Counted& counted : counted_) {
+    double force = forces.at(counted.dof).acting;
+    if (!state.extra_force.empty()) force += state.extra_force[counted.dof];
+    if (!state.inelastic_force.empty()) force += state.inelastic_force[counted.dof];
+    add_force(counted, -force, total);
+  }
+  for (std::size_t b = 0; links != nullptr && b < links_.size(); ++b) {
+    const double force = links->force(b);
+    for (std::size_t k = 0; k < total.size(); ++k) total[k] -= force * links_[b][k];
+  }
+}
+
+}  // namespace pounding

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dynamics/kept_forces.h"
+#include "dynamics/state.h"
+#include "interactions/structure_links.h"
+#include "mesh/force_places.h"
+#include "mesh/mesh.h"
+#include "observers/field_plan.h"
+#include "observers/run_statistics.h"
+#include "system/element_forces.h"
+#include "system/linear_system.h"
+
+namespace pounding {
+
+/// Forces that the scene wants recorded: totals and those of elements, at the instants of the
+/// samples, for the history; their peaks in `forces.csv`. Names of columns: "base.Fx",
+/// "columns.17.My1". Each rank adds up its part, rank 0 gets the sums, so that a sample has one
+/// message more. Peaks count samples from `spectra_start` on; a continued run may count them from
+/// another time on where none that counted before it belongs to them. Throws UserError for groups
+/// without such forces. Collective.
+std::unique_ptr<Observer> make_forces(const ObservedRun& run);
+
+/// The force of the ground on a structure, or the force upwards through a level of it: minus the
+/// sum of all internal forces on the dofs above, those of springs, dashpots and links to the ground
+/// included. Elements between counted dofs push as much as they pull, so that only those count that
+/// end below the level, at clamps or in the ground. With the forces of the step to t_n,
+///
+///     R = - sum_i r_i ( K (u_n + beta v-) + D v- + b N )_i
+///
+/// r_i the force and the moment that a unit force on dof i has, or the force that uniform damping
+/// filters in place of the first term. Exact in the scheme: R is the change of momentum of the part
+/// above, less that by gravity, contacts and mass damping.
+class TotalForce {
+ public:
+  /// Finds its terms at full order; of a structure in generalised coordinates only those of links.
+  /// References must outlive this object. Local.
+  TotalForce(const ForceItem& item, const LinearSystem& system, const Mesh& mesh);
+
+  /// The owned dofs whose forces `add` asks for.
+  std::vector<LocalIndex> dofs() const;
+  /// Adds this rank's part of R after the step to t_n; `forces`: those of the step; `links` may be
+  /// null.
+  void add(const StructureState& state, const KeptForces& forces,
+           const interactions::StructureLinks* links, Wrench& total) const;
+
+ private:
+  /// A dof that is counted, and where it is.
+  struct Counted {
+    LocalIndex dof = 0;
+    int component = 0;
+    Vector3 place{};  ///< [m]
+  };
+  void add_force(const Counted& counted, double force, Wrench& total) const {
+    add_unit_force(point_, counted.place, counted.component, force, total);
+  }
+
+  Vector3 point_;
+  std::vector<Counted> counted_;  ///< empty in generalised coordinates
+  std::vector<Wrench> links_;     ///< per link of this rank, of a unit force of it
+};
+
+}  // namespace pounding

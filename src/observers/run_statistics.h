@@ -1,0 +1,194 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <mpi.h>
+
+#include "common/matrix3.h"
+#include "common/profile.h"
+#include "dynamics/energy_balance.h"
+#include "interactions/filler_rows.h"
+#include "interactions/interaction.h"
+#include "motion/spectrum_shape.h"
+#include "observers/floor_spectra.h"
+#include "observers/impact_catalogue.h"
+#include "observers/recorder.h"
+
+namespace pounding {
+
+/// Time and memory of one phase over all ranks.
+struct PhaseUse {
+  double seconds = 0;       ///< wall time, largest over the ranks [s]
+  double peak = 0;          ///< resident memory, sum of the ranks' largest [bytes]
+  double largest_rank = 0;  ///< largest of one rank [bytes]
+  double held = 0;          ///< at the end of the phase, all ranks together [bytes]
+};
+
+struct PhaseReport {
+  std::vector<PhaseUse> phases;  ///< per Phase; memory of those of the start-up and of `step` only
+  double peak = 0;               ///< of the whole run, sum of the ranks' largest [bytes]
+  /// Largest memory of Gmsh's processes, which have gone when the ranks take theirs [bytes].
+  double mesher = 0;
+  std::size_t dofs = 0;  ///< free ones, for memory per dof
+};
+
+/// Time and memory that the ranks noted. Collective.
+PhaseReport report_phases(MPI_Comm comm, const Profile& profile, std::size_t dofs);
+
+/// Error of a reduced run's floor spectra beside full order, see
+/// fidelity/full_order_window.h; the same on every rank, but for the words.
+struct FidelityEstimate {
+  using Bands = std::array<double, compared_bands.size()>;
+  double start = 0;                       ///< of the window [s]
+  double end = 0;                         ///< [s]
+  std::string reason;                     ///< for the place of the window; rank 0
+  std::vector<ChannelDistance> channels;  ///< that move; rms with both parts, the largest of the
+                                          ///< window's
+  Bands rms{};                            ///< of all channels, per band: root of the sum of the
+                                          ///< squares of the two parts [-]
+  Bands window{};                         ///< of the part of the window [-]
+  Bands spread{};                         ///< and of the run's answer to a small disturbance [-]
+  double disturbance = 0;                 ///< part by which the ground's motion was changed [-]
+  double impulse = 0;                     ///< in the window, of the reduced run [N s]
+  double full_impulse = 0;                ///< and of full order [N s]
+  std::size_t full_dofs = 0;
+  double time_step = 0;      ///< of full order [s]
+  double wall_time = 0;      ///< of the estimate [s]
+  double full_run_time = 0;  ///< that the whole run would take at full order [s]
+  /// Steps to scale mass for at full order, per structure, 0 where nothing is gained [s]; empty
+  /// where stiff elements do not hold the step.
+  std::vector<double> scaled_steps;
+  double scaled_run_time = 0;  ///< that the whole run would take so [s]
+};
+
+/// How far the pairs of a contact have closed since the start of a run.
+struct JointClosing {
+  double largest = 0;  ///< of all pairs [m]
+  /// Least over the pairs of gap at the start over closing: as long as everything stays linear, so
+  /// many times all that moves them from the start (scaled_by_closing) just closes the first of
+  /// them [-]. Infinite where none closes.
+  double factor = std::numeric_limits<double>::infinity();
+};
+
+/// How far the two sides of a contact have slid along each other.
+struct Slide {
+  double distance = 0;    ///< of the pair that slid farthest beside the size of its facet [m]
+  double facet_size = 0;  ///< of that pair's facet; 0: a wall, endless [m]
+  double since = -1;      ///< when a pair was first seen beyond `limit` [s]; below 0: none was
+
+  /// Part of a facet beyond which a node may face another one, or none.
+  static constexpr double limit = 0.5;
+};
+
+/// How far nodes of a contact's primary went into its secondary, in a pass that is not taken.
+struct OtherPass {
+  double depth = 0;               ///< the largest that was seen [m]
+  double facet_size = 0;          ///< of the secondary's facet there [m]
+  std::array<double, 2> place{};  ///< of the node on the tangent axes [m]
+  double time = 0;                ///< when [s]
+
+  /// Faces slide and sway with their structures: a look this often sees it [s].
+  static constexpr double look_interval = 1e-3;
+  /// Depths that count, in metres and as a part of the facet.
+  static constexpr double deep = 1e-3;
+  static constexpr double deep_part = 0.01;
+};
+
+/// Contact ratio of a mat on compression-only springs: the stiffness of those that are pressed over
+/// that of all, 1 as long as nothing lifts off.
+struct ContactRatio {
+  double now = 1;           ///< at the last look
+  double smallest = 1;      ///< of all looks
+  double time = 0;          ///< of the smallest [s]
+  double low_duration = 0;  ///< time below 80 % [s]
+
+  /// Ratio below which the time counts.
+  static constexpr double low = 0.8;
+};
+
+/// Links of one item of the option `loops`, after the run.
+struct LoopReport {
+  std::string name;
+  std::vector<std::string> links;
+  std::vector<interactions::LinkTotals> totals;  ///< per link
+
+  /// Extremes over all links; `work` and `yielded` are sums.
+  interactions::LinkTotals whole() const;
+};
+
+/// Yielding of some elements by laws of one kind.
+struct YieldSum {
+  int elements = 0;
+  int yielded = 0;           ///< of them went beyond the first corner
+  double ductility = 0;      ///< the largest
+  std::int64_t element = 0;  ///< that had it
+  Vector3 place{};           ///< of that one [m]
+  /// Sample at which the first of them was beyond its first corner [s]; infinite: none was.
+  double first_time = std::numeric_limits<double>::infinity();
+  double lost = 0;  ///< energy of all [J]
+};
+
+/// Laws of one kind of the elements of a group that yield by a skeleton.
+struct YieldReport {
+  std::string name;  ///< structure:group:part
+  YieldSum whole{};
+  /// Per storey in which there are any, from below, by the name of the storey.
+  std::vector<std::pair<std::string, YieldSum>> storeys{};
+};
+
+/// The value of a force that was largest in magnitude, and when.
+struct ForcePeak {
+  double value = 0;  ///< [N, N m], of shells per length [N/m, N]
+  double time = 0;   ///< [s]
+};
+
+/// Peaks of an item of the option `forces`.
+struct ForceReport {
+  std::string name;
+  std::vector<std::string> components;  ///< "Fx", "N", ...
+  std::vector<std::string> elements;    ///< numbers in the file; one empty name of a total
+  std::vector<ForcePeak> peaks;         ///< shape (elements, components)
+  std::optional<Vector3> about{};       ///< of a total: point that its moments are about [m]
+
+  /// The element whose peak of a component is the largest.
+  std::size_t largest(std::size_t component) const;
+};
+
+/// Findings of a run, beside the model; complete on rank 0.
+struct RunStatistics {
+  bool complete = false;                ///< the run came to its end, no signal stopped it
+  double wall_time = 0;                 ///< of everything [s]
+  double step_time = 0;                 ///< of the time loop [s]
+  std::int64_t steps = 0;               ///< that it made: after the checkpoint if it continues one
+  EnergyLine energy;                    ///< last line
+  double energy_residual = 0;           ///< largest, relative to the largest term [-]
+  double complementarity_residual = 0;  ///< largest [-]
+  int contact_rows = 0;
+  int coupled_rows = 0;
+  int interface_ranks = 0;
+  std::int64_t interface_looks = 0;   ///< steps that looked at the gaps
+  std::vector<ImpactTotals> impacts;  ///< per contact
+  ImpactTotals all_impacts;
+  std::vector<interactions::FillerTotals> fillers;  ///< per contact; empty without fillers
+  std::vector<LoopReport> loops;                    ///< per item of the option
+  std::vector<YieldReport> yielding;                ///< per kind of law of a group; rank 0
+  std::vector<ForceReport> forces;                  ///< per item of the option; rank 0
+  std::vector<Slide> slides;                        ///< per contact
+  std::vector<OtherPass> other_passes;              ///< per contact
+  std::vector<JointClosing> closings;               ///< per contact, of the samples of the gaps
+  std::vector<ContactRatio> contact_ratios;  ///< per structure; empty where nothing may lift off
+  StatedPeaks peaks;                         ///< rank 0
+  std::vector<std::string> overpressed;      ///< structures with a pendulum whose slope was cut
+  std::vector<std::string> warnings;         ///< of the run, one line each
+  PhaseReport phases;                        ///< time and memory
+  std::optional<FidelityEstimate> fidelity;  ///< with -fidelity_window; channels on rank 0
+};
+
+}  // namespace pounding

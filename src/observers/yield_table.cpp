@@ -1,0 +1,311 @@
+#include "observers/yield_table.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <limits>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "common/parallel.h"
+#include "common/types.h"
+#include "io/csv_file.h"
+#include "model/element_middle.h"
+#include "observers/run_statistics.h"
+#include "observers/storeys.h"
+#include "system/links.h"
+
+namespace pounding {
+namespace {
+
+/// Numbers of the parts of springs, by component, and of bars, above those of sections.
+constexpr std::size_t of_springs = 100;
+constexpr std::size_t axial = 200;
+
+constexpr double never_yielded = -1;
+
+/// Numbers by which an element's law is known on every rank: structure, region, element, part.
+using LawKey = std::array<double, 4>;
+
+/// State of a law, of a link or of a part of inelastic elements, by its number among these.
+interactions::PartState law_state(const ObservedRun& run, std::size_t structure, bool is_link,
+                                  std::size_t number) {
+  if (is_link) {
+    const auto& links = *run.solver.links(structure);
+    return {.ductility = links.ductility(number), .lost = links.lost(number)};
+  }
+  const auto& elements = *run.solver.inelastic(structure);
+  return elements.state_of(elements.parts()[number]);
+}
+
+double law_ductility(const ObservedRun& run, std::size_t structure, bool is_link,
+                     std::size_t number) {
+  if (is_link) return run.solver.links(structure)->ductility(number);
+  const auto& elements = *run.solver.inelastic(structure);
+  return elements.ductility(elements.parts()[number]);
+}
+
+/// State of one law of one element at the end of a run.
+struct YieldRow {
+  std::string name;  ///< structure, group, part
+  std::size_t structure = 0;
+  std::int64_t element = 0;
+  Vector3 place{};
+  double since = never_yielded;  ///< sample at which it was first beyond its first corner [s]
+  double ductility = 0;
+  double lost = 0;
+  auto key() const { return std::tie(name, element); }
+};
+
+class YieldTable final : public Observer {
+ public:
+  explicit YieldTable(const ObservedRun& run);
+
+  std::int64_t next_due(std::int64_t step) const override { return run_.next_record_step(step); }
+  void observe(const CdLagrange& stepper) override;
+  void save(SavedState& saved) override;
+  void load(const SavedState& saved) override;
+  void report(RunStatistics& statistics) override;
+
+ private:
+  /// A law of an element of this rank.
+  struct Own {
+    LawKey key{};
+    std::size_t number = 0;  ///< among the parts of inelastic elements, or the links
+    bool is_link = false;
+    Vector3 place{};
+    double since = never_yielded;
+
+    std::size_t structure() const { return static_cast<std::size_t>(key[0]); }
+  };
+
+  interactions::PartState state_of(const Own& law) const {
+    return law_state(run_, law.structure(), law.is_link, law.number);
+  }
+  std::string part_name(std::size_t structure, std::size_t region, std::size_t part) const;
+  /// Rows of all ranks. Collective.
+  std::vector<YieldRow> rows() const;
+  /// The storey that a place is in, "roof over floor2"; empty where none is. `order`: its number.
+  std::string storey_of(const YieldRow& row, std::size_t& order) const;
+
+  ObservedRun run_;
+  std::vector<Own> own_;
+  std::vector<Storey> storeys_;
+};
+
+/// Adds a row to a sum.
+void add_row(const YieldRow& row, YieldSum& sum) {
+  ++sum.elements;
+  sum.lost += row.lost;
+  if (row.ductility > 1) ++sum.yielded;
+  if (row.since != never_yielded) sum.first_time = std::min(sum.first_time, row.since);
+  if (row.ductility > sum.ductility) {
+    sum.ductility = row.ductility;
+    sum.element = row.element;
+    sum.place = row.place;
+  }
+}
+
+/// A law of an element of this rank that may yield.
+struct FoundLaw {
+  std::size_t region = 0;
+  std::int64_t element = 0;  ///< its number in the mesh file
+  std::size_t part = 0;
+  std::size_t number = 0;  ///< among the parts of inelastic elements, or the links
+  bool is_link = false;
+  std::function<Vector3()> place;
+};
+
+/// Calls `visit` with each of a structure.
+template <typename Visit>
+void for_each_law(const ObservedRun& run, std::size_t s, Visit&& visit) {
+  const Mesh& mesh = run.model.meshes[s];
+  const auto& regions = run.scene.structures[s].regions;
+  const auto region_of = [&](const std::string& group) {
+    return static_cast<std::size_t>(std::ranges::find(regions, group, &Region::group) -
+                                    regions.begin());
+  };
+  if (const auto* const elements = run.solver.inelastic(s)) {
+    for (std::size_t k = 0; k < elements->parts().size(); ++k) {
+      const interactions::InelasticElements::Part& part = elements->parts()[k];
+      const ElementBlock& block = elements->block_of(part);
+      visit(FoundLaw{static_cast<std::size_t>(block.region), block.tags[part.element], part.number,
+                     k, false, [&] { return element_middle(mesh, block, part.element); }});
+    }
+  }
+  if (const auto* const links = run.solver.links(s)) {
+    const std::vector<Link>& all = run.model.systems[s].links->links();
+    for (std::size_t b = 0; b < all.size(); ++b) {
+      if (links->ductility(b) < 0) continue;
+      const interactions::LinkOrigin& origin = all[b].origin;
+      const std::size_t part =
+          origin.section
+              ? static_cast<std::size_t>(origin.component - interactions::first_section_component)
+          : origin.length > 0 ? axial
+                              : of_springs + static_cast<std::size_t>(origin.component);
+      const std::string& group = origin.region->group;
+      visit(FoundLaw{region_of(group), all[b].number, part, b, true,
+                     [&] { return element_middle(mesh, group, all[b].number); }});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<double> yielding_elements(const ObservedRun& run, std::size_t structure) {
+  std::map<std::pair<std::size_t, std::int64_t>, std::array<double, 3>> found;
+  for_each_law(run, structure, [&](const FoundLaw& law) {
+    const interactions::PartState state = law_state(run, structure, law.is_link, law.number);
+    if (state.ductility == 0) return;
+    auto& [ductility, damage, lost] = found[{law.region, law.element}];
+    ductility = std::max(ductility, state.ductility);
+    damage = std::max(damage, state.damage);
+    if (state.ductility > 1) lost += state.lost;  // round-off before
+  });
+  std::vector<double> rows;
+  for (const auto& [key, values] : found) {
+    rows.insert(rows.end(), {static_cast<double>(key.first), static_cast<double>(key.second)});
+    rows.insert(rows.end(), values.begin(), values.end());
+  }
+  return rows;
+}
+
+YieldTable::YieldTable(const ObservedRun& run)
+    : run_(run), storeys_(find_storeys(run.comm, run.scene, run.model)) {
+  for (std::size_t s = 0; s < run.model.systems.size(); ++s) {
+    for_each_law(run, s, [&](const FoundLaw& law) {
+      own_.push_back({{static_cast<double>(s), static_cast<double>(law.region),
+                       static_cast<double>(law.element), static_cast<double>(law.part)},
+                      law.number,
+                      law.is_link,
+                      law.place()});
+    });
+  }
+}
+
+void YieldTable::observe(const CdLagrange& stepper) {
+  for (Own& law : own_) {
+    if (law.since != never_yielded) continue;
+    if (law_ductility(run_, law.structure(), law.is_link, law.number) > 1) {
+      law.since = stepper.time();
+    }
+  }
+}
+
+void YieldTable::save(SavedState& saved) {
+  std::vector<double> rows;
+  for (const Own& law : own_) {
+    if (law.since == never_yielded) continue;
+    rows.insert(rows.end(), law.key.begin(), law.key.end());
+    rows.push_back(law.since);
+  }
+  const std::vector<double> all = gather_rows(run_.comm, rows);
+  if (rank_of(run_.comm) == 0) saved.put("yielded_since", all, std::tuple_size_v<LawKey> + 1);
+}
+
+void YieldTable::load(const SavedState& saved) {
+  constexpr std::size_t keys = std::tuple_size_v<LawKey>;
+  const std::vector<double>& rows = saved.table("yielded_since", keys + 1);
+  std::map<LawKey, double> since;
+  for (std::size_t r = 0; r < rows.size(); r += keys + 1) {
+    since[{rows[r], rows[r + 1], rows[r + 2], rows[r + 3]}] = rows[r + keys];
+  }
+  for (Own& law : own_) {
+    if (const auto found = since.find(law.key); found != since.end()) law.since = found->second;
+  }
+}
+
+std::string YieldTable::part_name(std::size_t structure, std::size_t region,
+                                  std::size_t part) const {
+  if (part == axial) return "axial";
+  if (part >= of_springs) return std::string(motion_names[part - of_springs]);
+  const auto number = static_cast<int>(region);
+  const auto& laws = run_.model.systems[structure].laws;
+  const auto law = std::ranges::find(laws, number, &interactions::RegionLaw::region);
+  if (law != laws.end()) return law->law->parts()[part];
+  return run_.scene.structures[structure].regions[region].yielding.names()[part];
+}
+
+std::vector<YieldRow> YieldTable::rows() const {
+  std::vector<double> mine;
+  for (const Own& law : own_) {
+    mine.insert(mine.end(), law.key.begin(), law.key.end());
+    mine.insert(mine.end(), law.place.begin(), law.place.end());
+    const interactions::PartState state = state_of(law);
+    mine.insert(mine.end(), {law.since, state.ductility, state.lost});
+  }
+  const std::vector<double> table = gather_rows(run_.comm, mine);
+  constexpr std::size_t width = 10;
+  std::vector<YieldRow> all;
+  for (std::size_t r = 0; r < table.size(); r += width) {
+    const double* const v = &table[r];
+    const auto s = static_cast<std::size_t>(v[0]);
+    const auto region = static_cast<std::size_t>(v[1]);
+    const std::string part = part_name(s, region, static_cast<std::size_t>(v[3]));
+    const double loss = v[8] > 1 ? v[9] : 0;  // round-off while it is elastic
+    all.push_back({run_.model.systems[s].name + ":" +
+                       run_.scene.structures[s].regions[region].group + ":" + part,
+                   s,
+                   static_cast<std::int64_t>(v[2]),
+                   {v[4], v[5], v[6]},
+                   v[7],
+                   v[8],
+                   loss});
+  }
+  std::ranges::sort(all, {}, &YieldRow::key);
+  return all;
+}
+
+std::string YieldTable::storey_of(const YieldRow& row, std::size_t& order) const {
+  for (order = 0; order < storeys_.size(); ++order) {
+    const Storey& storey = storeys_[order];
+    if (storey.structure != run_.scene.structures[row.structure].name) continue;
+    const auto probe = static_cast<std::size_t>(storey.upper_probe);
+    const double top = run_.model.probes[probe].position[2];
+    const double small = 1e-9 * storey.height;
+    if (row.place[2] > top - storey.height - small && row.place[2] < top + small) {
+      return storey.upper + " over " + storey.lower;
+    }
+  }
+  return "";
+}
+
+void YieldTable::report(RunStatistics& statistics) {
+  const std::vector<YieldRow> all = rows();
+  on_rank0(run_.comm, [&] {
+    CsvFile file(run_.scene.output + "/yielding.csv", run_.scene.csv_digits);
+    file.header("law,element,ductility,lost_J,x,y,z,first_time");
+    std::map<std::size_t, std::pair<std::string, YieldSum>> storeys;  // of the law at hand
+    const auto close = [&] {
+      for (auto& [order, storey] : storeys) {
+        statistics.yielding.back().storeys.push_back(std::move(storey));
+      }
+      storeys.clear();
+    };
+    for (const YieldRow& row : all) {
+      const bool elastic = row.since == never_yielded;
+      file.row(row.name, {static_cast<double>(row.element), row.ductility, row.lost, row.place[0],
+                          row.place[1], row.place[2],
+                          elastic ? std::numeric_limits<double>::quiet_NaN() : row.since});
+      if (statistics.yielding.empty() || statistics.yielding.back().name != row.name) {
+        close();
+        statistics.yielding.push_back({row.name});
+      }
+      add_row(row, statistics.yielding.back().whole);
+      std::size_t order = 0;
+      const std::string storey = storey_of(row, order);
+      if (storey.empty()) continue;
+      storeys[order].first = storey;
+      add_row(row, storeys[order].second);
+    }
+    close();
+    file.close();
+  });
+}
+
+std::unique_ptr<Observer> make_yield_table(const ObservedRun& run) {
+  return std::make_unique<YieldTable>(run);
+}
+
+}  // namespace pounding
