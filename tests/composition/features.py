@@ -1,0 +1,153 @@
+"""Features of the program, one declaration each: its name, its kind, and what it lays on the small scene (scene.py).
+
+`@` in an option is the structure that it is laid on. Two features that state one option of a structure are alternatives
+there, and so are two with one `slot`, or one that names a group whose element the other takes out: the second goes to the
+other structure. Where that does not help either, as two joints between the same faces, the pair is impossible. `physics` is
+False where a feature changes no motion.
+"""
+from dataclasses import dataclass
+
+from scene import FACES, axes, curve, pairs, points, quantity, vector, waves
+
+KINDS = ("interaction", "law", "element", "model", "start", "support", "damping", "load", "output")
+
+
+@dataclass
+class Feature:
+    name: str
+    kind: str
+    options: dict
+    slot: str = ""
+    physics: bool = True
+
+
+STOP = {"contacts": "joint", "joint_secondary": "a:nib", "joint_primary": "b:nib", "joint_along": vector((1, 0, 0))}
+REST = {"gravity": 9.81, "preload": "static"}
+
+
+def spring(group, stiffness, **more):
+    return {f"@_{group}_stiffness": axes(stiffness), **{f"@_{group}_{key}": value for key, value in more.items()}}
+
+
+def feet(stiffness=(4e6, 5e6, 2e7), **more):
+    return {"@_clamp": "none", "@_feet_element": "grounded_spring", **spring("feet", stiffness, **more)}
+
+
+def pads(stiffness=(4e6, 4e6, 2e7), **more):
+    return {"@_clamp": "ground", "@_pad_element": "spring", **spring("pad", stiffness, **more)}
+
+
+def brace(group="brace", **more):
+    return {f"@_{group}_element": "bar", f"@_{group}_material": "steel", f"@_{group}_area": 1e-3,
+            **{f"@_{group}_{key}": value for key, value in more.items()}}
+
+
+def wall(**more):
+    return {"@_wall_element": "shell", "@_wall_material": "concrete", "@_wall_thickness": .1,
+            **{f"@_wall_{key}": value for key, value in more.items()}}
+
+
+def slab(group, element, **more):
+    return {"@_slab_element": None, "@_slab_material": None, f"@_{group}_element": element, f"@_{group}_material": "concrete", **more}
+
+
+def load(name, **more):
+    return {"loads": f"+{name}", **{f"{name}_{key}": value for key, value in more.items()}}
+
+
+def force(kind, **more):
+    return {"forces": f"+{kind}", f"{kind}_structure": "@", f"{kind}_kind": kind, **{f"{kind}_{k}": v for k, v in more.items()}}
+
+
+EAST = waves((25, 40), (20, 45), (12, 50))
+
+FEATURES = [
+    Feature("contact", "interaction", FACES),
+    Feature("friction", "interaction", {**FACES, "joint_friction": .4}),
+    Feature("sliding", "interaction", {**FACES, "joint_sliding": .2}),
+    Feature("filler", "interaction", {**FACES, "joint_gap": .002, "joint_filler": curve((.1, 2e4, .6, 2e5)),
+                                               "joint_filler_unloading": 1e6}),
+    Feature("crushing", "interaction", {**FACES, "joint_crushing": 1e4, "joint_crushing_stiffness": 1e9,
+                                                 "joint_crushing_depth": .01}),
+    Feature("hard stop", "interaction", {**STOP, "joint_gap": (2e-5, 1e-5)}),
+    Feature("soft stop", "interaction", {**STOP, "joint_gap": (2e-5, 1e-5), "joint_stiffness": 1e6, "joint_dashpot": 1e3}),
+    Feature("rigid wall", "interaction", {**FACES, "joint_primary": "wall", "joint_gap": 1e-3}),
+    Feature("random gap", "interaction", {**FACES, "joint_gap": 1e-4, "joint_gap_deviation": 5e-5, "joint_gap_length": 1.0}),
+
+    Feature("tension-only bar", "law", brace(tension_only="true")),
+    Feature("compression-only bar", "law", brace("strut", compression_only="true", slack=2e-4)),
+    Feature("yielding bar", "law", brace(yield_force=500.0, hardening=.1)),
+    Feature("bar with a rule", "law", brace(rule="peak", skeleton=quantity(pairs((5e-5, 500.0, 1e-3, 900.0)), "-,N"))),
+    Feature("bar dashpot", "law", {"@_strut_element": "bar", "@_strut_dashpot": 2e4}),
+    Feature("power dashpot in series", "law", brace("strut", dashpot=2e4, dashpot_stiffness=1e7)),
+    Feature("beams yielding in bending", "law", {
+        "@_column_bending_skeleton_y": pairs((1e-5, 13.0, 1e-3, 200.0)), "@_column_bending_skeleton_z": pairs((1e-5, 18.0, 1e-3, 300.0))}),
+    Feature("beams yielding in shear", "law", {
+        "@_column_shear_skeleton_y": pairs((1e-6, 126.92307692307693, 1e-4, 3e3)), "@_column_shear_skeleton_z": pairs((1e-6, 115.38461538461539, 1e-4, 3e3))}),
+    Feature("shells yielding in shear", "law", wall(shear_skeleton=pairs((1e-5, 1.25e3, 1e-3, 1e4)), drilling_factor=.01)),
+    Feature("cracking shells", "law", wall(cracking_force=200.0, cracked_tension=.05)),
+    Feature("dashpots to the ground", "law", feet(dashpot=axes((2e4, 2e4, 4e4)))),
+    Feature("feet that lift off", "law", feet(compression_only="true")),
+    Feature("yielding feet", "law", feet(yield_force=axes((200.0, 200.0, 0)), hardening=.1)),
+    Feature("Zener feet", "law", feet(dashpot=axes((2e4, 2e4, 4e4)), series_stiffness=axes((2e7, 2e7, 8e7)))),
+    Feature("power dashpots", "law", feet(dashpot=quantity(axes((2e3, 2e3, 4e3)), "N s1.5/m1.5"), dashpot_exponent=1.5)),
+    Feature("lead-rubber bearings", "law", pads(yield_force=axes((200.0, 200.0, 0)), hardening=.1, yield_circle="x+y")),
+    Feature("friction pendulum", "law", {**REST, **pads(sliding_friction=.02, hardening=.1, yield_circle="x+y", pendulum_radius=1.0)}),
+
+    Feature("incompatible modes off", "element", {"@_slab_element": "hex8_full"}),
+    Feature("wedges", "element", slab("prisms", "wedge6")),
+    Feature("tetrahedra", "element", slab("tets", "tet4")),
+    Feature("shells", "element", slab("deck", "shell", **{"@_deck_thickness": .25})),
+    Feature("wall of shells", "element", wall()),
+    Feature("beams without shear", "element", {"@_column_element": "euler_beam"}),
+    Feature("columns of bars", "element", {"@_column_element": "bar", "@_column_area": .04, "@_column_section": None, **brace()}),
+    Feature("pier of bricks", "element", {"@_column_element": None, "@_column_material": None, "@_column_section": None,
+                                                    "@_pier_element": "hex8", "@_pier_material": "concrete"}),
+    Feature("bars", "element", brace()),
+    Feature("rotary inertia", "element", {"@_pump_rotary_inertia": axes((50.0, 40.0, 30.0))}),
+    Feature("springs to the ground", "element", feet()),
+    Feature("springs between nodes", "element", pads()),
+    Feature("rigid slab", "element", {"@_rigid": "upside"}),
+    Feature("diaphragm", "element", {"@_diaphragm": "upside"}),
+    Feature("tie", "element", {"@_curb_element": "shell", "@_curb_material": "concrete", "@_curb_thickness": .1,
+                                       "@_tie": "curb_foot:upside"}),
+
+    Feature("few modes", "model", {"@_model": "modal", "@_modal_vectors": 8}),
+    Feature("matrices", "model", {"@_matrices": "$@"}),
+    Feature("ensemble", "model", {"ensemble": "$members.csv", "a_model": "modal", "a_modal_vectors": 12, "b_model": "modal", "b_modal_vectors": 12}),
+    Feature("mass scaling", "model", {"@_mass_scaling": 1e-3}),
+    Feature("assembled matrix", "model", {"stiffness": "assembled"}, physics=False),
+    Feature("stiffness factor", "model", {"@_stiffness_factor": 1.3}),
+
+    Feature("initial velocity", "start", {"@_initial_velocity": vector((.3, .1, -.05))}),
+    Feature("initial displacement", "start", {"@_initial_displacement": vector((2e-4, 1e-4, 0))}),
+    Feature("rest under gravity", "start", REST),
+    Feature("gravity that sets in", "start", {"gravity": 9.81, "preload": "none"}),
+    Feature("P-Delta", "start", {**REST, "@_p_delta": "true"}),
+
+    Feature("supports", "support", {"supports": "+near,far", "near_groups": "@:west", "far_groups": "@:east", "far_motion": EAST, "@_clamp": "west,east"}, "@ground"),
+    Feature("structure on a support", "support", {"supports": "+whole", "whole_groups": "@", "whole_motion": EAST}, "@ground"),
+    Feature("rocking support", "support", {"supports": "+rocking", "rocking_groups": "@", "rocking_point": points(((1.0, .5, 0),)),
+                                              "rocking_rotation": waves((5, 30), (4, 35), (6, 45))}, "@ground"),
+    Feature("soil under a mat", "support", {"@_clamp": "none", "@_rigid": "+base", "@_soil_mat": "base", "@_soil_size": axes((3.0, 2.0)),
+                                                    "@_soil_vs": 100.0, "@_soil_density": 1800.0, "@_soil_poisson": .35}),
+    Feature("absorbing faces", "support", {"@_clamp": "none", "@_block_element": "hex8", "@_block_material": "concrete", "@_absorbing": "bottom"}),
+
+    Feature("uniform damping", "damping", {"@_damping_alpha": None, "@_damping_uniform": .05,
+                                                      "@_damping_reference": 10.0}),
+    Feature("stiffness damping", "damping", {"@_damping_beta": 2e-5}),
+    Feature("no damping", "damping", {"@_damping_alpha": None}),
+    Feature("damping of a region", "damping", {"@_slab_damping_beta": 1e-5, "@_slab_damping_alpha": 2.0}),
+
+    Feature("constant force", "load", load("weight", on="@:pump", force=vector((4e3, 2e3, -3e3)))),
+    Feature("harmonic moment", "load", load("engine", on="@:column", moment=vector((4e2, 2e2, 3e2)), function="harmonic", frequency=30.0)),
+    Feature("line force", "load", load("wind", on="@:column", line_force=vector((4e2, 2e2, 3e2)), function="ramp", rise=.01)),
+    Feature("pressure", "load", load("blast", on="@:upside", pressure=2e3, values="0,1; 0.01,3; 0.02,0")),
+
+    Feature("reactions", "output", force("reactions"), physics=False),
+    Feature("storey force", "output", force("storey", level=1.7), physics=False),
+    Feature("member forces", "output", force("members", group="column"), physics=False),
+    Feature("cut", "output", force("cut", group="slab", level=.9, normal=vector((1, 0, 0))), physics=False),
+    Feature("fields", "output", {"fields_interval": 4e-3}, physics=False),
+    Feature("exported matrices", "output", {"export_matrices": "$export"}, physics=False),
+]
