@@ -157,6 +157,7 @@ struct NonlinearSpring {
   /// The option by which its force is no longer that of its stiffness; null: it is.
   const char* option() const {
     if (friction > 0) return "<structure>_<group>_sliding_friction";
+    if (has_skeleton()) return "<structure>_<group>_skeleton";
     return yields() ? "<structure>_<group>_yield_force" : nullptr;
   }
   bool has_skeleton() const { return !law.positive.breaks.empty(); }

@@ -245,6 +245,13 @@ class Refusals(unittest.TestCase):
             program.must_refuse(self, mass(1e-4, 0.01, *spring("2e5,0,0", **options)), said, ranks=1)
         program.must_refuse(self, mass(1e-4, 0.01, *spring("2e5,2e5,0", skeleton="0.005,1000")), "one axis only")
 
+    def test_not_in_modes_with_uniform_damping(self):
+        """A skeleton is refused as a yield force is: those modes would damp what yields."""
+        for option, value in (("skeleton", "0.005,1000,0.01,1500"), ("yield_force", "1000,0,0")):
+            words = mass(1e-4, 0.01, *spring("2e5,0,0", **{option: value}), "-chain_model", "modal", "-chain_modal_vectors", 2,
+                         "-chain_damping_uniform", 0.05)
+            program.must_refuse(self, words, f"-chain_support_{option}", "-chain_damping_uniform", "damp slack and yielding elements")
+
     def test_rest_on_what_carries_nothing(self):
         words = mass(1e-4, 0.01, *spring("0,0,2e5", skeleton="0.005,1000", rule="peak", skeleton_back=0), "-gravity",
                      9.81, "-preload", "static", "-chain_clamp", "second,first:x+y")
