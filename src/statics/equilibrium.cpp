@@ -118,19 +118,14 @@ class Search {
   void refuse_sliders() const {
     on_every_rank(comm_, [&] {
       for (std::size_t s = 0; s < systems_.size(); ++s) {
-        for (const LinkTerms& link : link_terms(systems_[s])) {
-          const interactions::LinkOrigin& origin = link.link->origin;
-          if (link.one_way || !slides(origin)) continue;
-          const double limit = origin.region->nonlinear.yield_force[origin.component];
-          const double force = std::abs(link.stiffness * link.elongation(displacement_[s]));
-          if (!(limit > 0) || force <= limit) continue;
-          std::ostringstream text;
-          text << "option -preload static: element " << link.link->number << " of group '"
-               << origin.region->group << "' of structure " << systems_[s].name << " holds "
-               << force << " N at rest, more than its yield force of " << limit
-               << " N; give a larger one, or leave -preload out";
-          throw UserError(text.str());
-        }
+        const std::optional<RestLinks::Slid> slid = links_[s].slid(displacement_[s]);
+        if (!slid) continue;
+        std::ostringstream text;
+        text << "option -preload static: element " << slid->link->number << " of group '"
+             << slid->link->origin.region->group << "' of structure " << systems_[s].name
+             << " holds " << slid->force << " N at rest, more than its yield force of "
+             << slid->limit << " N; give a larger one, or leave -preload out";
+        throw UserError(text.str());
       }
     });
   }

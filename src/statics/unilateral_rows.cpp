@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "common/parallel.h"
@@ -109,14 +110,14 @@ bool slides(const interactions::LinkOrigin& origin) {
   return law.friction > 0 || law.is_in_circle(static_cast<std::size_t>(origin.component));
 }
 
-std::vector<LinkTerms> link_terms(const LinearSystem& system) {
+std::vector<LinkTerms> link_terms(const LinearSystem& system, bool all) {
   std::vector<LinkTerms> bars;
   if (!system.links) return bars;
   std::vector<double> field(system.lumped_mass.size(), 0.0);
   const Trace& trace = system.links->trace();
   for (const Link& link : system.links->links()) {
     const double stiffness = law_at_rest(link)->tangent();
-    if (!(stiffness > 0)) continue;
+    if (!all && !(stiffness > 0)) continue;
     LinkTerms& bar = bars.emplace_back(LinkTerms{&link, stiffness, is_one_way_link(link)});
     for (std::size_t i = 0; i < link.place.size(); ++i) {
       if (link.place[i] >= 0) {
@@ -133,24 +134,35 @@ std::vector<LinkTerms> link_terms(const LinearSystem& system) {
   return bars;
 }
 
-RestLinks::RestLinks(const LinearSystem& system) {
-  for (LinkTerms& link : link_terms(system)) {
-    auto law = law_at_rest(*link.link);
-    if (link.one_way || !law->loses_plastic_work() || slides(link.link->origin)) continue;
-    terms_.push_back(std::move(link));
-    laws_.push_back(std::move(law));
+RestLinks::RestLinks(const LinearSystem& system) : terms_(link_terms(system, true)) {
+  for (const LinkTerms& link : terms_) laws_.push_back(law_at_rest(*link.link));
+  if (system.links) groups_.emplace(system.links->links());
+}
+
+RestLinks::Rest RestLinks::rest_at(const std::vector<double>& displacement) const {
+  Rest rest{{}, interactions::LawMemory(laws_)};
+  for (const LinkTerms& link : terms_) rest.now.push_back(link.elongation(displacement));
+  if (groups_) groups_->yield(laws_, rest.now, rest.memory);
+  for (std::size_t b = 0; b < terms_.size(); ++b) {
+    if (slides(terms_[b].link->origin)) continue;
+    std::ranges::fill(rest.memory[b], 0.0);
+    laws_[b]->rest(rest.now[b], rest.memory[b]);
   }
+  return rest;
 }
 
 bool RestLinks::add_forces(const std::vector<double>& displacement, std::span<double> force) const {
   bool any = false;
+  const Rest rest = rest_at(displacement);
   for (std::size_t b = 0; b < terms_.size(); ++b) {
     const LinkTerms& link = terms_[b];
-    const double elongation = link.elongation(displacement);
-    std::vector<double> memory(laws_[b]->memory_size(), 0.0);
-    laws_[b]->rest(elongation, memory);
-    const double straight = link.stiffness * elongation;
-    const double more = laws_[b]->force(elongation, elongation, elongation, memory) - straight;
+    const bool slider = slides(link.link->origin);
+    if (link.one_way || !(link.stiffness > 0) || !(laws_[b]->loses_plastic_work() || slider)) {
+      continue;
+    }
+    const double now = rest.now[b];
+    const double straight = link.stiffness * now;
+    const double more = laws_[b]->force(now, now, now, rest.memory[b]) - straight;
     if (!(std::abs(more) > on_its_line * std::abs(straight))) continue;
     any = true;
     for (std::size_t k = 0; k < link.dofs.size(); ++k) {
@@ -158,6 +170,24 @@ bool RestLinks::add_forces(const std::vector<double>& displacement, std::span<do
     }
   }
   return any;
+}
+
+std::optional<RestLinks::Slid> RestLinks::slid(const std::vector<double>& displacement) const {
+  Rest rest = rest_at(displacement);
+  std::map<std::int64_t, Slid> slid;  // by element, squares
+  for (std::size_t b = 0; b < terms_.size(); ++b) {
+    if (!slides(terms_[b].link->origin) || !(terms_[b].stiffness > 0)) continue;
+    const double now = rest.now[b];
+    Slid& of = slid[terms_[b].link->number];
+    of.force += std::pow(terms_[b].stiffness * now, 2);
+    of.limit += std::pow(laws_[b]->force(now, now, now, rest.memory[b]), 2);
+    laws_[b]->remember(now, now, now, 1, rest.memory[b]);
+    if (laws_[b]->has_yielded(rest.memory[b])) of.link = terms_[b].link;
+  }
+  for (const auto& [number, of] : slid) {
+    if (of.link != nullptr) return Slid{of.link, std::sqrt(of.force), std::sqrt(of.limit)};
+  }
+  return std::nullopt;
 }
 
 }  // namespace pounding

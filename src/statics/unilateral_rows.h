@@ -1,13 +1,16 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include <mpi.h>
 
 #include "interactions/interface_rows.h"
+#include "interactions/structure_links.h"
 #include "laws/link_law.h"
+#include "solvers/law_solver.h"
 #include "system/linear_system.h"
 #include "system/links.h"
 
@@ -78,8 +81,8 @@ struct LinkTerms {
 };
 
 /// Tension-only bars, compression-only springs and yielding elements of this rank: links that hold
-/// a force at rest, which dashpots do not. They borrow the system's links. Local.
-std::vector<LinkTerms> link_terms(const LinearSystem& system);
+/// a force at rest, which dashpots do not; or `all`. They borrow the system's links. Local.
+std::vector<LinkTerms> link_terms(const LinearSystem& system, bool all = false);
 
 /// Law of a link, whether or not K holds its tangent already.
 std::unique_ptr<interactions::LinkLaw> law_at_rest(const Link& link);
@@ -87,19 +90,36 @@ std::unique_ptr<interactions::LinkLaw> law_at_rest(const Link& link);
 /// Whether a link yields by friction or on a circle, with others.
 bool slides(const interactions::LinkOrigin& origin);
 
-/// Springs, bars and sections of this rank that yield by a law of their own, at rest: their history
-/// goes from nothing to the rest at once. It borrows the system's links. Local.
+/// Springs, bars and sections of this rank that yield, at rest: their history goes from nothing to
+/// the rest at once. It borrows the system's links. Local.
 class RestLinks {
  public:
   explicit RestLinks(const LinearSystem& system);
 
   /// Adds their forces at displacements of the owned dofs [m, rad], less those of their first
-  /// slopes, to `force` [N, N m]; returns whether any is beyond its first corner.
+  /// slopes, to `force` [N, N m]; returns whether any differs from that.
   bool add_forces(const std::vector<double>& displacement, std::span<double> force) const;
 
+  /// A spring that yields on a circle or slides, beyond what it bears at a rest.
+  struct Slid {
+    const Link* link = nullptr;
+    double force = 0;  ///< that its stiffness gives [N]
+    double limit = 0;  ///< that its law gives [N]
+  };
+  /// The first of them at displacements of the owned dofs.
+  std::optional<Slid> slid(const std::vector<double>& displacement) const;
+
  private:
-  std::vector<LinkTerms> terms_;
+  /// Elongations of all links, and their memories once the law of a step from there has yielded.
+  struct Rest {
+    std::vector<double> now;
+    interactions::LawMemory memory;
+  };
+  Rest rest_at(const std::vector<double>& displacement) const;
+
+  std::vector<LinkTerms> terms_;                              ///< of all links
   std::vector<std::unique_ptr<interactions::LinkLaw>> laws_;  ///< per term
+  std::optional<interactions::YieldGroups> groups_;
 };
 
 }  // namespace pounding

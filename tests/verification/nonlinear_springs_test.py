@@ -140,6 +140,16 @@ class SlidingBearing(unittest.TestCase):
             self.assertAlmostEqual(along.max() / top, 1, delta=1e-6)
             self.assertLess(abs(run.displacement("one.z") - run.displacement("one.z")[0]).max(), 1e-12)
 
+    def test_rest_beyond_what_it_bears(self):
+        """A push of 0.1 of the weight on bearings of 0.08, and one on a circle whose parts are below its yield force."""
+        for law, push in (({"sliding_friction": self.FRICTION}, "0.98,0,-9.81"),
+                          ({"sliding_friction": self.FRICTION, "pendulum_radius": 2}, "0.98,0,-9.81"), ({"yield_force": "40,40,0"}, "0.6,0.6,-9.81")):
+            words = [*spring(f"{self.BEFORE},{self.BEFORE},1e6", yield_circle="x+y", hardening=0.1, **law), "-preload", "static",
+                     "-chain_clamp", "second", "-chain_gravity"]
+            program.must_refuse(self, mass(1e-5, 0.01, *words, push), "-preload static", "group 'support'", "more than its yield force")
+            run = Recorded(self, mass(1e-5, 0.01, *words, "0.5,0,-9.81"))
+            self.assertLess(abs(run.displacement("one.x") - run.displacement("one.x")[0]).max(), 1e-12)
+
     def test_lifted_off_it_does_not_hold(self):
         """Thrown up from a spring that presses only, the mass keeps its speed across."""
         run = Recorded(self, mass(1e-5, 0.3, "-chain_initial_velocity", "1.5,0,2",
