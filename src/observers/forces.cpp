@@ -97,6 +97,7 @@ class Forces final : public Observer {
     std::size_t structure = 0;
     std::size_t first = 0;
     std::unique_ptr<TotalForce> force;
+    std::unique_ptr<ElementForces> elements;  ///< in generalised coordinates
   };
   /// Elements of a structure whose forces are asked for.
   struct Elements {
@@ -104,6 +105,9 @@ class Forces final : public Observer {
     std::unique_ptr<ElementForces> forces;
   };
   void lay_out();
+  /// Displacements of generalised coordinates at which K u is the force of the last step, damping
+  /// included; of one without stiffness its own.
+  std::span<const double> acting_displacement(std::size_t structure);
 
   ObservedRun run_;
   double peaks_start_;
@@ -113,6 +117,8 @@ class Forces final : public Observer {
   std::string unit_ = "N, N m";
   std::vector<Total> totals_;
   std::vector<Elements> elements_;
+  std::vector<double> supports_;  ///< displacements at the time of the sample
+  std::vector<double> acting_;
   std::vector<double> part_;     ///< of this rank, per column
   std::vector<double> columns_;  ///< sums, rank 0
   std::vector<ForcePeak> peaks_;
@@ -143,12 +149,20 @@ Forces::Forces(const ObservedRun& run) : run_(run), peaks_start_(run.scene.spect
           refuse_relieved(force, model.systems[s]);
           refuse_beside_matrices(force, scene.structures[s], model.systems[s]);
         }
+        std::vector<ElementForces::Row> passing;
         if (cut || model.systems[s].generalised) {
-          add(total_rows(scene.structures[s], model.meshes[s], force, model.forces[i], first));
+          passing = total_rows(scene.structures[s], model.meshes[s], force, model.forces[i], first);
         }
-        if (cut) continue;
+        if (cut) {
+          add(std::move(passing));
+          continue;
+        }
         totals_.push_back(
-            {s, first, std::make_unique<TotalForce>(force, model.systems[s], model.meshes[s])});
+            {s, first, std::make_unique<TotalForce>(force, model.systems[s], model.meshes[s]), {}});
+        if (model.systems[s].generalised) {
+          totals_.back().elements =
+              std::make_unique<ElementForces>(model.systems[s], model.meshes[s], passing);
+        }
       }
     });
     if (rows.empty()) continue;
@@ -204,6 +218,7 @@ void Forces::lay_out() {
 
 StepNeeds Forces::begin(const CdLagrange& stepper) {
   const State& state = stepper.state();
+  supports_ = state.supports.displacement;
   std::ranges::fill(part_, 0.0);
   for (Elements& of : elements_) {
     of.forces->add(state.structures[of.structure].displacement, state.supports.displacement, part_);
@@ -217,6 +232,9 @@ void Forces::observe(const CdLagrange& stepper) {
     total.force->add(stepper.state().structures[total.structure], stepper.forces(total.structure),
                      run_.solver.links(total.structure), sum);
     for (std::size_t k = 0; k < sum.size(); ++k) part_[total.first + k] += sum[k];
+    if (total.elements) {
+      total.elements->add(acting_displacement(total.structure), supports_, part_);
+    }
   }
   MPI_Reduce(part_.data(), columns_.data(), static_cast<int>(part_.size()), MPI_DOUBLE, MPI_SUM, 0,
              run_.comm);
@@ -225,6 +243,21 @@ void Forces::observe(const CdLagrange& stepper) {
     const ForcePeak now{columns_[c], stepper.time()};
     if (std::abs(now.value) > std::abs(peaks_[c].value)) peaks_[c] = now;
   }
+}
+
+std::span<const double> Forces::acting_displacement(std::size_t structure) {
+  const CdLagrange& stepper = run_.solver.stepper();
+  const StructureState& state = stepper.state().structures[structure];
+  const KeptForces& forces = stepper.forces(structure);
+  const std::vector<double>& squares = run_.model.buildings[structure].basis->squared_frequency;
+  acting_ = state.displacement;
+  for (std::size_t i = 0; i < acting_.size(); ++i) {
+    const double extra = state.extra_force.empty() ? 0 : state.extra_force[i];
+    if (squares[i] > 0) {
+      acting_[i] = (forces.at(static_cast<LocalIndex>(i)).acting + extra) / squares[i];
+    }
+  }
+  return acting_;
 }
 
 std::optional<RecordColumns> Forces::columns() const {
@@ -287,8 +320,13 @@ TotalForce::TotalForce(const ForceItem& item, const LinearSystem& system, const 
       of_dof[dof] = {dof, c, x};
     }
   }
+  if (system.generalised) {
+    for (LocalIndex q = 0; q < system.owned_dofs(); ++q) watched_.push_back(q);
+  }
   for (const Counted& counted : of_dof) {
-    if (counted.dof >= 0 && !system.generalised) counted_.push_back(counted);
+    if (counted.dof < 0 || system.generalised) continue;
+    counted_.push_back(counted);
+    watched_.push_back(counted.dof);
   }
   for (std::size_t b = 0; system.links && b < system.links->links().size(); ++b) {
     const Link& link = system.links->links()[b];
@@ -300,12 +338,6 @@ TotalForce::TotalForce(const ForceItem& item, const LinearSystem& system, const 
       if (counted.dof >= 0) add_force(counted, link.weight[i], unit);
     }
   }
-}
-
-std::vector<LocalIndex> TotalForce::dofs() const {
-  std::vector<LocalIndex> dofs;
-  for (const Counted& counted : counted_) dofs.push_back(counted.dof);
-  return dofs;
 }
 
 void TotalForce::add(const StructureState& state, const KeptForces& forces,

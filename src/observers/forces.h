@@ -42,8 +42,8 @@ class TotalForce {
   /// References must outlive this object. Local.
   TotalForce(const ForceItem& item, const LinearSystem& system, const Mesh& mesh);
 
-  /// The owned dofs whose forces `add` asks for.
-  std::vector<LocalIndex> dofs() const;
+  /// The owned dofs whose forces are asked for: of generalised coordinates all.
+  const std::vector<LocalIndex>& dofs() const { return watched_; }
   /// Adds this rank's part of R after the step to t_n; `forces`: those of the step; `links` may be
   /// null.
   void add(const StructureState& state, const KeptForces& forces,
@@ -62,7 +62,8 @@ class TotalForce {
 
   Vector3 point_;
   std::vector<Counted> counted_;  ///< empty in generalised coordinates
-  std::vector<Wrench> links_;     ///< per link of this rank, of a unit force of it
+  std::vector<LocalIndex> watched_;
+  std::vector<Wrench> links_;  ///< per link of this rank, of a unit force of it
 };
 
 }  // namespace pounding

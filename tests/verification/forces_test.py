@@ -287,6 +287,11 @@ class Reduced(Shaken, unittest.TestCase):
         return [abs(run.total(item) - full.total(item)).max() / abs(full.total(item)).max()
                 for item in ("base", "upper")]
 
+    def test_damping_is_in_them(self):
+        for damping in (("-it_damping_alpha", self.ALPHA, "-it_damping_beta", self.BETA), ("-it_damping_uniform", 0.05, "-it_damping_band", "5,500")):
+            full = Forces(self, self.words(*damping))
+            self.assertLess(max(self.differs(1000, full, *damping)), 1e-8, damping[0])
+
     def test_truncation(self):
         full = Forces(self, self.words())
         self.assertLess(max(self.differs(1000, full)), 1e-8, "all modes")
