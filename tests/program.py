@@ -17,6 +17,7 @@ ALL = bool(os.environ.get("POUNDING_ALL"))  # run/test --all: also what takes lo
 long = unittest.skipUnless(ALL, "run/test --all")
 # Of a run whose test does not ask for another number; on any ranks there is one motion (scenes_on_ranks_test.py).
 RANKS = int(os.environ.get("POUNDING_RANKS", 2 if ALL else 1))
+JOBS = 2  # at once, of a test that says PROCESSORS = 2
 SHARED = os.environ.get("POUNDING_SHARED", os.path.join(os.path.dirname(SOURCE), "shared"))
 # Folders, meshes and records of a test file are in one folder, which goes with its process.
 PLACE = tempfile.TemporaryDirectory(prefix="pounding-test-", ignore_cleanup_errors=True)
@@ -81,16 +82,21 @@ def jobs_place():
 def run(arguments, ranks=RANKS, timeout=900, folder=SOURCE, environment=None):
     """Runs `pounding` to its end on ranks that wait for jobs, or in processes of its own (run/test --all). The exit status
     is that of every rank, or it raises AssertionError."""
-    line = words(arguments, ranks)
-    if ALL or ranks > 3 or not "".join(line).isascii():
+    if ALL or ranks > 3 or not "".join(words(arguments, ranks)).isascii():
         return launch(arguments, ranks, timeout, folder, environment)
+    return job(arguments, ranks, timeout, folder, environment)
+
+
+def job(arguments, ranks=RANKS, timeout=900, folder=SOURCE, environment=None):
+    """`run` on ranks that wait for jobs, also with --all: for thousands of runs of milliseconds."""
+    line = words(arguments, ranks)
     given = environment or ENVIRONMENT
     variables = {name: given.get(name) for name in {*ENVIRONMENT, *given} if given.get(name) != ENVIRONMENT.get(name)}
-    job = {"ranks": ranks, "words": line[line.index(PROGRAM) + 1:], "folder": os.path.abspath(folder), "timeout": timeout,
+    wanted = {"ranks": ranks, "words": line[line.index(PROGRAM) + 1:], "folder": os.path.abspath(folder), "timeout": timeout,
            "environment": variables}
     with socket.socket(socket.AF_UNIX) as asked:
         asked.connect(os.path.join(jobs_place(), "jobs"))
-        asked.sendall(json.dumps(job).encode() + b"\n")
+        asked.sendall(json.dumps(wanted).encode() + b"\n")
         answer = json.loads(asked.makefile("rb").readline())
     if "late" in answer:
         raise subprocess.TimeoutExpired(line, timeout)

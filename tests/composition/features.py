@@ -3,11 +3,16 @@
 `@` in an option is the structure that it is laid on. Two features that state one option of a structure are alternatives
 there, and so are two with one `slot`, or one that names a group whose element the other takes out: the second goes to the
 other structure. Where that does not help either, as two joints between the same faces, the pair is impossible. `physics` is
-False where a feature changes no motion.
+False where a feature changes no motion; `spared` are properties that it has not, with the reason, `beside` any other or a kind.
 """
-from dataclasses import dataclass
+import functools
+from dataclasses import dataclass, field
+from pathlib import Path
 
-from scene import FACES, axes, curve, pairs, points, quantity, vector, waves
+import numpy
+
+from scene import FACES, HOUSES, axes, curve, kept, pairs, points, quantity, vector, waves
+from soil_tables import coupled, write_soil
 
 KINDS = ("interaction", "law", "element", "model", "start", "support", "damping", "load", "output")
 
@@ -19,6 +24,8 @@ class Feature:
     options: dict
     slot: str = ""
     physics: bool = True
+    spared: dict = field(default_factory=dict)
+    beside: str = ""
 
 
 STOP = {"contacts": "joint", "joint_secondary": "a:nib", "joint_primary": "b:nib", "joint_along": vector((1, 0, 0))}
@@ -59,6 +66,26 @@ def force(kind, **more):
     return {"forces": f"+{kind}", f"{kind}_structure": "@", f"{kind}_kind": kind, **{f"{kind}_{k}": v for k, v in more.items()}}
 
 
+@functools.cache
+def soil_file():
+    return write_soil(lambda omega: coupled(omega) / 100)
+
+
+def soil(*_):
+    """A file of soil in SI and in the axes of the model."""
+    return soil_file()
+
+
+def state(structure, length, turn):
+    """The file of a state of two nodes: their places, displacements and velocities."""
+    left, width, _ = HOUSES[structure]
+    rows = [turn @ numpy.array(row) * length for node, moved, velocity in (
+        ((left, 0, 2.5), (1e-4, 2e-4, 0), (.1, -.2, .1)), ((left + width, 2, 2.5), (0, 1e-4, 1e-4), (.2, .1, 0)))
+            for row in (node, moved, velocity)]
+    lines = ["x,y,z,ux,uy,uz,vx,vy,vz"] + [",".join(repr(float(x)) for row in rows[i:i + 3] for x in row) for i in (0, 3)]
+    return kept(lambda path: Path(path).write_text("\n".join(lines)), ".csv")
+
+
 EAST = waves((25, 40), (20, 45), (12, 50))
 
 FEATURES = [
@@ -72,7 +99,11 @@ FEATURES = [
     Feature("hard stop", "interaction", {**STOP, "joint_gap": (2e-5, 1e-5)}),
     Feature("soft stop", "interaction", {**STOP, "joint_gap": (2e-5, 1e-5), "joint_stiffness": 1e6, "joint_dashpot": 1e3}),
     Feature("rigid wall", "interaction", {**FACES, "joint_primary": "wall", "joint_gap": 1e-3}),
-    Feature("random gap", "interaction", {**FACES, "joint_gap": 1e-4, "joint_gap_deviation": 5e-5, "joint_gap_length": 1.0}),
+    Feature("random gap", "interaction", {**FACES, "joint_gap": 1e-4, "joint_gap_deviation": 5e-5, "joint_gap_length": 1.0},
+            spared={"turned": "its waves are those of the tangent axes, in the order x, y, z"}),
+    Feature("two passes", "interaction", {**FACES, "joint_passes": 2}),
+    Feature("joint at rest", "interaction", {**FACES, **REST, "joint_gap_at": "rest"}),
+    Feature("stop at a wall", "interaction", {**STOP, "joint_primary": "wall", "joint_gap": 1e-3}),
 
     Feature("tension-only bar", "law", brace(tension_only="true")),
     Feature("compression-only bar", "law", brace("strut", compression_only="true", slack=2e-4)),
@@ -92,7 +123,12 @@ FEATURES = [
     Feature("Zener feet", "law", feet(dashpot=axes((2e4, 2e4, 4e4)), series_stiffness=axes((2e7, 2e7, 8e7)))),
     Feature("power dashpots", "law", feet(dashpot=quantity(axes((2e3, 2e3, 4e3)), "N s1.5/m1.5"), dashpot_exponent=1.5)),
     Feature("lead-rubber bearings", "law", pads(yield_force=axes((200.0, 200.0, 0)), hardening=.1, yield_circle="x+y")),
-    Feature("friction pendulum", "law", {**REST, **pads(sliding_friction=.02, hardening=.1, yield_circle="x+y", pendulum_radius=1.0)}),
+    Feature("friction pendulum", "law", {**REST, **pads(sliding_friction=.08, hardening=.1, yield_circle="x+y", pendulum_radius=1.0)}),
+    Feature("sliding bearings", "law", {**REST, **pads(sliding_friction=.08, yield_circle="x+y")}),
+    Feature("raft on a subgrade", "law", {
+        "@_clamp": "none", "@_raft_element": "shell", "@_raft_material": "concrete", "@_raft_thickness": .3, "@_subgrade_element": "grounded_spring",
+        "@_subgrade_stiffness_per_area": axes((2e6, 2e6, 4e6)), "@_subgrade_dashpot_per_area": axes((1e4, 1e4, 2e4)),
+        "@_subgrade_compression_only": "true"}),
 
     Feature("incompatible modes off", "element", {"@_slab_element": "hex8_full"}),
     Feature("wedges", "element", slab("prisms", "wedge6")),
@@ -111,32 +147,51 @@ FEATURES = [
     Feature("diaphragm", "element", {"@_diaphragm": "upside"}),
     Feature("tie", "element", {"@_curb_element": "shell", "@_curb_material": "concrete", "@_curb_thickness": .1,
                                        "@_tie": "curb_foot:upside"}),
+    Feature("eccentric join", "element", {"@_mast_element": "beam", "@_mast_material": "steel", "@_mast_section": "post", "@_join": "mast_foot:upside"}),
+    Feature("levels", "element", {"@_levels": "upside"}),
 
     Feature("few modes", "model", {"@_model": "modal", "@_modal_vectors": 8}),
+    Feature("chosen modes", "model", {"@_model": "modal", "@_modal_vectors": 8, "@_modal_candidates": 20}),
+    Feature("patches of contact", "model", {"@_model": "modal", "@_modal_vectors": 8, "@_modal_patches": 2}),
     Feature("matrices", "model", {"@_matrices": "$@"}),
     Feature("ensemble", "model", {"ensemble": "$members.csv", "a_model": "modal", "a_modal_vectors": 12, "b_model": "modal", "b_modal_vectors": 12}),
-    Feature("mass scaling", "model", {"@_mass_scaling": 1e-3}),
+    Feature("mass scaling", "model", {"@_mass_scaling": 1e-3},
+            spared={"all modes": "in modes it slows generalised coordinates, at full order elements"}),
+    Feature("time step target", "model", {"@_time_step_target": 5e-4, "@_target_change": .1, "@_target_frequency": 5.0}),
+    Feature("meshes in pieces", "model", {"mesh_pieces": "$pieces"}, physics=False),
     Feature("assembled matrix", "model", {"stiffness": "assembled"}, physics=False),
-    Feature("stiffness factor", "model", {"@_stiffness_factor": 1.3}),
+    Feature("stiffness factor", "model", {"@_stiffness_factor": 1.3},
+            spared={"all modes": "the basis keeps the rotary inertia of beams, which follows the stiffness at full order"}),
 
     Feature("initial velocity", "start", {"@_initial_velocity": vector((.3, .1, -.05))}),
     Feature("initial displacement", "start", {"@_initial_displacement": vector((2e-4, 1e-4, 0))}),
     Feature("rest under gravity", "start", REST),
     Feature("gravity that sets in", "start", {"gravity": 9.81, "preload": "none"}),
     Feature("P-Delta", "start", {**REST, "@_p_delta": "true"}),
+    Feature("initial state", "start", {"@_initial_state": state}),
 
     Feature("supports", "support", {"supports": "+near,far", "near_groups": "@:west", "far_groups": "@:east", "far_motion": EAST, "@_clamp": "west,east"}, "@ground"),
     Feature("structure on a support", "support", {"supports": "+whole", "whole_groups": "@", "whole_motion": EAST}, "@ground"),
     Feature("rocking support", "support", {"supports": "+rocking", "rocking_groups": "@", "rocking_point": points(((1.0, .5, 0),)),
                                               "rocking_rotation": waves((5, 30), (4, 35), (6, 45))}, "@ground"),
+    Feature("late support", "support", {"supports": "+late", "late_groups": "@", "late_delay": 3e-3}, "@ground"),
+    Feature("embedded support", "support", {"supports": "+deep", "deep_groups": "@", "deep_point": points(((1.5, 1.0, 0),)), "deep_embedment": .5,
+                                            "deep_vs": 100.0, "deep_half_width": 1.5}, "@ground"),
     Feature("soil under a mat", "support", {"@_clamp": "none", "@_rigid": "+base", "@_soil_mat": "base", "@_soil_size": axes((3.0, 2.0)),
                                                     "@_soil_vs": 100.0, "@_soil_density": 1800.0, "@_soil_poisson": .35}),
+    Feature("soil from a table", "support", {"@_clamp": "none", "@_rigid": "+base", "@_soil_mat": "base", "@_soil_table": soil},
+            spared={"other units": "the file is in SI", "turned": "the file has the axes of the model"}),
     Feature("absorbing faces", "support", {"@_clamp": "none", "@_block_element": "hex8", "@_block_material": "concrete", "@_absorbing": "bottom"}),
+    Feature("wave from below", "support", {"motion_input": "below", **{f"{s}_{key}": value for s in "ab" for key, value in (
+        ("clamp", "none"), ("block_element", "hex8"), ("block_material", "concrete"), ("absorbing_base", "bottom"))}}),
 
-    Feature("uniform damping", "damping", {"@_damping_alpha": None, "@_damping_uniform": .05,
+    Feature("uniform damping", "damping", {"@_damping_uniform": .05,
                                                       "@_damping_reference": 10.0}),
-    Feature("stiffness damping", "damping", {"@_damping_beta": 2e-5}),
-    Feature("no damping", "damping", {"@_damping_alpha": None}),
+    Feature("stiffness damping", "damping", {"@_damping_beta": 2e-5}, beside="law",
+            spared={"all modes": "in modes it brakes them as a whole, at full order not what yields or lets go"}),
+    Feature("mass damping", "damping", {"@_damping_alpha": .5}),
+    Feature("damping factor", "damping", {"@_damping_alpha": .5, "@_damping_factor": 3.0}),
+    Feature("modal damping", "damping", {"@_model": "modal", "@_modal_vectors": 12, "@_modal_damping": (.02, .05)}),
     Feature("damping of a region", "damping", {"@_slab_damping_beta": 1e-5, "@_slab_damping_alpha": 2.0}),
 
     Feature("constant force", "load", load("weight", on="@:pump", force=vector((4e3, 2e3, -3e3)))),
@@ -148,6 +203,9 @@ FEATURES = [
     Feature("storey force", "output", force("storey", level=1.7), physics=False),
     Feature("member forces", "output", force("members", group="column"), physics=False),
     Feature("cut", "output", force("cut", group="slab", level=.9, normal=vector((1, 0, 0))), physics=False),
+    Feature("shell forces", "output", {**wall(), **force("shells", group="wall")}, physics=False),
+    Feature("floors", "output", {"pa_floor": "true"}, physics=False),
+    Feature("pictures", "output", {"write_model": "true", "write_modes": "true", "modes": 2}, physics=False),
     Feature("fields", "output", {"fields_interval": 4e-3}, physics=False),
     Feature("exported matrices", "output", {"export_matrices": "$export"}, physics=False),
 ]

@@ -69,7 +69,7 @@ def waves(*of):
 @functools.cache
 def described():
     """Names of options as patterns, with their units; those with more letters of their own first."""
-    listed = json.loads(program.run(["-help_json"], 1).stdout)
+    listed = json.loads(program.job(["-help_json"], 1).stdout)
     found = [(re.sub(r"<x\\?\|y\\?\|z>", "[xyz]", re.sub(r"<\w+>", r"[a-z]\\w*", row["name"])), row["unit"]) for row in listed]
     return sorted(found, key=lambda row: -len(re.sub(r"\[.*?\]\W*\w?\*?", "", row[0])))
 
@@ -88,9 +88,12 @@ def factor(unit, length, mass):
     return total
 
 
+HOUSES = {"a": (0.0, 3.0, (2, 2, 1)), "b": (3.0, 2.25, (2, 1, 1))}  # place and width along x [m], bricks of the floor
+
+
 def houses(name, groups):
     """The mesh of house a or b: those of its groups that are named. Where its floor is a deck of shells, that is all of it."""
-    left, width, cells = {"a": (0.0, 3.0, (2, 2, 1)), "b": (3.0, 2.25, (2, 1, 1))}[name]
+    left, width, cells = HOUSES[name]
     h, top = 2.5, 2.5 if "deck" in groups else 2.75
     slab = brick((left, 0, h), (left + width, 2, 2.75), cells)
     bricks, nodes = slab.groups["body"][1], slab.nodes.tolist()
@@ -145,6 +148,10 @@ def houses(name, groups):
         "east": lambda: ("point", [[feet[1]], [feet[2]]]),
         "pad": lambda: ("line", [[find(x, y, 0, new=True), foot] for foot, (x, y) in zip(feet, corners)]),
         "ground": lambda: ("point", [[i] for i in range(len(nodes) - 4, len(nodes))]),  # the ends of the pads
+        "raft": lambda: level(0.0),
+        "subgrade": lambda: level(0.0),
+        "mast": lambda: ("line", [[find(far, 0, top + .2), find(far, 0, top + 1)]]),
+        "mast_foot": lambda: ("point", [[find(far, 0, top + .2)]]),
         "pump": lambda: ("point", [[find(far, 1, top)]]),
         "nib": lambda: ("point", [[find(near, 0, top)]]),
         "curb": lambda: ("quadrangle", [[find(.1, .25, top), find(.1, .6, top), find(.1, .6, top + .5), find(.1, .25, top + .5)]]),
@@ -171,7 +178,7 @@ def kept(write, kind):
     return name
 
 
-GROUPS = ("slab prisms tets deck face upside column pier brace strut wall base feet west east pad ground pump nib block "
+GROUPS = ("slab prisms tets deck face upside column pier brace strut wall base feet west east pad ground pump nib block raft subgrade mast mast_foot "
           "bottom curb curb_foot").split()
 
 BASE = {
@@ -184,7 +191,7 @@ BASE = {
 }
 OF_A_HOUSE = {
     "@_slab_element": "hex8", "@_slab_material": "concrete", "@_column_element": "beam", "@_column_material": "steel",
-    "@_column_section": "post", "@_clamp": "base", "@_damping_alpha": .5,
+    "@_column_section": "post", "@_clamp": "base",
     "@_pump_element": "point_mass", "@_pump_mass": 300,
 }
 FACES = {"contacts": "joint", "joint_secondary": "a:face", "joint_primary": "b:face", "joint_gap": 1e-4}
@@ -241,6 +248,8 @@ class Scene:
             if isinstance(value, record):
                 words += self._record(key, numpy.asarray(value), turn, length)
                 continue
+            if callable(value):
+                value = value(key[0], length, turn)
             if isinstance(value, str):
                 value = value.replace("$", folder + "/")
             unit = "-" if isinstance(value, str) else unit_of(key)
