@@ -123,8 +123,9 @@ class Search {
         std::ostringstream text;
         text << "option -preload static: element " << slid->link->number << " of group '"
              << slid->link->origin.region->group << "' of structure " << systems_[s].name
-             << " holds " << slid->force << " N at rest, more than its yield force of "
-             << slid->limit << " N; give a larger one, or leave -preload out";
+             << " bears " << slid->limit
+             << " N and slides at rest; give a larger yield force or friction, or leave -preload "
+                "out";
         throw UserError(text.str());
       }
     });

@@ -103,8 +103,7 @@ class RestLinks {
   /// A spring that yields on a circle or slides, beyond what it bears at a rest.
   struct Slid {
     const Link* link = nullptr;
-    double force = 0;  ///< that its stiffness gives [N]
-    double limit = 0;  ///< that its law gives [N]
+    double limit = 0;  ///< its force there [N]
   };
   /// The first of them at displacements of the owned dofs.
   std::optional<Slid> slid(const std::vector<double>& displacement) const;
