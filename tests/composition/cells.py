@@ -113,6 +113,14 @@ class Records:
         return f"{worst[0]} by {worst[1]:.1e}" if worst[0] else None
 
 
+def of_structures(options):
+    """Those of structures alone, at full order and of their own elements, to export their matrices."""
+    lists = ("contacts", "loads", "forces", "supports")
+    items = tuple(f"{name}_" for key in lists for name in options.get(key, "").split(",") if name)
+    return {key: value for key, value in options.items() if not key.startswith(items) and key not in (
+        *lists, "loops", "ensemble", "mesh_pieces", "fields_interval") and not re.match(r"[ab]_(matrices|model|modal_)", key)}
+
+
 class Cell:
     """The scene of one or two features and its runs, in a folder that goes with it."""
 
@@ -132,9 +140,7 @@ class Cell:
         os.makedirs(place)
         if any(key[1:] == "_matrices" for key in scene.options):
             matrices = os.path.join(self.folder, f"matrices-{units}-{turned}")
-            first = Scene.of({key: value for key, value in scene.options.items()
-                              if not re.match(r"[ab]_(matrices|model|modal_.*)$|ensemble|contacts|joint|loads|forces|loops|supports|fields", key)
-                              and not re.match(r"(\w+)_(on|force|kind|groups)$", key)})
+            first = Scene.of(of_structures(scene.options))
             done = program.job([*first.words(place, units, turned), "-dry_run", "-export_matrices", f"{matrices}", "-output", f"{place}/first"], 1)
             if done.returncode:
                 return done, place
@@ -184,8 +190,13 @@ def sentence(result):
     return re.sub(r"/\S*/", "", lines[0].removeprefix("pounding: "))
 
 
-CLOSE, RANKS, UNITED, MODES = 1e-12, 1e-11, 1e-9, 1e-9
-ITERATED = 5e-8  # where a rest under gravity is found by iterations
+CLOSE, RANKS, SAME = 1e-12, 1e-11, 1e-9
+
+
+def within(tolerance, scene):
+    """The tolerance of a scene: looser where a rest under gravity or a basis of a few modes is found by iterations."""
+    found = scene.options.get("preload") == "static" or any(key[1:] == "_model" for key in scene.options)
+    return max(tolerance, 2e-8) if found else tolerance
 
 
 def ledger(cell):
@@ -195,7 +206,7 @@ def ledger(cell):
 
 
 def two_ranks(cell):
-    return cell.reference.apart(cell.records(scene=cell.single, ranks=2), RANKS)
+    return cell.reference.apart(cell.records(scene=cell.single, ranks=2), within(RANKS, cell.single))
 
 
 def continued(cell):
@@ -226,7 +237,7 @@ def in_all_modes(cell):
     modal = Scene.of({**scene.options, **{key: value for s in "ab" for key, value in (
         (f"{s}_model", "modal"), (f"{s}_modal_vectors", reference.summary["structures"][s]["dofs"]))}})
     cell.modal = modal
-    return reference.apart(cell.records(scene=modal), ITERATED if scene.options.get("preload") == "static" else MODES)
+    return reference.apart(cell.records(scene=modal), within(SAME, scene))
 
 
 def as_member(cell):
@@ -256,9 +267,6 @@ def as_member(cell):
     return None
 
 
-MOVING = ("motion_level",)
-
-
 def at_rest(cell):
     """A structure at rest stays at rest: nothing shakes, nothing starts."""
     options = {key: value for key, value in cell.single.options.items()
@@ -285,11 +293,11 @@ def at_rest(cell):
 
 
 def in_other_units(cell):
-    return cell.reference.apart(cell.records(scene=cell.single, units="mm"), UNITED)
+    return cell.reference.apart(cell.records(scene=cell.single, units="mm"), within(SAME, cell.single))
 
 
 def turned(cell):
-    return cell.reference.apart(cell.records(scene=cell.single, turned=True), UNITED)
+    return cell.reference.apart(cell.records(scene=cell.single, turned=True), within(SAME, cell.single))
 
 
 PROPERTIES = {"the ledger closes": ledger, "two ranks": two_ranks, "continued": continued, "all modes": in_all_modes,

@@ -138,6 +138,8 @@ def houses(name, groups):
         "pier": lambda: layers(0, h / 2, h),
         "block": lambda: layers(-1.0, 0.0),
         "bottom": lambda: level(-1.0),
+        "stay": lambda: ("line", [[find(0, 0, 0), find(1, 0, h)], [find(0, 1, 0), find(1, 1, h)], [find(0, 0, 0), find(0, 1, h)],
+                                  [find(1, 0, 0), find(1, 1, h)]]),
         "brace": lambda: ("line", [[find(near, 0, 0), find(far, 0, h)], [find(far, 1, 0), find(near, 1, h)]]),
         "strut": lambda: ("line", [[find(far, 0, 0), find(far, 1, h)]]),
         "wall": lambda: ("quadrangle", [[find(x, 0, z), find(x + .5, 0, z), find(x + .5, 0, z + h / 2), find(x, 0, z + h / 2)]
@@ -178,7 +180,7 @@ def kept(write, kind):
     return name
 
 
-GROUPS = ("slab prisms tets deck face upside column pier brace strut wall base feet west east pad ground pump nib block raft subgrade mast mast_foot "
+GROUPS = ("slab prisms tets deck face upside column pier stay brace strut wall base feet west east pad ground pump nib block raft subgrade mast mast_foot "
           "bottom curb curb_foot").split()
 
 BASE = {
@@ -191,7 +193,7 @@ BASE = {
 }
 OF_A_HOUSE = {
     "@_slab_element": "hex8", "@_slab_material": "concrete", "@_column_element": "beam", "@_column_material": "steel",
-    "@_column_section": "post", "@_clamp": "base",
+    "@_column_section": "post", "@_stay_element": "bar", "@_stay_material": "steel", "@_stay_area": 2e-4, "@_clamp": "base",
     "@_pump_element": "point_mass", "@_pump_mass": 300,
 }
 FACES = {"contacts": "joint", "joint_secondary": "a:face", "joint_primary": "b:face", "joint_gap": 1e-4}
