@@ -113,7 +113,7 @@ constexpr double unit_shift = 1;  // 1/s2
 /// A correction this small against the solution, by mass, is round-off.
 constexpr double round_off = 1e-15;
 /// One that is no smaller than the one before is round-off as well, if it is smaller than this.
-constexpr double small = 1e-11;
+constexpr double small = 1e-9;
 
 constexpr int most_corrections = 1000;
 
