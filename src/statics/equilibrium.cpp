@@ -123,9 +123,8 @@ class Search {
         std::ostringstream text;
         text << "option -preload static: element " << slid->link->number << " of group '"
              << slid->link->origin.region->group << "' of structure " << systems_[s].name
-             << " bears " << slid->limit
-             << " N and slides at rest; give a larger yield force or friction, or leave -preload "
-                "out";
+             << " slides at rest, where it bears " << slid->force
+             << " N along an axis; give a larger yield force or friction, or leave -preload out";
         throw UserError(text.str());
       }
     });

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "common/parallel.h"
@@ -174,17 +173,12 @@ bool RestLinks::add_forces(const std::vector<double>& displacement, std::span<do
 
 std::optional<RestLinks::Slid> RestLinks::slid(const std::vector<double>& displacement) const {
   Rest rest = rest_at(displacement);
-  std::map<std::int64_t, Slid> slid;  // by element, square of the force
   for (std::size_t b = 0; b < terms_.size(); ++b) {
-    if (!slides(terms_[b].link->origin) || !(terms_[b].stiffness > 0)) continue;
+    if (!slides(terms_[b].link->origin)) continue;
     const double now = rest.now[b];
-    Slid& of = slid[terms_[b].link->number];
-    of.limit += std::pow(laws_[b]->force(now, now, now, rest.memory[b]), 2);
+    const double force = laws_[b]->force(now, now, now, rest.memory[b]);
     laws_[b]->remember(now, now, now, 1, rest.memory[b]);
-    if (laws_[b]->has_yielded(rest.memory[b])) of.link = terms_[b].link;
-  }
-  for (const auto& [number, of] : slid) {
-    if (of.link != nullptr) return Slid{of.link, std::sqrt(of.limit)};
+    if (laws_[b]->has_yielded(rest.memory[b])) return Slid{terms_[b].link, std::abs(force)};
   }
   return std::nullopt;
 }

@@ -100,10 +100,10 @@ class RestLinks {
   /// slopes, to `force` [N, N m]; returns whether any differs from that.
   bool add_forces(const std::vector<double>& displacement, std::span<double> force) const;
 
-  /// A spring that yields on a circle or slides, beyond what it bears at a rest.
+  /// A spring that has yielded on a circle, or slides, at a rest.
   struct Slid {
     const Link* link = nullptr;
-    double limit = 0;  ///< its force there [N]
+    double force = 0;  ///< [N]
   };
   /// The first of them at displacements of the owned dofs.
   std::optional<Slid> slid(const std::vector<double>& displacement) const;
