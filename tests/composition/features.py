@@ -188,7 +188,7 @@ FEATURES = [
     Feature("uniform damping", "damping", {"@_damping_uniform": .05,
                                                       "@_damping_reference": 10.0}),
     Feature("stiffness damping", "damping", {"@_damping_beta": 2e-5}, beside="law",
-            spared={"all modes": "in modes it brakes them as a whole, at full order not what yields or lets go"}),
+            spared={"all modes": "in modes it brakes them as a whole, at full order not elements that yield or let go"}),
     Feature("mass damping", "damping", {"@_damping_alpha": .5}),
     Feature("damping factor", "damping", {"@_damping_alpha": .5, "@_damping_factor": 3.0}),
     Feature("modal damping", "damping", {"@_model": "modal", "@_modal_vectors": 12, "@_modal_damping": (.02, .05)}),

@@ -17,16 +17,16 @@ from features import FEATURES, KINDS
 
 PAGE = Path(program.SOURCE, "docs", "reference", "composition.md")
 CELLS = list(itertools.combinations(FEATURES, 2))
-HEAD = """# What goes with what
+HEAD = """# Features in pairs
 
 Every pair of features of the program, each on the same small scene: two houses of one storey side by side, their floors facing
 each other over a joint, shaken in three directions. The page is generated (`tests/composition/table.py --write`) from one
-declaration of each feature (`tests/composition/features.py`) and from what the program answers; `tests/composition` runs the
+declaration of each feature (`tests/composition/features.py`) and from the answers of the program; `tests/composition` runs the
 cells that are *yes* and holds each to these:
 
 {properties}
 
-Two features that state the same option of a structure stand on one house each. So *yes* means: it runs, and these hold.
+Two features that state the same option of a structure are laid on one house each. So *yes* means: it runs, and these hold.
 {counts}
 
 | sign | meaning |
@@ -42,7 +42,7 @@ MEANINGS = {
     "continued": "a run continued from a checkpoint is the uninterrupted one, to the bit",
     "all modes": "structures reduced to all of their modes move as at full order (1e-9), where they may be reduced",
     "as a member": "a member of an ensemble is its single run (1e-9), where it may be one",
-    "at rest": "what is at rest stays at rest, under its weight as well",
+    "at rest": "a structure at rest stays at rest, under its weight as well",
     "other units": "in millimetres, tonnes and seconds it is the same (1e-9)",
     "turned": "turned by a quarter about z it is the same (1e-9)",
 }

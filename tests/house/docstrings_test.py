@@ -78,7 +78,8 @@ class Docstrings(unittest.TestCase):
     def test_words_for_want_of_a_better_one_do_not_grow(self):
         sources = [(place, text) for place, line in lines_below("src", ".h", ".cpp") if not line.startswith("#include")
                    for text in words_read(line)]
-        pages = [*lines_below("docs", ".md"), *lines_of("README.md"), *lines_of("CONTRIBUTING.md")]
+        written = [line for line in lines_below("docs", ".md") if not line[0].startswith("docs/reference/composition.md")]
+        pages = [*written, *lines_of("README.md"), *lines_of("CONTRIBUTING.md")]
         for words, most_in_sources, most_in_pages in COUNTED:
             for lines, most in ((sources, most_in_sources), (pages, most_in_pages)):
                 found = [place for place, text in lines for _ in words.findall(text)]
