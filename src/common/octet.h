@@ -130,6 +130,20 @@ POUNDING_OCTET Octet larger(const Octet& a, const Octet& b) {
   return choose(b < a, a, b);
 }
 
+/// The number of one of eight runs; a double is that of a run by itself.
+POUNDING_OCTET double of_lane(const Octet& value, std::size_t lane) {
+  return value[lane];
+}
+POUNDING_OCTET double of_lane(double value, std::size_t /*lane*/) {
+  return value;
+}
+POUNDING_OCTET void set_lane(Octet& value, std::size_t lane, double number) {
+  value.set(lane, number);
+}
+POUNDING_OCTET void set_lane(double& value, std::size_t /*lane*/, double number) {
+  value = number;
+}
+
 #undef POUNDING_OCTET
 
 }  // namespace pounding

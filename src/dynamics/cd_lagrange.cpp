@@ -26,12 +26,15 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
       rest_before_(systems.size(), 0.0),
       load_values_(loads != nullptr ? loads->size() : 0, 0.0) {
   structure_steps_.reserve(systems_.size());
+  runs_.reserve(systems_.size());
   lanes_.reserve(systems_.size());
   for (std::size_t s = 0; s < systems_.size(); ++s) {
     StructureState& state = state_.structures[s];
     start_filters(systems_[s], time_step, state);
     if (lane.structures.empty()) {
-      structures_.push_back(&structure_steps_.emplace_back(systems_[s], state, time_step));
+      StructureStep<double>& step =
+          structure_steps_.emplace_back(std::array{&systems_[s]}, state, time_step);
+      structures_.push_back(&runs_.emplace_back(step, 0, state));
     } else {
       structures_.push_back(&lanes_.emplace_back(lane.structures[s], lane.number, state));
     }
@@ -105,10 +108,14 @@ double CdLagrange::about_rest(std::size_t structure) const {
   return sum;
 }
 
+bool CdLagrange::corrects() const {
+  return std::ranges::any_of(interactions_, &interactions::Interaction::corrects);
+}
+
 void CdLagrange::free_velocity(bool with_forces) {
   const ScopedEvent event(events_.free_velocity);
   const ScopedTimer timer(profile_, Phase::step);
-  for (const auto& interaction : interactions_) with_forces |= interaction->corrects();
+  with_forces = with_forces || corrects();
   for (std::size_t s = 0; with_energies_ && s < systems_.size(); ++s) {
     const double* const velocity = state_.structures[s].velocity.data();
     stiffness::StoredForces store(stiffness_velocity_[s].data());
@@ -127,10 +134,10 @@ void CdLagrange::free_velocity(bool with_forces) {
 
 void CdLagrange::close_energy(const interactions::Step& step) {
   const ScopedEvent event(events_.close_energy);
-  for (std::size_t s = 0; s < lanes_.size(); ++s) lanes_[s].sum_up(sums_[s]);
+  for (std::size_t s = 0; s < lanes_.size(); ++s) sums_[s] = lanes_[s].sums();
   for (std::size_t s = 0; s < structure_steps_.size(); ++s) {
     const double extra_damping_before = sums_[s].extra_damping_before;
-    sums_[s] = structure_steps_[s].sums();
+    sums_[s] = structure_steps_[s].sums(0);
     sums_[s].extra_damping_before = extra_damping_before;
   }
   for (std::size_t s = 0; with_energies_ && s < sums_.size(); ++s) {

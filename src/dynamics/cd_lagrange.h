@@ -7,8 +7,8 @@
 
 #include "common/petsc.h"
 #include "common/profile.h"
+#include "dynamics/batch_step.h"
 #include "dynamics/energy_balance.h"
-#include "dynamics/octet_step.h"
 #include "dynamics/state.h"
 #include "dynamics/structure_step.h"
 #include "interactions/interaction.h"
@@ -79,13 +79,15 @@ class CdLagrange {
   /// impulses and ledger; for runs in lanes. Returns whether that one is to be made with energies.
   bool open(bool look_at_gap, bool with_energies);
   void close();
+  /// An interaction asks for the forces of this step, to correct it. After `open`.
+  bool corrects() const;
 
   /// Owned dofs of a structure whose forces a step can be asked for. Before the first step.
   void watch_forces(std::size_t structure, std::span<const LocalIndex> dofs) {
     structure_steps_[structure].watch(dofs, false);
   }
   /// Forces of the last step at watched dofs, if they were asked for.
-  const KeptForces& forces(std::size_t structure) const {
+  const KeptForces<double>& forces(std::size_t structure) const {
     return structure_steps_[structure].forces();
   }
 
@@ -138,14 +140,15 @@ class CdLagrange {
   Profile& profile_;
   State state_;
   interactions::SupportStep supports_;
-  std::vector<StructureStep> structure_steps_;  ///< none in a lane
-  std::vector<OctetLane> lanes_;                ///< per structure in their place
+  std::vector<StructureStep<double>> structure_steps_;  ///< none in a lane
+  std::vector<SteppedRun<double>> runs_;                ///< of these
+  std::vector<OctetLane> lanes_;                        ///< per structure in their place
   std::vector<std::unique_ptr<interactions::Interaction>> interactions_;
   EnergyBalance energy_;
   std::vector<StepSums> sums_;
   std::vector<double> rest_before_;                          ///< see StepSums
   std::vector<double> load_values_;                          ///< f of every load in the step
-  std::vector<interactions::SteppedStructure*> structures_;  ///< those of the two
+  std::vector<interactions::SteppedStructure*> structures_;  ///< runs or lanes
   std::vector<interactions::LedgerPart*> ledger_;            ///< those of sums_
   std::vector<std::vector<double>> stiffness_velocity_;      ///< K v-, where energies are asked for
   std::vector<StateVectors> vectors_;

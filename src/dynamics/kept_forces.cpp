@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/octet.h"
+
 namespace pounding {
 
-void KeptForces::watch(std::span<const LocalIndex> dofs) {
+template <typename Number>
+void KeptForces<Number>::watch(std::span<const LocalIndex> dofs) {
   if (dofs.empty()) return;
   if (!dofs_.empty()) dofs_.pop_back();
   dofs_.insert(dofs_.end(), dofs.begin(), dofs.end());
@@ -21,16 +24,20 @@ void KeptForces::watch(std::span<const LocalIndex> dofs) {
   dofs_.push_back(std::numeric_limits<LocalIndex>::max());
 }
 
-void KeptForces::take(LocalIndex begin, LocalIndex end, const double* force,
-                      std::span<const double> inelastic, const Filters<double>& filters,
-                      std::span<const std::vector<double>> memories) {
+template <typename Number>
+void KeptForces<Number>::take(LocalIndex begin, LocalIndex end, const Number* force,
+                              std::span<const Number> inelastic, const Filters<Number>& filters,
+                              std::span<const std::vector<Number>> memories) {
   for (std::size_t k = place(begin); dofs_[k] < end; ++k) {
     const auto dof = static_cast<std::size_t>(dofs_[k]);
-    const double q = force[dofs_[k] - begin];
+    const Number q = force[dofs_[k] - begin];
     const auto memory = [&](std::size_t i) { return memories[i][dof]; };
-    const double apart = inelastic.empty() ? 0 : inelastic[dof];
+    const Number apart = inelastic.empty() ? Number{} : inelastic[dof];
     forces_[k] = {q, filtered_force(filters, q + apart, memory) - apart};
   }
 }
+
+template class KeptForces<double>;
+template class KeptForces<Octet>;
 
 }  // namespace pounding

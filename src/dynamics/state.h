@@ -11,14 +11,17 @@
 
 namespace pounding {
 
-/// State of one structure, all that evolves; owned dofs of this rank. Before the step to t_n:
-struct StructureState {
-  std::vector<double> displacement;             ///< u_n [m, rad]
-  std::vector<double> velocity;                 ///< v_{n-1/2} [m/s, rad/s]
-  std::vector<double> extra_force;              ///< of the extra damping in the step; empty without
-  std::vector<double> inelastic_force;          ///< of elements in the step; empty without
-  std::vector<std::vector<double>> filtered{};  ///< Z_i by filter, last (1 - s) K u_0 [N, N m]
+/// State of one structure, all that evolves; owned dofs of this rank. `Number`: double in one run,
+/// Octet in eight. Before the step to t_n:
+template <typename Number>
+struct StateOf {
+  std::vector<Number> displacement;             ///< u_n [m, rad]
+  std::vector<Number> velocity;                 ///< v_{n-1/2} [m/s, rad/s]
+  std::vector<Number> extra_force;              ///< of the extra damping in the step; empty without
+  std::vector<Number> inelastic_force;          ///< of elements in the step; empty without
+  std::vector<std::vector<Number>> filtered{};  ///< Z_i by filter, last (1 - s) K u_0 [N, N m]
 };
+using StructureState = StateOf<double>;
 
 /// Displacement and velocity of a structure as PETSc vectors over its ranks, with the layout of its
 /// mesh, on the very arrays of its state: PETSc's norms, viewers and a user's own code see them.

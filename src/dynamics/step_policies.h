@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
+#include "common/octet.h"
 #include "common/wide_lanes.h"
+#include "dynamics/damping_filters.h"
 #include "dynamics/update.h"
-#include "system/linear_system.h"
 
-/// Policies by which vectors of dofs are brought one step on: the place of their masses, the effect
-/// of the ground, and other actions on them. See StructureStep.
+/// Policies by which dofs are brought one step on: the place of their masses, the effect of the
+/// ground, and other actions on them. Arrays hold a `Number` for each dof: double, or Octet where
+/// eight runs are stepped together. The step is made for a `Value` at once: a Number, or a vector
+/// of doubles. See StructureStep.
 namespace pounding {
 
 /// Dofs in which directions repeat, three vectors of them.
@@ -26,6 +30,14 @@ inline void store_first(const WideLanes& from, AllLanes, double* to) {
   store(to, from);
 }
 inline void keep_first(AllLanes, WideLanes&) {}
+template <typename Number>
+void load_first(const Number* from, AllLanes, Number& to) {
+  to = *from;
+}
+template <typename Number>
+void store_first(const Number& from, AllLanes, Number* to) {
+  *to = from;
+}
 
 // The others become zero.
 #ifdef __AVX512F__
@@ -95,7 +107,7 @@ class NodeMasses {
     load(inverse_mass_ + number * wide_lane_count, inverses_);
   }
   template <int vector, typename Count>
-  void at(Count, WideLanes& mass, WideLanes& inverse) const {
+  void at(std::size_t, Count, WideLanes& mass, WideLanes& inverse) const {
     mass = spread<vector>(values_);
     inverse = spread<vector>(inverses_);
   }
@@ -107,23 +119,18 @@ class NodeMasses {
   WideLanes inverses_{};
 };
 
-/// Masses of the three vectors of a pattern, from one value per dof.
-class DofMasses {
- public:
-  DofMasses(const double* mass, const double* inverse_mass)
-      : mass_(mass), inverse_mass_(inverse_mass) {}
+/// Masses from one number per dof.
+template <typename Number>
+struct DofMasses {
+  const Number* mass;  ///< of all dofs, as the next one
+  const Number* inverse_mass;
 
-  void begin_pattern(std::size_t number) { offset_ = number * step_pattern; }
-  template <int vector, typename Count>
-  void at(Count count, WideLanes& mass, WideLanes& inverse) const {
-    load_first(mass_ + offset_ + vector * wide_lane_count, count, mass);
-    load_first(inverse_mass_ + offset_ + vector * wide_lane_count, count, inverse);
+  void begin_pattern(std::size_t) {}
+  template <int, typename Count, typename Value>
+  void at(std::size_t i, Count count, Value& values, Value& inverse) const {
+    load_first(mass + i, count, values);
+    load_first(inverse_mass + i, count, inverse);
   }
-
- private:
-  const double* mass_;
-  const double* inverse_mass_;
-  std::size_t offset_ = 0;
 };
 
 /// The ground's part of the three vectors of a pattern whose directions repeat.
@@ -154,131 +161,189 @@ class PatternGround {
   WideLanes* momentum_;
 };
 
-/// The ground's part of generalised coordinates, each with an influence of its own.
+/// The ground's part of generalised coordinates, each with an influence of its own. Directions in
+/// which nothing acts, ground nor gravity, are left out, their momentum as well.
+template <typename Value, typename Number>
 class InfluenceGround {
  public:
-  InfluenceGround(const GeneralisedCoordinates& coordinates,
-                  const std::array<double, 3>& ground_step, WideLanes* momentum)
-      : coordinates_(coordinates),
-        step_{all_wide(ground_step[0]), all_wide(ground_step[1]), all_wide(ground_step[2])},
-        momentum_(momentum) {}
+  InfluenceGround(const auto& influence, const std::array<Number, 3>& ground_step,
+                  const std::array<bool, 3>& shaken, std::array<Value, 3>& momentum)
+      : shaken_(shaken), sum_(momentum), momentum_(momentum) {
+    for (std::size_t d = 0; d < 3; ++d) {
+      influence_[d] = influence[d].data();
+      step_[d] = Value{} + ground_step[d];
+    }
+  }
+  ~InfluenceGround() { momentum_ = sum_; }
+  InfluenceGround(const InfluenceGround&) = delete;
+  InfluenceGround& operator=(const InfluenceGround&) = delete;
 
   template <int, typename Count>
-  WideLanes step(std::size_t i, Count count) const {
-    WideLanes step{};
+  Value step(std::size_t i, Count count) const {
+    Value step{};
     for (std::size_t d = 0; d < 3; ++d) {
-      WideLanes influence;
-      load_first(&coordinates_.influence[d][i], count, influence);
-      add_product(step_[d], influence, step);
+      if (shaken_[d]) add_product(step_[d], influence(d, i, count), step);
     }
     return step;
   }
   template <int, typename Count>
-  void add(std::size_t i, Count count, const WideLanes& momentum) {
+  void add(std::size_t i, Count count, const Value& momentum) {
     for (std::size_t d = 0; d < 3; ++d) {
-      WideLanes influence;
-      load_first(&coordinates_.influence[d][i], count, influence);
-      add_product(influence, momentum, momentum_[d]);
+      if (shaken_[d]) add_product(influence(d, i, count), momentum, sum_[d]);
     }
   }
 
  private:
-  const GeneralisedCoordinates& coordinates_;
-  WideLanes step_[3];
-  WideLanes* momentum_;
+  template <typename Count>
+  Value influence(std::size_t d, std::size_t i, Count count) const {
+    Value influence;
+    load_first(influence_[d] + i, count, influence);
+    return influence;
+  }
+
+  std::array<const Number*, 3> influence_;
+  const std::array<bool, 3> shaken_;
+  std::array<Value, 3> step_;
+  std::array<Value, 3> sum_;
+  std::array<Value, 3>& momentum_;
 };
 
-/// Where nothing but stiffness and ground acts.
-struct NothingElse {
-  template <typename Count>
-  WideLanes resisting(std::size_t, Count, const WideLanes& q) const {
-    return q;
+/// The ground's part of dofs one by one, by their directions.
+template <typename Number>
+struct DirectionGround {
+  const std::int8_t* direction;
+  const std::array<Number, 3>& ground_step;
+  std::array<Number, 3>& momentum;
+
+  template <int, typename Count>
+  Number step(std::size_t i, Count) const {
+    return direction[i] < 0 ? Number{} : ground_step[direction[i]];
   }
-  template <typename Count>
-  WideLanes filtered(std::size_t, Count, const WideLanes& q) const {
-    return q;
+  template <int, typename Count>
+  void add(std::size_t i, Count, const Number& gained) {
+    if (direction[i] >= 0) momentum[direction[i]] += gained;
   }
-  template <typename Count>
-  void add_known_step(std::size_t, Count, WideLanes&) const {}
-  void add_filtered_work(const WideLanes&, const WideLanes&, const WideLanes&) {}
-  template <typename Count>
-  void add_known_work(std::size_t, Count, const WideLanes&) {}
 };
 
-/// Other actions on a range, each where there is one: forces g of inelastic elements beside
-/// q = K u, filters of uniform damping with their memories, and the known steps of supports which
-/// move on their own and of loads, h ( sum_c iota_c r_c'' - M^-1 sum_l f_l p_l ). Branches, which a
-/// processor foresees: a type for each of their combinations takes nearly three times as long to
-/// compile.
-class OtherActions {
+/// Actions on a range beside stiffness and ground, each where there is one. Pointers to numbers of
+/// all dofs, null for an action that is not there.
+template <typename Number>
+struct ActionParts {
+  const Number* inelastic_force = nullptr;     ///< p, beside q = K w
+  const Number* extra_force = nullptr;         ///< x
+  const Number* known_step = nullptr;          ///< see StructureStep
+  const Number* stiffness_velocity = nullptr;  ///< see StepRequest
+  const Filters<Number>* filters = nullptr;
+  std::vector<std::vector<Number>>* memories = nullptr;  ///< with filters
+  WaitingDofs<Number>* waiting = nullptr;
+  bool settles = false;  ///< those that waited, their velocities being known
+
+  bool any() const {
+    return inelastic_force != nullptr || extra_force != nullptr || known_step != nullptr ||
+           stiffness_velocity != nullptr || filters != nullptr || waiting != nullptr;
+  }
+};
+
+/// Those actions on values of dofs; without `any` there are none. Branches, which a processor
+/// foresees: a type for each of their combinations takes nearly three times as long to compile.
+template <typename Value, typename Number, bool any>
+class Actions {
  public:
-  /// Pointers to values of all dofs; null for an action that is not there. The works gain the sums
-  /// over these dofs of (f - q - g) (v+ + v-), and of known steps times M s.
-  struct Parts {
-    const double* inelastic_force = nullptr;
-    const Filters<double>* filters = nullptr;
-    std::vector<std::vector<double>>* memories = nullptr;  ///< with filters
-    const double* known_step = nullptr;
-    WideLanes* filtered_work = nullptr;
-    WideLanes* known_work = nullptr;
-  };
-
-  explicit OtherActions(const Parts& parts)
-      : parts_(parts), filtered_work_(*parts.filtered_work), known_work_(*parts.known_work) {
-    if (parts.filters == nullptr) return;
-    filters_ = in_lanes<WideLanes>(*parts.filters);
+  explicit Actions(const ActionParts<Number>& parts) : parts_(parts) {
+    if (!any || parts.filters == nullptr) return;
+    filters_ = in_lanes<Value>(*parts.filters);
     for (std::size_t k = 0; k < filters_.count; ++k) memory_[k] = (*parts.memories)[k].data();
   }
-  ~OtherActions() {
-    *parts_.filtered_work = filtered_work_;
-    *parts_.known_work = known_work_;
-  }
-  OtherActions(const OtherActions&) = delete;
-  OtherActions& operator=(const OtherActions&) = delete;
 
+  bool waits() const { return any && parts_.waiting != nullptr && !parts_.settles; }
+  bool settles() const { return any && parts_.settles; }
+
+  /// q + p.
   template <typename Count>
-  WideLanes resisting(std::size_t i, Count count, const WideLanes& q) const {
-    if (parts_.inelastic_force == nullptr) return q;
-    WideLanes force;
-    load_first(parts_.inelastic_force + i, count, force);
-    return q + force;
+  Value resisting(std::size_t i, Count count, const Value& q) const {
+    if (!any || parts_.inelastic_force == nullptr) return q;
+    return q + at(parts_.inelastic_force, i, count);
   }
+  /// f, the memories of the filters being brought on.
   template <typename Count>
-  WideLanes filtered(std::size_t i, Count count, const WideLanes& q) const {
-    if (parts_.filters == nullptr) return q;
-    WideLanes force = filters_.passing * q;
+  Value filtered(std::size_t i, Count count, const Value& resisting) const {
+    if (!any || parts_.filters == nullptr) return resisting;
+    Value force = filters_.passing * resisting;
     for (std::size_t k = 0; k < filters_.count; ++k) {
-      WideLanes memory;
-      load_first(memory_[k] + i, count, memory);
-      pass_filter(filters_.filters[k], q, memory, force);
+      Value memory = at(memory_[k], i, count);
+      pass_filter(filters_.filters[k], resisting, memory, force);
       store_first(memory, count, memory_[k] + i);
     }
     return force;
   }
   template <typename Count>
-  void add_known_step(std::size_t i, Count count, WideLanes& step) const {
-    if (parts_.known_step == nullptr) return;
-    WideLanes known;
-    load_first(parts_.known_step + i, count, known);
-    step += known;
+  void add_energies_before(std::size_t i, Count count, const StepTerms<Value>& terms,
+                           const Value& mass, const Value& q, const DofState<Value>& dof,
+                           DofEnergies<Value>& energies) const {
+    if (!any || parts_.stiffness_velocity == nullptr) return;
+    add_energies(terms, mass, q, at(parts_.stiffness_velocity, i, count), dof, energies);
   }
-  void add_filtered_work(const WideLanes& f, const WideLanes& resisting, const WideLanes& sum) {
-    if (parts_.filters != nullptr) filtered_work_ += (f - resisting) * sum;
+  /// v_free with all actions; `ground_step`: h (a_g - g) iota.
+  template <typename Count>
+  Value velocity(std::size_t i, Count count, const StepTerms<Value>& terms, const Value& before,
+                 const Value& f, const Value& inverse_mass, Value ground_step) const {
+    if (any && parts_.known_step != nullptr) ground_step += at(parts_.known_step, i, count);
+    Value after = free_velocity(terms, before, f, inverse_mass, ground_step);
+    if (any && parts_.extra_force != nullptr) {
+      subtract_product(terms.duration, inverse_mass * at(parts_.extra_force, i, count), after);
+    }
+    return after;
+  }
+  /// Impulse on dofs whose mass is coupled, M (v_free - v-) if it were not.
+  template <typename Count>
+  Value impulse(std::size_t i, Count count, const StepTerms<Value>& terms, const Value& before,
+                const Value& q, const Value& f, const Value& mass, const Value& ground_step) const {
+    const bool filters = parts_.filters != nullptr;
+    Value impulse =
+        -(mass * (terms.drag * before + ground_step)) - terms.duration * (filters ? f : q);
+    const auto take = [&](const Value& factor, const Number* action) {
+      if (action != nullptr) impulse = impulse - factor * at(action, i, count);
+    };
+    if (!filters) take(terms.duration, parts_.inelastic_force);
+    take(terms.duration, parts_.extra_force);
+    take(mass, parts_.known_step);
+    return impulse;
   }
   template <typename Count>
-  void add_known_work(std::size_t i, Count count, const WideLanes& momentum) {
-    if (parts_.known_step == nullptr) return;
-    WideLanes known;
-    load_first(parts_.known_step + i, count, known);
-    add_product(known, momentum, known_work_);
+  void keep(std::size_t i, Count count, const Value& q, const Value& f,
+            const Value& velocity) const {
+    store_first(q, count, &parts_.waiting->stiffness[i]);
+    store_first(f, count, &parts_.waiting->acting[i]);
+    store_first(velocity, count, &parts_.waiting->velocity[i]);
+  }
+  template <typename Count>
+  void take_back(std::size_t i, Count count, Value& f, Value& velocity) const {
+    f = at(parts_.waiting->acting.data(), i, count);
+    velocity = at(parts_.waiting->velocity.data(), i, count);
+  }
+  /// Adds the works of the actions on s = v+ + v-; `momentum`: M s.
+  template <typename Count>
+  void add_works(std::size_t i, Count count, const Value& f, const Value& resisting, const Value& s,
+                 const Value& momentum, DofSums<Value>& sums) const {
+    if (!any) return;
+    if (parts_.filters != nullptr) sums.filtered += (f - resisting) * s;
+    if (parts_.extra_force != nullptr) sums.device += at(parts_.extra_force, i, count) * s;
+    if (parts_.known_step != nullptr) {
+      add_product(at(parts_.known_step, i, count), momentum, sums.known_work);
+    }
   }
 
  private:
-  const Parts parts_;
-  Filters<WideLanes> filters_{};
-  std::array<double*, max_filters> memory_{};
-  WideLanes filtered_work_;
-  WideLanes known_work_;
+  template <typename Count>
+  static Value at(const Number* numbers, std::size_t i, Count count) {
+    Value value;
+    load_first(numbers + i, count, value);
+    return value;
+  }
+
+  const ActionParts<Number> parts_;
+  Filters<Value> filters_{};
+  std::array<Number*, max_filters> memory_{};
 };
 
 }  // namespace pounding

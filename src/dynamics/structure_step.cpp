@@ -4,9 +4,7 @@
 #include <cstddef>
 
 #include "common/wide_lanes.h"
-#include "dynamics/state.h"
-#include "dynamics/step_policies.h"
-#include "dynamics/update.h"
+#include "dynamics/step_body.h"
 #include "system/load_shapes.h"
 #include "system/support_shapes.h"
 
@@ -24,218 +22,193 @@ bool directions_are(const LinearSystem& system, std::size_t dof, std::array<int,
   return true;
 }
 
+/// Adds the sums of one run to those of its lane.
+template <typename Number>
+void add_in_lane(const StepTotals<double>& from, std::size_t lane, StepTotals<Number>& to) {
+  const auto add = [lane](double part, Number& sum) {
+    set_lane(sum, lane, of_lane(sum, lane) + part);
+  };
+  add(from.dofs.stiffness_work, to.dofs.stiffness_work);
+  add(from.dofs.mass_sum, to.dofs.mass_sum);
+  add(from.dofs.filtered, to.dofs.filtered);
+  add(from.dofs.device, to.dofs.device);
+  add(from.dofs.known_work, to.dofs.known_work);
+  for (std::size_t d = 0; d < 3; ++d) add(from.momentum[d], to.momentum[d]);
+}
+
 }  // namespace
 
-struct StructureStep::VectorParts {
+template <typename Number>
+struct StructureStep<Number>::VectorParts {
   static constexpr std::size_t count = 3;  ///< vectors of a pattern
 
-  WideLanes known_work{};     ///< sum of known_step_ times M s
-  WideLanes filtered_work{};  ///< sum of (f - q) (v+ + v-)
+  StepTotals<WideLanes> totals;
   /// Patterns of nodes without and with rotations: h (a_g - g) iota, and the sums of M s.
   WideLanes ground[2][count]{};
   WideLanes momentum[2][count]{};
-  WideLanes influenced_momentum[3]{};  ///< iota_d^T M s of generalised coordinates
-  DofSums<WideLanes> sums;
-  DofEnergies<WideLanes> energies;
 };
 
-Filters<double> filters_of(const LinearSystem& system, double time_step) {
-  Filters<double> result{0, 1, {}};
-  if (system.uniform_damping) {
-    const double at_rest = system.uniform_damping->at_rest();
-    result.passing = at_rest;
-    for (const DampingFilter& filter : system.uniform_damping->filters) {
-      const double c = filter.rate * time_step / 2;
-      const double weight = at_rest * filter.weight;
-      result.passing += weight / (1 + c);
-      result.filters.at(result.count++) = {weight, (1 - c) / (1 + c), 2 * c / ((1 + c) * (1 + c))};
-    }
-    if (damped_about_rest(system)) result.filters.at(result.count++) = {-1, 1, 0};
-  }
-  return result;
-}
-
-void start_filters(const LinearSystem& system, double time_step, StructureState& state) {
-  if (!system.uniform_damping) return;
-  std::vector<double> force(state.displacement.size());
-  stiffness::StoredForces store(force.data());
-  system.stiffness->apply({state.displacement.data(), state.displacement.data(), 0}, store);
-  const Filters<double> filters = filters_of(system, time_step);
-  for (std::size_t k = 0; k < system.uniform_damping->filters.size(); ++k) {
-    const double share = 1 - filters.filters[k].newest();  // Z = W - t Q of W = Q
-    for (std::size_t i = 0; i < force.size(); ++i) state.filtered[k][i] = share * force[i];
-  }
-  const double kept = 1 - system.uniform_damping->at_rest();
-  const std::vector<double> held = rest_forces(system);
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    const double yielded = system.rest_law_force.empty() ? 0 : system.rest_law_force[i];
-    state.filtered.back()[i] = kept * (held[i] + yielded);
-  }
-}
-
-StructureStep::StructureStep(const LinearSystem& system, StructureState& state, double time_step)
-    : system_(system),
+template <typename Number>
+StructureStep<Number>::StructureStep(std::span<const LinearSystem* const> systems,
+                                     StateOf<Number>& state, double time_step, bool wait)
+    : system_(*systems.front()),
+      runs_(systems.size()),
       state_(state),
-      filters_(filters_of(system, time_step)),
-      forces_(system.lumped_mass.size()),
+      mass_(constants_of<Number>(systems, &LinearSystem::lumped_mass)),
+      inverse_mass_(constants_of<Number>(systems, &LinearSystem::inverse_mass)),
+      alpha_(number_of<Number>(systems, [](const auto& s) { return s.damping.alpha; })),
+      beta_(number_of<Number>(systems, [](const auto& s) { return s.damping.beta; })),
+      forces_(mass_.size()),
       vectors_(std::make_unique<VectorParts>()) {
-  terms_.time_step = time_step;
-  if (system.supports || system.loads) known_step_.assign(system.lumped_mass.size(), 0.0);
-  find_segments(dofs_of_extra_damping(system));
-  if (system.coupled_mass) coupled_ = std::make_unique<CoupledStep>(system, state, filters_);
-}
-
-StructureStep::StructureStep(StructureStep&& other) noexcept = default;
-StructureStep::~StructureStep() = default;
-
-double StructureStep::ground_step_at(std::size_t dof) const {
-  const double known = known_step_.empty() ? 0 : known_step_[dof];
-  if (system_.generalised) {
-    double step = known;
-    for (std::size_t d = 0; d < 3; ++d) {
-      add_product(ground_step_[d], system_.generalised->influence[d][dof], step);
-    }
-    return step;
+  terms_.time_step = Number{} + time_step;
+  filters_.passing = Number{} + 1.0;
+  for (std::size_t lane = 0; lane < systems.size(); ++lane) {
+    const LinearSystem& system = *systems[lane];
+    put_filters(filters_of(system, time_step), lane, filters_);
+    filters_forces_ = filters_forces_ || system.uniform_damping;
+    corrections_need_forces_ =
+        corrections_need_forces_ || system.uniform_damping || system.damping.beta != 0;
   }
-  const int direction = system_.direction[dof];
-  const double ground = direction < 0 ? 0 : ground_step_[direction];
-  return known_step_.empty() ? ground : ground + known;
-}
-
-double StructureStep::load_power() const {
-  double power = 0;
+  for (std::size_t d = 0; d < 3; ++d) {
+    gravity_[d] = number_of<Number>(systems, [d](const auto& s) { return s.gravity[d]; });
+    if (!system_.generalised) continue;
+    influence_[d] = constants_of<Number>(systems, [d](const auto& s) -> const std::vector<double>& {
+      return s.generalised->influence[d];
+    });
+  }
+  for (std::size_t c = 0; system_.supports && c < system_.supports->shape.size(); ++c) {
+    supports_.push_back(constants_of<Number>(
+        systems,
+        [c](const auto& s) -> const std::vector<double>& { return s.supports->shape[c]; }));
+  }
   for (std::size_t l = 0; system_.loads && l < system_.loads->loads.size(); ++l) {
     const LoadShape& shape = system_.loads->loads[l];
-    const double value = load_values_[shape.load];
+    loads_.push_back(
+        {shape.load, shape.dofs,
+         constants_of<Number>(
+             systems, [l](const auto& s) -> const auto& { return s.loads->loads[l].force; })});
+  }
+  if (system_.supports || system_.loads) known_step_.assign(mass_.size(), Number{});
+  find_segments(wait);
+}
+
+template <typename Number>
+StructureStep<Number>::StructureStep(StructureStep&& other) noexcept = default;
+template <typename Number>
+StructureStep<Number>::~StructureStep() = default;
+
+template <typename Number>
+Number StructureStep<Number>::load_power() const {
+  Number power{};
+  for (const Load& load : loads_) {
+    const double value = load_values_[load.number];
     if (value == 0) continue;
-    double product = 0;
-    for (std::size_t k = 0; k < shape.dofs.size(); ++k) {
-      product += shape.force[k] * state_.velocity[shape.dofs[k]];
+    Number product{};
+    for (std::size_t k = 0; k < load.dofs.size(); ++k) {
+      product += load.force[k] * state_.velocity[load.dofs[k]];
     }
-    power += value * product;
+    power += (Number{} + value) * product;
   }
   return power;
 }
 
-void StructureStep::add_momentum(std::size_t dof, double momentum) {
-  if (!known_step_.empty()) sums_.support_input -= known_step_[dof] * momentum / 2;
+template <typename Number>
+typename StructureStep<Number>::Segment StructureStep<Number>::segment_at(LocalIndex dof,
+                                                                          bool wait) const {
+  const auto first = static_cast<std::size_t>(dof);
+  std::size_t length = 1;
+  Segment segment{dof, dof, Order::directions, false, wait, node_mass_.size()};
   if (system_.generalised) {
-    for (std::size_t d = 0; d < 3; ++d) {
-      sums_.momentum[d] += system_.generalised->influence[d][dof] * momentum;
+    segment.order = Order::generalised;
+  } else if (std::is_same_v<Number, double> && directions_are(system_, first, {0, 1, 2})) {
+    const double* const mass = &system_.lumped_mass[first];
+    if (directions_are(system_, first + 3, {-1, -1, -1})) {
+      segment.order = Order::nodes_of_six;
+      length = 6;
+    } else if (mass[0] == mass[1] && mass[1] == mass[2]) {
+      segment.order = Order::translations;
+      length = 3;
     }
-  } else if (system_.direction[dof] >= 0) {
-    sums_.momentum[system_.direction[dof]] += momentum;
   }
+  if (system_.coupled_mass) segment.waits = wait || system_.coupled_mass->node_of(dof) >= 0;
+  for (std::size_t i = first; i < first + length && !system_.inelastic.empty(); ++i) {
+    segment.yields = segment.yields || system_.inelastic[i] != 0;
+  }
+  segment.end = static_cast<LocalIndex>(first + length);
+  return segment;
 }
 
-bool StructureStep::is_inelastic(std::size_t dof, std::size_t count) const {
-  if (system_.inelastic.empty()) return false;
-  const auto first = system_.inelastic.begin() + static_cast<std::ptrdiff_t>(dof);
-  return std::any_of(first, first + static_cast<std::ptrdiff_t>(count),
-                     [](char any) { return any != 0; });
-}
-
-StructureStep::Order StructureStep::order_at(std::size_t dof,
-                                             const std::vector<char>& acted_on) const {
-  const auto acts = [&](std::size_t from, std::size_t count) {
-    return std::any_of(acted_on.begin() + static_cast<std::ptrdiff_t>(from),
-                       acted_on.begin() + static_cast<std::ptrdiff_t>(from + count),
-                       [](char any) { return any != 0; });
-  };
-  if (system_.coupled_mass && system_.coupled_mass->node_of(static_cast<LocalIndex>(dof)) >= 0) {
-    return Order::coupled;
-  }
-  if (acts(dof, 1)) return Order::none;
-  if (system_.generalised) return Order::generalised;
-  if (!directions_are(system_, dof, {0, 1, 2}) || acts(dof, 3)) return Order::none;
-  if (directions_are(system_, dof + 3, {-1, -1, -1})) {
-    return acts(dof, 6) ? Order::none : Order::nodes_of_six;
-  }
-  const double* const mass = &system_.lumped_mass[dof];
-  return mass[0] == mass[1] && mass[1] == mass[2] ? Order::translations : Order::none;
-}
-
-/// Dofs from `dof` on that are of one order for sure.
-std::size_t StructureStep::length_at(std::size_t dof, Order order) const {
-  switch (order) {
-    case Order::translations:
-      return 3;
-    case Order::nodes_of_six:
-      return 6;
-    case Order::coupled: {
-      const int node = system_.coupled_mass->node_of(static_cast<LocalIndex>(dof));
-      return static_cast<std::size_t>(system_.coupled_mass->nodes()[node].count);
+template <typename Number>
+void StructureStep<Number>::find_segments(bool wait) {
+  const auto dofs = static_cast<LocalIndex>(mass_.size());
+  for (LocalIndex dof = 0; dof < dofs; dof = segments_.back().end) {
+    const Segment next = segment_at(dof, wait);
+    if (segments_.empty() || !segments_.back().goes_on(next)) {
+      segments_.push_back(next);
+    } else {
+      segments_.back().end = next.end;
     }
-    default:
-      return 1;
-  }
-}
-
-void StructureStep::find_segments(const std::vector<char>& acted_on) {
-  const std::size_t dofs = system_.lumped_mass.size();
-  std::size_t coupled = 0;
-  for (std::size_t dof = 0; dof < dofs;) {
-    const Order order = order_at(dof, acted_on);
-    const std::size_t length = length_at(dof, order);
-    const bool yields = is_inelastic(dof, length);
-    if (segments_.empty() || segments_.back().order != order || segments_.back().yields != yields) {
-      const auto begin = static_cast<LocalIndex>(dof);
-      segments_.push_back({begin, begin, order, yields, node_mass_.size(), coupled});
-    }
-    if (order == Order::translations) {
+    if (next.order == Order::translations) {
       node_mass_.push_back(system_.lumped_mass[dof]);
       node_inverse_mass_.push_back(system_.inverse_mass[dof]);
     }
-    coupled += order == Order::coupled ? length : 0;
-    dof += length;
-    segments_.back().end = static_cast<LocalIndex>(dof);
   }
   node_mass_.resize(node_mass_.size() + most_lanes, 0.0);  // whole vectors are read
   node_inverse_mass_.resize(node_mass_.size(), 0.0);
+  if (std::ranges::none_of(segments_, &Segment::waits)) return;
+  const std::vector<Number> zeros(mass_.size(), Number{});
+  waiting_ = {zeros, zeros, zeros};
+  if (system_.coupled_mass) field_.resize(system_.coupled_mass->field_size());
 }
 
-void StructureStep::watch(std::span<const LocalIndex> dofs, bool always) {
+template <typename Number>
+void StructureStep<Number>::watch(std::span<const LocalIndex> dofs, bool always) {
   forces_.watch(dofs);
-  const bool needed = system_.damping.beta != 0 || system_.uniform_damping;
-  always_keeps_ = always_keeps_ || (always && needed);
+  always_keeps_ = always_keeps_ || (always && corrections_need_forces_);
 }
 
-void StructureStep::begin(double duration, const std::array<double, 3>& ground_acceleration,
-                          const StepRequest& request, std::span<const double> supports,
-                          std::span<const double> loads) {
-  terms_ = {terms_.time_step, duration, 1 - duration * system_.damping.alpha, system_.damping.beta};
+template <typename Number>
+void StructureStep<Number>::begin(double duration, const std::array<Number, 3>& ground_acceleration,
+                                  const StepRequest<Number>& request,
+                                  std::span<const double> supports, std::span<const double> loads) {
+  const Number h = Number{} + duration;
+  terms_ = {terms_.time_step, h, Number{} + 1.0 - h * alpha_, beta_, h * alpha_};
   stiffness_velocity_ = request.stiffness_velocity;
   keeps_ = (request.forces || always_keeps_) && !forces_.none();
-  for (std::size_t d = 0; d < 3; ++d) {
-    ground_step_[d] = duration * (ground_acceleration[d] - system_.gravity[d]);
-  }
+  totals_ = {};
   *vectors_ = {};
-  for (std::size_t l = 0; l < pattern; ++l) {
-    vectors_->ground[0][l / lanes][l % lanes] = ground_step_[l % 3];
-    vectors_->ground[1][l / lanes][l % lanes] = l % 6 < 3 ? ground_step_[l % 3] : 0;
-  }
-  std::fill(known_step_.begin(), known_step_.end(), 0.0);
-  for (std::size_t c = 0; system_.supports && c < supports.size(); ++c) {
-    const std::vector<double>& shape = system_.supports->shape[c];
-    const double step = duration * supports[c];
-    for (std::size_t i = 0; i < shape.size(); ++i) known_step_[i] += step * shape[i];
-  }
-  load_values_ = loads;
-  for (std::size_t l = 0; system_.loads && l < system_.loads->loads.size(); ++l) {
-    const LoadShape& shape = system_.loads->loads[l];
-    const double step = duration * load_values_[shape.load];
-    for (std::size_t k = 0; k < shape.dofs.size(); ++k) {
-      const auto i = static_cast<std::size_t>(shape.dofs[k]);
-      known_step_[i] -= step * shape.force[k] * system_.inverse_mass[i];
+  for (std::size_t d = 0; d < 3; ++d) {
+    ground_step_[d] = h * (ground_acceleration[d] - gravity_[d]);
+    shaken_[d] = false;
+    for (std::size_t lane = 0; lane < runs_; ++lane) {
+      shaken_[d] = shaken_[d] || of_lane(ground_step_[d], lane) != 0;
     }
   }
-  dof_sums_ = {};
-  dof_energies_ = {};
-  sums_ = {};
-  sums_.load = load_power();
+  if constexpr (std::is_same_v<Number, double>) {
+    for (std::size_t l = 0; l < pattern; ++l) {
+      vectors_->ground[0][l / lanes][l % lanes] = ground_step_[l % 3];
+      vectors_->ground[1][l / lanes][l % lanes] = l % 6 < 3 ? ground_step_[l % 3] : 0;
+    }
+  }
+  std::fill(known_step_.begin(), known_step_.end(), Number{});
+  for (std::size_t c = 0; c < supports_.size() && c < supports.size(); ++c) {
+    const Number step = h * (Number{} + supports[c]);
+    for (std::size_t i = 0; i < supports_[c].size(); ++i) known_step_[i] += step * supports_[c][i];
+  }
+  load_values_ = loads;
+  for (const Load& load : loads_) {
+    const Number step = h * (Number{} + load_values_[load.number]);
+    for (std::size_t k = 0; k < load.dofs.size(); ++k) {
+      const auto i = static_cast<std::size_t>(load.dofs[k]);
+      known_step_[i] = known_step_[i] - step * load.force[k] * inverse_mass_[i];
+    }
+  }
+  load_before_ = load_power();
+  added_kinetic_before_ = 0;
 }
 
-void StructureStep::receive(LocalIndex begin, LocalIndex end, const double* force) {
+template <typename Number>
+void StructureStep<Number>::receive(LocalIndex begin, LocalIndex end, const Number* force) {
   if (keeps_) {
     forces_.take(begin, end, force, state_.inelastic_force, filters_, state_.filtered);
   }
@@ -243,216 +216,175 @@ void StructureStep::receive(LocalIndex begin, LocalIndex end, const double* forc
                                   [](LocalIndex dof, const Segment& s) { return dof < s.end; });
   for (LocalIndex dof = begin; dof < end; ++segment) {
     const LocalIndex stop = std::min(end, segment->end);
-    const double* const from = force + (dof - begin);
-    advance(*segment, dof, stop, from);
+    advance(*segment, dof, stop, force + (dof - begin), false);
     dof = stop;
   }
 }
 
-void StructureStep::add_energies_before(std::size_t first, std::size_t end, const double* force) {
-  const StepTerms<WideLanes> terms = in_lanes<WideLanes>(terms_);
-  const auto add_vector = [&](std::size_t i, const double* from, auto count) {
-    WideLanes q, mass, rate;
-    DofState<WideLanes> dof;
-    load_first(from, count, q);
-    load_first(&system_.lumped_mass[i], count, mass);
-    load_first(stiffness_velocity_ + i, count, rate);
-    load_first(&state_.displacement[i], count, dof.displacement);
-    load_first(&state_.velocity[i], count, dof.velocity);
-    add_energies(terms, mass, q, rate, dof, vectors_->energies);
-  };
-  std::size_t i = first;
-  for (; i + lanes <= end; i += lanes, force += lanes) add_vector(i, force, AllLanes());
-  if (i < end) add_vector(i, force, end - i);
-}
-
-template <typename Others, typename Masses, typename Ground>
-void StructureStep::advance_vectors(std::size_t first, std::size_t end, const double* force,
-                                    Others& others, Masses masses, Ground& ground) {
-  double* const displacement = state_.displacement.data();
-  double* const velocity = state_.velocity.data();
-  const StepTerms<WideLanes> terms = in_lanes<WideLanes>(terms_);
-  DofSums<WideLanes> sums = vectors_->sums;
-  const auto advance_vector = [&]<int k>(std::size_t i, const double* from, auto count)
-      __attribute__((always_inline)) {
-    WideLanes q, mass, inverse_mass;
-    DofState<WideLanes> dof;
-    load_first(from, count, q);
-    load_first(displacement + i, count, dof.displacement);
-    load_first(velocity + i, count, dof.velocity);
-    masses.template at<k>(count, mass, inverse_mass);
-    const WideLanes before = dof.velocity;
-    const WideLanes resisting = others.resisting(i, count, q);
-    const WideLanes f = others.filtered(i, count, resisting);
-    WideLanes step = ground.template step<k>(i, count);
-    others.add_known_step(i, count, step);
-    const WideLanes free = free_velocity(terms, before, f, inverse_mass, step);
-    others.add_filtered_work(f, resisting, free + before);
-    const WideLanes momentum = settle(terms, q, free, mass, dof, sums);
-    others.add_known_work(i, count, momentum);
-    ground.template add<k>(i, count, momentum);
-    store_first(dof.velocity, count, velocity + i);
-    store_first(dof.displacement, count, displacement + i);
-  };
-  constexpr AllLanes all;
-  std::size_t i = first, number = 0;
-  for (; i + pattern <= end; i += pattern, force += pattern, ++number) {
-    masses.begin_pattern(number);
-    advance_vector.template operator()<0>(i, force, all);
-    advance_vector.template operator()<1>(i + lanes, force + lanes, all);
-    advance_vector.template operator()<2>(i + 2 * lanes, force + 2 * lanes, all);
-  }
-  masses.begin_pattern(number);
-  const auto advance_last = [&]<int k>() __attribute__((always_inline)) {
-    const std::size_t begin = i + k * lanes;
-    if (begin + lanes <= end) {
-      advance_vector.template operator()<k>(begin, force + k * lanes, all);
-    } else if (begin < end) {
-      advance_vector.template operator()<k>(begin, force + k * lanes, end - begin);
-    }
-  };
-  advance_last.template operator()<0>();
-  advance_last.template operator()<1>();
-  advance_last.template operator()<2>();
-  vectors_->sums = sums;
-}
-
-void StructureStep::advance_dofs(std::size_t first, std::size_t end, const double* force) {
-  for (std::size_t i = first; i < end; ++i, ++force) {
-    DofState<double> dof{state_.displacement[i], state_.velocity[i]};
-    const double mass = system_.lumped_mass[i];
-    const double before = dof.velocity;
-    if (stiffness_velocity_ != nullptr) {
-      add_energies(terms_, mass, *force, stiffness_velocity_[i], dof, dof_energies_);
-    }
-    const double q = state_.inelastic_force.empty() ? *force : *force + state_.inelastic_force[i];
-    double f = q;
-    if (system_.uniform_damping) {
-      f *= filters_.passing;
-      for (std::size_t k = 0; k < filters_.count; ++k) {
-        pass_filter(filters_.filters[k], q, state_.filtered[k][i], f);
-      }
-    }
-    double after = free_velocity(terms_, before, f, system_.inverse_mass[i], ground_step_at(i));
-    if (!state_.extra_force.empty()) {
-      subtract_product(terms_.duration, system_.inverse_mass[i] * state_.extra_force[i], after);
-      sums_.device += state_.extra_force[i] * (after + before);
-    }
-    dof_sums_.filtered += (f - q) * (after + before);
-    add_momentum(i, settle(terms_, *force, after, mass, dof, dof_sums_));
-    state_.displacement[i] = dof.displacement;
-    state_.velocity[i] = dof.velocity;
-  }
-}
-
-void StructureStep::advance(const Segment& segment, LocalIndex begin, LocalIndex end,
-                            const double* force) {
-  const auto offset = static_cast<std::size_t>(begin - segment.begin);
-  if (segment.order == Order::coupled) {
-    coupled_->keep(segment.first_coupled + offset, static_cast<std::size_t>(end - begin), force);
-    return;
-  }
-  if (segment.order == Order::none) {
-    advance_dofs(static_cast<std::size_t>(begin), static_cast<std::size_t>(end), force);
-    return;
-  }
-  if (stiffness_velocity_ != nullptr) {
-    add_energies_before(static_cast<std::size_t>(begin), static_cast<std::size_t>(end), force);
-  }
-  if (segment.yields || system_.uniform_damping || !known_step_.empty()) {
-    OtherActions others({segment.yields ? state_.inelastic_force.data() : nullptr,
-                         system_.uniform_damping ? &filters_ : nullptr, &state_.filtered,
-                         known_step_.empty() ? nullptr : known_step_.data(),
-                         &vectors_->filtered_work, &vectors_->known_work});
-    advance_in_order(segment, begin, end, force, others);
+template <typename Number>
+void StructureStep<Number>::advance(const Segment& segment, LocalIndex begin, LocalIndex end,
+                                    const Number* force, bool settles) {
+  const ActionParts<Number> parts{
+      .inelastic_force = segment.yields ? state_.inelastic_force.data() : nullptr,
+      .extra_force = state_.extra_force.empty() ? nullptr : state_.extra_force.data(),
+      .known_step = known_step_.empty() ? nullptr : known_step_.data(),
+      .stiffness_velocity = stiffness_velocity_,
+      .filters = filters_forces_ ? &filters_ : nullptr,
+      .memories = &state_.filtered,
+      .waiting = segment.waits ? &waiting_ : nullptr,
+      .settles = settles};
+  if (parts.any()) {
+    advance_in_order<true>(segment, begin, end, force, parts);
   } else {
-    NothingElse others;
-    advance_in_order(segment, begin, end, force, others);
+    advance_in_order<false>(segment, begin, end, force, parts);
   }
 }
 
-template <typename Others>
-void StructureStep::advance_in_order(const Segment& segment, LocalIndex begin, LocalIndex end,
-                                     const double* force, Others& others) {
+template <typename Number>
+template <bool any>
+void StructureStep<Number>::advance_in_order(const Segment& segment, LocalIndex begin,
+                                             LocalIndex end, const Number* force,
+                                             const ActionParts<Number>& parts) {
+  constexpr bool vectors = std::is_same_v<Number, double>;
+  using Value = std::conditional_t<vectors, WideLanes, Number>;
   const std::size_t first = begin;
   const std::size_t stop = end;
-  const DofMasses dof_masses(&system_.lumped_mass[first], &system_.inverse_mass[first]);
-  if (segment.order == Order::translations) {
-    const std::size_t node =
-        segment.first_node + (first - static_cast<std::size_t>(segment.begin)) / 3;
-    PatternGround ground(vectors_->ground[0], vectors_->momentum[0]);
-    advance_vectors(first, stop, force, others,
-                    NodeMasses(&node_mass_[node], &node_inverse_mass_[node]), ground);
-  } else if (segment.order == Order::nodes_of_six) {
-    PatternGround ground(vectors_->ground[1], vectors_->momentum[1]);
-    advance_vectors(first, stop, force, others, dof_masses, ground);
-  } else {
-    InfluenceGround ground(*system_.generalised, ground_step_, vectors_->influenced_momentum);
-    advance_vectors(first, stop, force, others, dof_masses, ground);
+  const DofMasses<Number> masses{mass_.data(), inverse_mass_.data()};
+  if (segment.order == Order::directions) {
+    const Actions<Number, Number, any> others(parts);
+    DirectionGround<Number> ground{system_.direction.data(), ground_step_, totals_.momentum};
+    return advance_values(state_, terms_, first, stop, force, others, masses, ground, totals_);
   }
-}
-
-void StructureStep::complete() {
-  if (coupled_) {
-    coupled_->advance(terms_, ground_step_, known_step_, stiffness_velocity_, dof_sums_,
-                      dof_energies_, sums_);
+  const Actions<Value, Number, any> others(parts);
+  if (segment.order == Order::generalised) {
+    StepTotals<Value>& totals = [this]() -> auto& {
+      if constexpr (vectors) return vectors_->totals;
+      if constexpr (!vectors) return totals_;
+    }
+    ();
+    InfluenceGround<Value, Number> ground(influence_, ground_step_, shaken_, totals.momentum);
+    return advance_values(state_, terms_, first, stop, force, others, masses, ground, totals);
   }
-}
-
-void StructureStep::act(std::span<const LocalIndex> dofs, std::span<const double> force,
-                        bool from_rest) {
-  // The filter that holds the force at rest has it from the start.
-  const std::size_t filters =
-      from_rest && system_.uniform_damping ? system_.uniform_damping->filters.size() : 0;
-  for (std::size_t k = 0; k < dofs.size(); ++k) {
-    const std::size_t i = dofs[k];
-    state_.inelastic_force[i] = force[k];
-    for (std::size_t f = 0; f < filters; ++f) {
-      state_.filtered[f][i] += (1 - filters_.filters[f].newest()) * force[k];
+  if constexpr (vectors) {
+    const bool turns = segment.order == Order::nodes_of_six;
+    PatternGround ground(vectors_->ground[turns], vectors_->momentum[turns]);
+    if (turns) {
+      advance_values(state_, terms_, first, stop, force, others, masses, ground, vectors_->totals);
+    } else {
+      const std::size_t node =
+          segment.first_node + (first - static_cast<std::size_t>(segment.begin)) / 3;
+      const NodeMasses of_nodes(&node_mass_[node], &node_inverse_mass_[node]);
+      advance_values(state_, terms_, first, stop, force, others, of_nodes, ground,
+                     vectors_->totals);
     }
   }
 }
 
-void StructureStep::remember(std::span<const LocalIndex> dofs, interactions::Before& before) const {
-  for (std::size_t k = 0; k < dofs.size(); ++k) {
-    const std::size_t i = dofs[k];
-    before.displacement[k] = state_.displacement[i];
-    before.velocity[k] = state_.velocity[i];
+template <typename Number>
+void StructureStep<Number>::complete() {
+  if (waiting_.velocity.empty()) return;
+  if constexpr (std::is_same_v<Number, double>) {
+    const CoupledMass& mass = *system_.coupled_mass;
+    if (stiffness_velocity_ != nullptr) {
+      added_kinetic_before_ = mass.added_product(state_.velocity.data());
+    }
+    mass.take(waiting_.velocity.data(), field_.data());
+    mass.solve(field_.data());
+    mass.put(field_.data(), waiting_.velocity.data());
+    for (const NodeDofs& node : mass.nodes()) {
+      for (LocalIndex i = node.begin; i < node.begin + node.count; ++i) {
+        waiting_.velocity[i] += state_.velocity[i];
+      }
+    }
+  }
+  for (const Segment& segment : segments_) {
+    if (!segment.waits) continue;
+    advance(segment, segment.begin, segment.end, &waiting_.stiffness[segment.begin], true);
   }
 }
 
-void StructureStep::correct(std::span<const LocalIndex> dofs, const interactions::Before& before,
-                            std::span<const double> velocity) {
+template <typename Number>
+void StructureStep<Number>::act(std::size_t lane, std::span<const LocalIndex> dofs,
+                                std::span<const double> force, bool from_rest) {
+  for (std::size_t k = 0; k < dofs.size(); ++k) {
+    const std::size_t i = dofs[k];
+    set_lane(state_.inelastic_force[i], lane, force[k]);
+    for (std::size_t f = 0; from_rest && f < filters_.count; ++f) {
+      // The filter that holds the force at rest, which takes nothing, has it from the start.
+      const auto& filter = filters_.filters[f];
+      if (of_lane(filter.take, lane) == 0) continue;
+      Number& memory = state_.filtered[f][i];
+      const double newest = (1 - of_lane(filter.keep, lane)) / 2;
+      set_lane(memory, lane, of_lane(memory, lane) + (1 - newest) * force[k]);
+    }
+  }
+}
+
+template <typename Number>
+void StructureStep<Number>::remember(std::size_t lane, std::span<const LocalIndex> dofs,
+                                     interactions::Before& before) const {
+  for (std::size_t k = 0; k < dofs.size(); ++k) {
+    const std::size_t i = dofs[k];
+    before.displacement[k] = of_lane(state_.displacement[i], lane);
+    before.velocity[k] = of_lane(state_.velocity[i], lane);
+  }
+}
+
+template <typename Number>
+void StructureStep<Number>::correct(std::size_t lane, std::span<const LocalIndex> dofs,
+                                    const interactions::Before& before,
+                                    std::span<const double> velocity) {
+  const StepTerms<double> terms{of_lane(terms_.time_step, lane), of_lane(terms_.duration, lane),
+                                of_lane(terms_.decay, lane), of_lane(terms_.beta, lane),
+                                of_lane(terms_.drag, lane)};
+  StepTotals<double> change;
   for (std::size_t k = 0; k < dofs.size(); ++k) {
     const std::size_t i = dofs[k];
     const DofState<double> old{before.displacement[k], before.velocity[k]};
-    DofState<double> dof{state_.displacement[i], state_.velocity[i]};
-    const DofForces forces = keeps_ ? forces_.at(dofs[k]) : DofForces{};
-    if (!state_.extra_force.empty()) {
-      sums_.device += state_.extra_force[i] * (velocity[k] - dof.velocity);
+    DofState<double> dof{of_lane(state_.displacement[i], lane), of_lane(state_.velocity[i], lane)};
+    DofForces<double> forces;
+    if (keeps_) {
+      const DofForces<Number>& kept = forces_.at(dofs[k]);
+      forces = {of_lane(kept.stiffness, lane), of_lane(kept.acting, lane)};
     }
-    add_momentum(
-        i, correct_dof(terms_, system_.lumped_mass[i], old, velocity[k], forces, dof, dof_sums_));
-    state_.velocity[i] = dof.velocity;
-    state_.displacement[i] = dof.displacement;
+    if (!state_.extra_force.empty()) {
+      change.dofs.device += of_lane(state_.extra_force[i], lane) * (velocity[k] - dof.velocity);
+    }
+    const double gained =
+        correct_dof(terms, of_lane(mass_[i], lane), old, velocity[k], forces, dof, change.dofs);
+    if (!known_step_.empty()) change.dofs.known_work += of_lane(known_step_[i], lane) * gained;
+    if (system_.generalised) {
+      for (std::size_t d = 0; d < 3; ++d) {
+        change.momentum[d] += of_lane(influence_[d][i], lane) * gained;
+      }
+    } else if (system_.direction[i] >= 0) {
+      change.momentum[system_.direction[i]] += gained;
+    }
+    set_lane(state_.velocity[i], lane, dof.velocity);
+    set_lane(state_.displacement[i], lane, dof.displacement);
   }
+  add_in_lane(change, lane, totals_);
 }
 
-StepSums StructureStep::sums() const {
-  StepSums total = sums_;
-  add_to(dof_sums_, total);
-  add_to(vectors_->sums, total);
-  total.filtered += add_up(vectors_->filtered_work);
-  add_to(dof_energies_, total);
-  add_to(vectors_->energies, total);
-  for (std::size_t l = 0; l < pattern; ++l) {
-    total.momentum[l % 3] += vectors_->momentum[0][l / lanes][l % lanes];
-    if (l % 6 < 3) total.momentum[l % 3] += vectors_->momentum[1][l / lanes][l % lanes];
+template <typename Number>
+StepSums StructureStep<Number>::sums(std::size_t lane) const {
+  StepSums total;
+  add_to(
+      totals_, [lane](const Number& value) { return of_lane(value, lane); }, total);
+  if constexpr (std::is_same_v<Number, double>) {
+    add_to(
+        vectors_->totals, [](const WideLanes& value) { return add_up(value); }, total);
+    for (std::size_t l = 0; l < pattern; ++l) {
+      total.momentum[l % 3] += vectors_->momentum[0][l / lanes][l % lanes];
+      if (l % 6 < 3) total.momentum[l % 3] += vectors_->momentum[1][l / lanes][l % lanes];
+    }
   }
-  for (std::size_t d = 0; d < 3; ++d) total.momentum[d] += add_up(vectors_->influenced_momentum[d]);
-  total.support_input -= add_up(vectors_->known_work) / 2;
-  total.load += load_power();
+  total.added_kinetic_before = added_kinetic_before_;
+  total.load = of_lane(load_before_ + load_power(), lane);
   return total;
 }
+
+template class StructureStep<double>;
+template class StructureStep<Octet>;
 
 }  // namespace pounding

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
-#include "dynamics/coupled_step.h"
+#include "common/octet.h"
+#include "dynamics/damping_filters.h"
 #include "dynamics/kept_forces.h"
 #include "dynamics/state.h"
 #include "dynamics/update.h"
@@ -14,119 +17,198 @@
 
 namespace pounding {
 
-/// Numbers of the filters of a system's uniform damping; none without.
-Filters<double> filters_of(const LinearSystem& system, double time_step);
+/// Numbers of a structure's dofs that stay as they are: those of its system itself, or of eight
+/// systems side by side.
+template <typename Number>
+using Constants = std::conditional_t<std::is_same_v<Number, double>, std::span<const double>,
+                                     std::vector<Number>>;
 
-/// Memories of the filters of a structure that has stood at u_0 for ever: W_i = K u_0. Collective
-/// over the system's communicator.
-void start_filters(const LinearSystem& system, double time_step, StructureState& state);
+/// Constants out of one system or of up to eight; `get`: those of a system.
+template <typename Number, typename Get>
+Constants<Number> constants_of(std::span<const LinearSystem* const> systems, const Get& get) {
+  if constexpr (std::is_same_v<Number, double>) {
+    return std::invoke(get, *systems.front());
+  } else {
+    std::vector<Number> all;
+    for (std::size_t lane = 0; lane < systems.size(); ++lane) {
+      const std::vector<double>& values = std::invoke(get, *systems[lane]);
+      all.resize(values.size(), Number{});
+      for (std::size_t i = 0; i < values.size(); ++i) set_lane(all[i], lane, values[i]);
+    }
+    return all;
+  }
+}
+
+/// One number of each of them likewise.
+template <typename Number, typename Get>
+Number number_of(std::span<const LinearSystem* const> systems, const Get& get) {
+  Number number{};
+  for (std::size_t lane = 0; lane < systems.size(); ++lane) {
+    set_lane(number, lane, get(*systems[lane]));
+  }
+  return number;
+}
+
+template <typename Number>
+struct ActionParts;
 
 /// Wishes for a step beside the motion.
+template <typename Number>
 struct StepRequest {
   /// K v- of the owned dofs [N/s, N m/s], where the energies before the step are asked for; else
   /// null.
-  const double* stiffness_velocity = nullptr;
+  const Number* stiffness_velocity = nullptr;
   bool forces = false;  ///< at the dofs that are watched
 };
 
 /// Takes the forces q = K (u_n + beta v-) of a structure range by range and brings the state there
 /// one step on (update.h) while the range is in the nearest cache; the sums for the energy balance
-/// are taken on the way. Dofs whose mass is coupled wait for `complete`. v+ is free of contact
-/// until `correct` is called.
-class StructureStep final : public stiffness::ForceReceiver, public interactions::SteppedStructure {
+/// are taken on the way. Dofs whose mass is coupled wait for `complete`:
+///
+///     v+ = v- - h (M + S)^-1 ( f + x + alpha M v- + M iota (a_g - g) )
+///
+/// v+ is free of contact until `correct` is called.
+///
+/// `Number`: double for one run; Octet for up to eight of the same structure, which may differ in
+/// mass, stiffness, damping and ground motion, lane by lane. A step allocates nothing.
+template <typename Number>
+class StructureStep final : public stiffness::ReceiverOf<Number> {
  public:
-  /// References must outlive this object.
-  StructureStep(const LinearSystem& system, StructureState& state, double time_step);
+  /// References must outlive this object. `systems`: of each run; their loads and supports are
+  /// alike. `wait`: all dofs wait until their velocities are found together.
+  StructureStep(std::span<const LinearSystem* const> systems, StateOf<Number>& state,
+                double time_step, bool wait = false);
   StructureStep(StructureStep&& other) noexcept;
   ~StructureStep() override;
 
-  const std::vector<double>& displacement() const override { return state_.displacement; }
-  const std::vector<double>& velocity() const override { return state_.velocity; }
+  /// Filters of uniform damping, the most of any run.
+  std::size_t filters() const { return filters_.count; }
   /// Dofs whose forces a step can be asked for, and whose velocity `correct` may change. Allocates;
   /// before the first step. `always`: they are kept in every step in which a correction needs them.
-  void watch(std::span<const LocalIndex> dofs, bool always) override;
+  void watch(std::span<const LocalIndex> dofs, bool always);
   /// `duration`: of the velocity's step [s]; `supports`: r_c'' of every column of SupportShapes
   /// [m/s2, rad/s2]; `loads`: f of every load of the scene (LoadShapes), until `sums`.
-  void begin(double duration, const std::array<double, 3>& ground_acceleration,
-             const StepRequest& request, std::span<const double> supports = {},
+  void begin(double duration, const std::array<Number, 3>& ground_acceleration,
+             const StepRequest<Number>& request, std::span<const double> supports = {},
              std::span<const double> loads = {});
-  void receive(LocalIndex begin, LocalIndex end, const double* force) override;
+  void receive(LocalIndex begin, LocalIndex end, const Number* force) override;
+  /// v_free of dofs that wait, between the last range and `complete`.
+  std::span<Number> waiting() { return waiting_.velocity; }
   /// After every range of the step.
   void complete();
-  void act(std::span<const LocalIndex> dofs, std::span<const double> force,
-           bool from_rest) override;
-  void remember(std::span<const LocalIndex> dofs, interactions::Before& before) const override;
   /// Forces of this step at the watched dofs, where they were asked for.
-  const KeptForces& forces() const { return forces_; }
-  /// v+ = `velocity` at these dofs; sums and displacement follow. The dofs are watched, and their
-  /// forces were asked for.
-  void correct(std::span<const LocalIndex> dofs, const interactions::Before& before,
-               std::span<const double> velocity) override;
+  const KeptForces<Number>& forces() const { return forces_; }
+
+  /// See SteppedStructure; of the run in a lane.
+  void act(std::size_t lane, std::span<const LocalIndex> dofs, std::span<const double> force,
+           bool from_rest);
+  void remember(std::size_t lane, std::span<const LocalIndex> dofs,
+                interactions::Before& before) const;
+  void correct(std::size_t lane, std::span<const LocalIndex> dofs,
+               const interactions::Before& before, std::span<const double> velocity);
   /// Sums of the whole step.
-  StepSums sums() const;
+  StepSums sums(std::size_t lane) const;
 
  private:
   /// Terms and sums of whole vectors of dofs, as wide as those of the unit.
   struct VectorParts;
 
-  /// Dofs whose directions repeat: x y z of one mass, or x y z and three rotations; generalised
-  /// coordinates; dofs of coupled mass; or in no order, as where extra damping acts.
-  enum class Order { translations, nodes_of_six, generalised, coupled, none };
+  /// How the ground acts on dofs: x y z of one mass, or x y z and three rotations; generalised
+  /// coordinates; or each by its direction.
+  enum class Order { translations, nodes_of_six, generalised, directions };
   struct Segment {
     LocalIndex begin = 0;
     LocalIndex end = 0;
-    Order order = Order::none;
-    bool yields = false;            ///< forces of inelastic elements act there
-    std::size_t first_node = 0;     ///< of translations, into node_mass_
-    std::size_t first_coupled = 0;  ///< of coupled dofs, their number among all of them
+    Order order = Order::directions;
+    bool yields = false;         ///< forces of inelastic elements act there
+    bool waits = false;          ///< for the velocities of all that wait
+    std::size_t first_node = 0;  ///< of translations, into node_mass_
+
+    bool goes_on(const Segment& next) const {
+      return order == next.order && yields == next.yields && waits == next.waits;
+    }
   };
 
-  void find_segments(const std::vector<char>& acted_on);
-  /// Whether a law of inelastic elements may act on one of these dofs.
-  bool is_inelastic(std::size_t dof, std::size_t count) const;
-  Order order_at(std::size_t dof, const std::vector<char>& acted_on) const;
-  std::size_t length_at(std::size_t dof, Order order) const;
-  /// Brings dofs of one segment on, or keeps their forces where their mass is coupled.
-  void advance(const Segment& segment, LocalIndex begin, LocalIndex end, const double* force);
-  /// Dofs of an order other than coupled and none; `others`: OtherActions or NothingElse.
-  template <typename Others>
-  void advance_in_order(const Segment& segment, LocalIndex begin, LocalIndex end,
-                        const double* force, Others& others);
-  /// Dofs by vectors: policies give their masses, the effect of the ground, and other actions.
-  template <typename Others, typename Masses, typename Ground>
-  void advance_vectors(std::size_t first, std::size_t end, const double* force, Others& others,
-                       Masses masses, Ground& ground);
-  /// Adds the energies before the step, by vectors.
-  void add_energies_before(std::size_t first, std::size_t end, const double* force);
-  /// Dofs one by one.
-  void advance_dofs(std::size_t first, std::size_t end, const double* force);
-  /// h ((a_g - g) iota + sum_c iota_c r_c'' - M^-1 sum_l f_l p_l) of a dof.
-  double ground_step_at(std::size_t dof) const;
-  /// Adds to iota_d^T M s, and to the work of supports and loads, M s at a dof.
-  void add_momentum(std::size_t dof, double momentum);
-  /// sum_l f_l p_l^T v of the velocities as they are [W].
-  double load_power() const;
+  struct Load {
+    std::size_t number = 0;  ///< in the scene
+    std::span<const LocalIndex> dofs;
+    Constants<Number> force;
+  };
 
-  const LinearSystem& system_;
-  StructureState& state_;
+  void find_segments(bool wait);
+  /// The segment of dofs from `dof` on, as long as they are of its kind for sure.
+  Segment segment_at(LocalIndex dof, bool wait) const;
+  /// Brings dofs of one segment on; `settles`: those that waited.
+  void advance(const Segment& segment, LocalIndex begin, LocalIndex end, const Number* force,
+               bool settles);
+  template <bool any>
+  void advance_in_order(const Segment& segment, LocalIndex begin, LocalIndex end,
+                        const Number* force, const ActionParts<Number>& parts);
+  /// sum_l f_l p_l^T v of the velocities as they are [W].
+  Number load_power() const;
+
+  const LinearSystem& system_;  ///< of the first run
+  std::size_t runs_;
+  StateOf<Number>& state_;
+  Constants<Number> mass_;
+  Constants<Number> inverse_mass_;
+  std::array<Constants<Number>, 3> influence_;  ///< of generalised coordinates
+  std::array<Number, 3> gravity_{};
+  Number alpha_;
+  Number beta_;
+  bool filters_forces_ = false;  ///< in one run at least
+  Filters<Number> filters_{};    ///< none without uniform damping
+  std::vector<Constants<Number>> supports_;
+  std::vector<Load> loads_;
   std::vector<Segment> segments_;
   std::vector<double> node_mass_;  ///< per node of translations: a third of the memory
   std::vector<double> node_inverse_mass_;
-  std::unique_ptr<CoupledStep> coupled_;  ///< null if no mass is coupled here
-  StepTerms<double> terms_{};
-  Filters<double> filters_{};  ///< none without uniform damping
-  KeptForces forces_;
+  WaitingDofs<Number> waiting_;  ///< empty if none waits
+  std::vector<double> field_;    ///< impulses on a coupled mass, then changes of velocity
+  StepTerms<Number> terms_{};
+  KeptForces<Number> forces_;
+  bool corrections_need_forces_ = false;
   bool always_keeps_ = false;                   ///< forces at watched dofs
   bool keeps_ = false;                          ///< in this step
-  const double* stiffness_velocity_ = nullptr;  ///< see StepRequest
-  std::array<double, 3> ground_step_{};
+  const Number* stiffness_velocity_ = nullptr;  ///< see StepRequest
+  std::array<Number, 3> ground_step_{};         ///< h (a_g - g)
+  std::array<bool, 3> shaken_{};                ///< directions in which these are not zero
   /// h ( sum_c iota_c r_c'' - M^-1 sum_l f_l p_l ) per owned dof; empty without supports and loads.
-  std::vector<double> known_step_;
+  std::vector<Number> known_step_;
   std::span<const double> load_values_;  ///< f of all loads of the scene in this step
   std::unique_ptr<VectorParts> vectors_;
-  DofSums<double> dof_sums_;
-  DofEnergies<double> dof_energies_;
-  StepSums sums_;  ///< parts of single dofs beside dof_sums_
+  StepTotals<Number> totals_;  ///< beside those of vectors
+  Number load_before_{};       ///< load_power before the step
+  double added_kinetic_before_ = 0;
+};
+
+/// One run of a StructureStep, as the scheme and its interactions see it: alone, or in a lane.
+template <typename Number>
+class SteppedRun : public interactions::SteppedStructure {
+ public:
+  /// References must outlive this object; `state`: of the run.
+  SteppedRun(StructureStep<Number>& step, std::size_t lane, StructureState& state)
+      : step_(step), lane_(lane), state_(state) {}
+
+  const std::vector<double>& displacement() const override { return state_.displacement; }
+  const std::vector<double>& velocity() const override { return state_.velocity; }
+  void watch(std::span<const LocalIndex> dofs, bool always) override { step_.watch(dofs, always); }
+  void act(std::span<const LocalIndex> dofs, std::span<const double> force,
+           bool from_rest) override {
+    step_.act(lane_, dofs, force, from_rest);
+  }
+  void remember(std::span<const LocalIndex> dofs, interactions::Before& before) const override {
+    step_.remember(lane_, dofs, before);
+  }
+  void correct(std::span<const LocalIndex> dofs, const interactions::Before& before,
+               std::span<const double> velocity) override {
+    step_.correct(lane_, dofs, before, velocity);
+  }
+
+ protected:
+  StructureStep<Number>& step_;
+  std::size_t lane_;
+  StructureState& state_;
 };
 
 }  // namespace pounding

@@ -13,7 +13,7 @@
 #include "common/saved_state.h"
 #include "dynamics/energy_balance.h"
 #include "dynamics/state.h"
-#include "dynamics/update.h"
+#include "dynamics/damping_filters.h"
 #include "interactions/contact_problem.h"
 #include "interactions/interaction.h"
 #include "system/linear_system.h"

@@ -2,21 +2,22 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "common/lanes.h"
 #include "interactions/interaction.h"
 
-/// One step of central differences for one dof (double) or for several, a lane for each (HalfLanes,
-/// Lanes): the only place where it is written. With w = u_n + beta v-, v- = v_{n-1/2} and
-/// v+ = v_{n+1/2}:
+/// One step of central differences for one dof (double), for several, a lane for each (WideLanes),
+/// or for one dof of eight runs (Octet): the only place where it is written. With
+/// w = u_n + beta v-, v- = v_{n-1/2} and v+ = v_{n+1/2}:
 ///
 ///     q       = K w,  given
-///     v_free  = v- - h alpha v- - h (a_g - g) iota - h M^-1 q
+///     v_free  = v- - h alpha v- - h (a_g - g) iota - h M^-1 ( q + p )
 ///     u_{n+1} = u_n + dt v+
 ///
-/// with f in place of q in v_free where uniform damping filters it (Filters), v+ = v_free where
-/// nothing else acts, and h = dt, but dt / 2 in the first step. Single values are rounded like
-/// those of a vector.
+/// with p the force of elements that yield, f in place of q + p where uniform damping filters them
+/// (damping_filters.h), v+ = v_free where nothing else acts, and h = dt, but dt / 2 in the first
+/// step. Single values are rounded like those of a vector.
 namespace pounding {
 
 /// Numbers of a step that all dofs of a structure share.
@@ -26,98 +27,35 @@ struct StepTerms {
   Value duration;   ///< h: how long forces act on the velocity [s]
   Value decay;      ///< 1 - h alpha
   Value beta;       ///< [s]
+  Value drag;       ///< h alpha
 };
 
 /// Copies the terms into every lane of `Value`.
-template <typename Value>
-StepTerms<Value> in_lanes(const StepTerms<double>& terms) {
+template <typename Value, typename Number>
+StepTerms<Value> in_lanes(const StepTerms<Number>& terms) {
   const Value zero{};
-  return {zero + terms.time_step, zero + terms.duration, zero + terms.decay, zero + terms.beta};
+  return {zero + terms.time_step, zero + terms.duration, zero + terms.decay, zero + terms.beta,
+          zero + terms.drag};
 }
 
-/// State of dofs between two steps; see StructureState.
+/// State of dofs between two steps; see StateOf.
 template <typename Value>
 struct DofState {
   Value displacement;
   Value velocity;
 };
 
-/// Sums that a step leaves for the energy balance, lane by lane; see StepSums.
+/// Sums that a step leaves for the energy balance, lane by lane; see StepSums. s = v+ + v-.
 template <typename Value>
 struct DofSums {
-  Value stiffness_work{};  ///< of q (v+ + v-)
+  Value stiffness_work{};  ///< of q s
   Value mass_sum{};
-  Value filtered{};  ///< of (f - q) (v+ + v-)
+  Value filtered{};    ///< of (f - q - p) s
+  Value device{};      ///< of x s, x the force of the extra damping
+  Value known_work{};  ///< of M s times the step that supports and loads add to v_free
 };
 
-/// Most filters of uniform damping, and one more that holds the forces of a rest.
-constexpr std::size_t max_filters = 9;
-
-/// Numbers of the filters of uniform damping that all dofs of a structure share. With Q_n = K u_n,
-/// beta = 0, c_i = omega_i dt / 2 and W_i the part that filter i passes,
-///
-///     W_i^n = k_i W_i^{n-1} + t_i (Q_n + Q_{n-1}),      k_i = (1 - c_i) / (1 + c_i)
-///     f     = s ( Q_n + sum_i a_i (Q_n - W_i^n) ),      t_i = c_i / (1 + c_i)
-///
-/// the trapezoidal rule for dW/dt = omega_i (Q - W). A filter keeps between steps its memory
-/// Z_i^n = W_i^n - t_i Q_n, known before Q_n is:
-///
-///     f         = s (1 + sum_i a_i (1 - t_i)) Q_n - sum_i s a_i Z_i^n
-///     Z_i^{n+1} = k_i Z_i^n + t_i (1 + k_i) Q_n
-///
-/// A run that starts from a rest u_0 has one filter more, with k = 1, t = 0 and s a = -1, whose
-/// memory (1 - s) K u_0 stays: the others then act on the change of K u since the rest, where
-/// W_i = K u_0.
-/// Stable if and only if M - dt^2/4 s (1 + sum a_i) K is positive definite;
-/// docs/reference/theory/damping.md has the energy that proves it.
-template <typename Value>
-struct Filters {
-  std::size_t count = 0;
-  Value passing;  ///< s (1 + sum a_i (1 - t_i))
-  struct Filter {
-    Value weight;                                    ///< s a_i
-    Value keep;                                      ///< k_i
-    Value take;                                      ///< t_i (1 + k_i)
-    Value newest() const { return (1 - keep) / 2; }  ///< t_i
-  };
-  std::array<Filter, max_filters> filters;
-};
-
-/// Copies the numbers into every lane of `Value`.
-template <typename Value>
-Filters<Value> in_lanes(const Filters<double>& filters) {
-  const Value zero{};
-  Filters<Value> copy{filters.count, zero + filters.passing, {}};
-  for (std::size_t i = 0; i < filters.count; ++i) {
-    const auto& [weight, keep, take] = filters.filters[i];
-    copy.filters[i] = {zero + weight, zero + keep, zero + take};
-  }
-  return copy;
-}
-
-/// Takes the part of one filter off the force f, and brings its memory from n to n + 1.
-template <typename Value>
-[[gnu::always_inline]] inline void pass_filter(const typename Filters<Value>::Filter& filter,
-                                               Value stiffness_force, Value& memory, Value& force) {
-  subtract_product(filter.weight, memory, force);
-  Value next{};
-  add_product(filter.keep, memory, next);
-  add_product(filter.take, stiffness_force, next);
-  memory = next;
-}
-
-/// f of one dof from q and the memories before the step: `memory(i)` that of filter i [N, N m].
-template <typename Memory>
-double filtered_force(const Filters<double>& filters, double stiffness_force,
-                      const Memory& memory) {
-  double force = filters.passing * stiffness_force;
-  for (std::size_t i = 0; i < filters.count; ++i) {
-    subtract_product(filters.filters[i].weight, memory(i), force);
-  }
-  return force;
-}
-
-/// Energies before the step likewise, where they are asked for.
+/// Energies before the step, where they are asked for.
 template <typename Value>
 struct DofEnergies {
   Value kinetic_before{};
@@ -168,19 +106,19 @@ template <typename Value>
   return momentum;
 }
 
-/// Correction of a dof that has made its free step and that contact then moves.
-
 /// Forces of a step at a dof [N, N m].
+template <typename Number>
 struct DofForces {
-  double stiffness = 0;  ///< q
-  double acting = 0;     ///< f without inelastic elements, which is q where nothing filters it
+  Number stiffness{};  ///< q
+  Number acting{};     ///< f without inelastic elements, which is q where nothing filters it
 };
 
 /// Brings a dof, which has settled with v_free, to v+ = `velocity` after contact, and corrects its
 /// sums; `before`: its state before the step. Returns the gain of M s.
 inline double correct_dof(const StepTerms<double>& terms, double mass,
-                          const DofState<double>& before, double velocity, const DofForces& forces,
-                          DofState<double>& dof, DofSums<double>& sums) {
+                          const DofState<double>& before, double velocity,
+                          const DofForces<double>& forces, DofState<double>& dof,
+                          DofSums<double>& sums) {
   const double change = velocity - dof.velocity;
   sums.stiffness_work += forces.stiffness * change;
   sums.mass_sum += mass * change * (2 * (dof.velocity + before.velocity) + change);
@@ -190,6 +128,14 @@ inline double correct_dof(const StepTerms<double>& terms, double mass,
   add_product(terms.time_step, velocity, dof.displacement);
   return mass * change;
 }
+
+/// Dofs that wait until the velocities of all of them are found together; arrays over all dofs.
+template <typename Number>
+struct WaitingDofs {
+  std::vector<Number> stiffness;  ///< q
+  std::vector<Number> acting;     ///< f
+  std::vector<Number> velocity;   ///< v_free, or the impulse on a mass that is coupled; then v+
+};
 
 /// Sums over the owned dofs of a structure that one step leaves for the energy balance, with
 /// v- = v_{n-1/2}, v+ = v_{n+1/2}, s = v+ + v-, and those of interactions. The support input
@@ -212,22 +158,28 @@ struct StepSums : interactions::LedgerPart {
                                      ///< acts about a rest u_0 [J], if energies are asked for
 };
 
-/// Adds the lanes of dofs to the sums of their structure.
+/// All that the dofs of a structure leave in a step, lane by lane.
 template <typename Value>
-void add_to(const DofSums<Value>& from, StepSums& sums) {
-  sums.stiffness_work += add_up(from.stiffness_work);
-  sums.mass_sum += add_up(from.mass_sum);
-  sums.filtered += add_up(from.filtered);
-}
+struct StepTotals {
+  DofSums<Value> dofs;
+  DofEnergies<Value> energies;
+  std::array<Value, 3> momentum{};  ///< iota_d^T M s
+};
 
-/// Adds the energies of dofs likewise.
-template <typename Value>
-void add_to(const DofEnergies<Value>& from, StepSums& sums) {
-  sums.kinetic_before += add_up(from.kinetic_before);
-  sums.stiffness_before += add_up(from.stiffness_before);
-  sums.strain_before += add_up(from.strain_before);
-  sums.strain_back += add_up(from.strain_back);
-  sums.displacement_mass += add_up(from.displacement_mass);
+/// Adds them to the sums of their structure; `number`: that of a value.
+template <typename Value, typename Number>
+void add_to(const StepTotals<Value>& from, const Number& number, StepSums& sums) {
+  sums.stiffness_work += number(from.dofs.stiffness_work);
+  sums.mass_sum += number(from.dofs.mass_sum);
+  sums.filtered += number(from.dofs.filtered);
+  sums.device += number(from.dofs.device);
+  sums.support_input -= number(from.dofs.known_work) / 2;
+  sums.kinetic_before += number(from.energies.kinetic_before);
+  sums.stiffness_before += number(from.energies.stiffness_before);
+  sums.strain_before += number(from.energies.strain_before);
+  sums.strain_back += number(from.energies.strain_back);
+  sums.displacement_mass += number(from.energies.displacement_mass);
+  for (std::size_t d = 0; d < 3; ++d) sums.momentum[d] += number(from.momentum[d]);
 }
 
 }  // namespace pounding

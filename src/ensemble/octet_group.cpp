@@ -102,21 +102,21 @@ void OctetGroup::step(std::int64_t n) {
   if (passes_.due(n)) passes_.look(octets_, static_cast<double>(n) * shared_.time_step);
   const bool records = recorder_.due(n);
   if (records) recorder_.take_displacements(octets_);
-  bool with_energies = false;
+  bool with_energies = false, with_forces = false;
   for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
     with_energies = runs_[lane]->open() || with_energies;
+    with_forces = runs_[lane]->stepper().corrects() || with_forces;
     for (std::size_t d = 0; d < 3; ++d) {
       acceleration_[d].set(lane, runs_[lane]->stepper().ground_acceleration()[d]);
     }
   }
   const double duration = runs_.front()->stepper().force_duration();
   for (OctetStep& octet : octets_) {
-    octet.step(duration, acceleration_, runs_.front()->stepper().load_values(), with_energies);
+    octet.step(duration, acceleration_, runs_.front()->stepper().load_values(), with_energies,
+               with_forces);
   }
   for (failed_lane_ = 0; failed_lane_ < runs_.size(); ++failed_lane_) runs_[failed_lane_]->close();
-  std::array<Octet, 3> gained = acceleration_;
-  for (Octet& value : gained) value = value * all_octet(duration);
-  recorder_.add_step(gained);
+  recorder_.add_step(duration, acceleration_);
   if (records) recorder_.record(octets_);
 }
 
@@ -249,19 +249,19 @@ OctetRecorder::OctetRecorder(std::span<const ResolvedProbe> probes,
 }
 
 void OctetRecorder::restart(std::span<const OctetStep> octets) {
-  multiply(octets, &OctetState::velocity);
+  multiply(octets, &StateOf<Octet>::velocity);
   last_velocity_ = values_;
   displacement_.assign(channels_, Octet{});
   ground_.fill(Octet{});
   blocked_ = records_ = 0;
 }
 
-void OctetRecorder::add_step(const std::array<Octet, 3>& ground_velocity_step) {
-  for (std::size_t d = 0; d < 3; ++d) ground_[d] += ground_velocity_step[d];
+void OctetRecorder::add_step(double duration, const std::array<Octet, 3>& ground_acceleration) {
+  for (std::size_t d = 0; d < 3; ++d) ground_[d] += ground_acceleration[d] * all_octet(duration);
 }
 
 void OctetRecorder::multiply(std::span<const OctetStep> octets,
-                             std::vector<Octet> OctetState::*quantity) {
+                             std::vector<Octet> StateOf<Octet>::*quantity) {
   for (const Rows& rows : rows_) {
     const Octet* const x = (octets[rows.structure].state().*quantity).data();
     multiply_rows(rows.values.data(), rows.channels.size(), rows.width, x, products_.data());
@@ -271,14 +271,14 @@ void OctetRecorder::multiply(std::span<const OctetStep> octets,
 
 void OctetRecorder::take_displacements(std::span<const OctetStep> octets) {
   if (records_ < first_) return;
-  multiply(octets, &OctetState::displacement);
+  multiply(octets, &StateOf<Octet>::displacement);
   for (std::size_t c = 0; c < channels_; ++c) {
     displacement_[c] = larger(displacement_[c], magnitude(values_[c]));
   }
 }
 
 void OctetRecorder::record(std::span<const OctetStep> octets) {
-  multiply(octets, &OctetState::velocity);
+  multiply(octets, &StateOf<Octet>::velocity);
   Octet* const out = &block_[blocked_ * channels_];
   for (std::size_t c = 0; c < channels_; ++c) {
     out[c] = (values_[c] - last_velocity_[c] + ground_[c % 3]) / interval_;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/memory.h"
-#include "dynamics/octet_step.h"
+#include "dynamics/batch_step.h"
 #include "ensemble/member_scene.h"
 #include "mesh/mesh.h"
 #include "mesh/probe_set.h"
@@ -90,8 +90,8 @@ class OctetRecorder {
   /// Begins runs from their states at t = 0.
   void restart(std::span<const OctetStep> octets);
   bool due(std::int64_t step) const { return step % stride_ == 0; }
-  /// The velocity that the ground gained in a step [m/s].
-  void add_step(const std::array<Octet, 3>& ground_velocity_step);
+  /// The ground's acceleration in a step [m/s2], and how long it acted [s].
+  void add_step(double duration, const std::array<Octet, 3>& ground_acceleration);
   /// Before the step to be recorded.
   void take_displacements(std::span<const OctetStep> octets);
   /// After it.
@@ -111,7 +111,7 @@ class OctetRecorder {
     std::vector<std::size_t> channels;  ///< numbers among all
   };
   /// values_ := rows times the coordinates.
-  void multiply(std::span<const OctetStep> octets, std::vector<Octet> OctetState::*quantity);
+  void multiply(std::span<const OctetStep> octets, std::vector<Octet> StateOf<Octet>::*quantity);
   /// Brings the records of the block to the histories.
   void flush();
 

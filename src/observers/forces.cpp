@@ -340,7 +340,7 @@ TotalForce::TotalForce(const ForceItem& item, const LinearSystem& system, const 
   }
 }
 
-void TotalForce::add(const StructureState& state, const KeptForces& forces,
+void TotalForce::add(const StructureState& state, const KeptForces<double>& forces,
                      const interactions::StructureLinks* links, Wrench& total) const {
   for (const Counted& counted : counted_) {
     double force = forces.at(counted.dof).acting;

@@ -46,7 +46,7 @@ class TotalForce {
   const std::vector<LocalIndex>& dofs() const { return watched_; }
   /// Adds this rank's part of R after the step to t_n; `forces`: those of the step; `links` may be
   /// null.
-  void add(const StructureState& state, const KeptForces& forces,
+  void add(const StructureState& state, const KeptForces<double>& forces,
            const interactions::StructureLinks* links, Wrench& total) const;
 
  private:

@@ -47,19 +47,6 @@ void finish_system(const Mesh& mesh, LinearSystem& system) {
   }
 }
 
-std::vector<char> dofs_of_extra_damping(const LinearSystem& system) {
-  std::vector<char> acted_on(system.lumped_mass.size(), 0);
-  if (!system.has_extra_damping()) return acted_on;
-  const Mat matrix = system.extra_damping->matrix();
-  if (matrix == nullptr) return std::vector<char>(acted_on.size(), 1);
-  char* acts = acted_on.data();
-  for_each_row(matrix, [&](PetscInt, std::span<const PetscInt>, std::span<const double> values) {
-    if (std::ranges::any_of(values, [](double value) { return value != 0; })) *acts = 1;
-    ++acts;
-  });
-  return acted_on;
-}
-
 VecHandle create_vector(const LinearSystem& system) {
   VecHandle vector;
   POUNDING_PETSC(VecCreate(system.comm, vector.out()));

@@ -136,9 +136,6 @@ LinearSystem describe_system(const Structure& structure, const Mesh& mesh);
 /// Once the lumped mass is complete: its inverse, and the directions of the dofs.
 void finish_system(const Mesh& mesh, LinearSystem& system);
 
-/// Per owned dof, whether the extra damping acts on it.
-std::vector<char> dofs_of_extra_damping(const LinearSystem& system);
-
 /// A new distributed vector over the owned dofs. Collective.
 VecHandle create_vector(const LinearSystem& system);
 

@@ -51,7 +51,7 @@ def kinds_of(mnemonic: str, operands: str) -> list:
 
 def name_of(symbol: str) -> str:
     """A function without namespaces and arguments, those of templates included."""
-    bare = re.sub(r"\(anonymous namespace\)::|pounding::(stiffness::)?", "", symbol)
+    bare = re.sub(r"\(anonymous namespace\)::|pounding::(stiffness::)?|<double>(?=::)", "", symbol)
     return re.sub(r"[<(].*", "", bare).removeprefix("void ").strip()
 
 

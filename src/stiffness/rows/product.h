@@ -29,15 +29,18 @@ struct DofRange {
   bool empty() const { return begin >= end; }
 };
 
-/// Takes a product K w range by range, while it is in the nearest cache.
-class ForceReceiver {
+/// Takes a product K w range by range, while it is in the nearest cache. `Number`: double, or that
+/// of several products at once.
+template <typename Number>
+class ReceiverOf {
  public:
-  virtual ~ForceReceiver() = default;
+  virtual ~ReceiverOf() = default;
   /// Forces of the owned dofs [begin, end) are final, force[0] being that of `begin`; nothing reads
   /// u and v of these dofs any more, so the receiver may change them. Ranges hold whole nodes and
   /// come in a fixed order, each owned dof once per product.
-  virtual void receive(LocalIndex begin, LocalIndex end, const double* force) = 0;
+  virtual void receive(LocalIndex begin, LocalIndex end, const Number* force) = 0;
 };
+using ForceReceiver = ReceiverOf<double>;
 
 /// Keeps a product in an array over the owned dofs, which must outlive this object.
 class StoredForces final : public ForceReceiver {

@@ -14,7 +14,7 @@ std::vector<double> numbered(std::size_t count) {
   return force;
 }
 
-void hand_over(KeptForces& kept, const std::vector<double>& force, std::size_t length,
+void hand_over(KeptForces<double>& kept, const std::vector<double>& force, std::size_t length,
                const Filters<double>& filters = {0, 1, {}},
                std::span<const std::vector<double>> memories = {},
                std::span<const double> inelastic = {}) {
@@ -31,7 +31,7 @@ TEST(KeptForces, HoldsThoseOfTheWatchedDofsInRangesOfAnyLength) {
   for (const std::size_t count : {1, 15, 16, 17, 32, 47, 100}) {
     const std::vector<double> force = numbered(count);
     for (const std::size_t length : {1, 3, 16, 40, 100}) {
-      KeptForces kept(count);
+      KeptForces<double> kept(count);
       EXPECT_TRUE(kept.none());
       std::vector<LocalIndex> dofs;
       for (std::size_t i = 0; i < count; i += 1 + i % 7) {
@@ -55,7 +55,7 @@ TEST(KeptForces, FiltersByTheMemoriesBeforeTheStep) {
   const std::vector<double> force = numbered(20);
   const Filters<double> filters{2, 1.5, {{{0.25, 0, 0}, {0.5, 0, 0}}}};
   const std::vector<std::vector<double>> memories{std::vector<double>(20, 8.0), numbered(20)};
-  KeptForces kept(20);
+  KeptForces<double> kept(20);
   const std::vector<LocalIndex> dofs{3, 19};
   kept.watch(dofs);
   hand_over(kept, force, 6, filters, memories);
@@ -69,7 +69,7 @@ TEST(KeptForces, FiltersForcesOfInelasticElementsAsWell) {
   const std::vector<double> inelastic{1, 2, 3, 4};
   const Filters<double> filters{1, 1.5, {{{0.25, 0, 0}}}};
   const std::vector<std::vector<double>> memories{std::vector<double>(4, 8.0)};
-  KeptForces kept(4);
+  KeptForces<double> kept(4);
   const std::vector<LocalIndex> dofs{2};
   kept.watch(dofs);
   hand_over(kept, force, 4, filters, memories, inelastic);

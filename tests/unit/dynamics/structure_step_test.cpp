@@ -95,9 +95,6 @@ struct Case {
     state = {random_values(n, 1, 1e-2), random_values(n, 2, 0.5), {}};
     stiffness_velocity = random_values(n, 3, 1e6);
     if (system.extra_damping) state.extra_force = random_values(n, 4, 30);
-    for (std::size_t i = 0; i < state.extra_force.size(); ++i) {
-      if (dofs_of_extra_damping(system)[i] == 0) state.extra_force[i] = 0;
-    }
     if (!system.inelastic.empty()) state.inelastic_force = random_values(n, 20, 1e4);
     for (std::size_t i = 0; i < system.inelastic.size(); ++i) {
       if (system.inelastic[i] == 0) state.inelastic_force[i] = 0;
@@ -172,7 +169,7 @@ StepSums take_reference_step(const Case& given, StructureState& state) {
 
 /// `pieces`: dofs per range in which the forces are handed over; 0: all at once.
 StepSums take_step(Case& given, std::size_t pieces, bool with_energies = true) {
-  StructureStep step(given.system, given.state, time_step);
+  StructureStep<double> step(std::array{&given.system}, given.state, time_step);
   step.begin(given.duration(), ground,
              {with_energies ? given.stiffness_velocity.data() : nullptr, false});
   const std::size_t n = given.force.size();
@@ -182,7 +179,7 @@ StepSums take_step(Case& given, std::size_t pieces, bool with_energies = true) {
                  &given.force[i]);
   }
   step.complete();
-  return step.sums();
+  return step.sums(0);
 }
 
 void expect_close(double value, double expected, double scale) {
@@ -329,14 +326,56 @@ TEST(StructureStep, MovesTheSameWithoutEnergies) {
   EXPECT_EQ(fewer.kinetic_before, 0);
 }
 
-TEST(StructureStep, RoundsADofAloneLikeOneInAVector) {
-  Case vectors(nodes_in_a_row(std::vector<Kind>(5, Kind::translations)));
-  Case alone(nodes_in_a_row(std::vector<Kind>(5, Kind::damped)));
-  std::fill(alone.state.extra_force.begin(), alone.state.extra_force.end(), 0.0);
-  take_step(vectors, 0);
-  take_step(alone, 0);
-  EXPECT_EQ(vectors.state.velocity, alone.state.velocity);
-  EXPECT_EQ(vectors.state.displacement, alone.state.displacement);
+/// Eight runs that differ in their ground's motion and state, of which lane 5 is the case.
+void expect_lane_of_eight(LinearSystem system) {
+  Case alone(std::move(system));
+  constexpr std::size_t lane = 5;
+  const std::size_t n = alone.force.size();
+  StateOf<Octet> state;
+  std::vector<Octet> force;
+  const auto spread = [&](const std::vector<double>& from, std::vector<Octet>& to) {
+    to.assign(from.size(), Octet{});
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      for (std::size_t l = 0; l < octet_size; ++l) to[i].set(l, from[i] * (l == lane ? 1 : 1.7));
+    }
+  };
+  spread(alone.state.displacement, state.displacement);
+  spread(alone.state.velocity, state.velocity);
+  spread(alone.state.extra_force, state.extra_force);
+  spread(alone.state.inelastic_force, state.inelastic_force);
+  for (const auto& memory : alone.state.filtered) spread(memory, state.filtered.emplace_back());
+  spread(alone.force, force);
+  std::array<Octet, 3> accelerations{};
+  for (std::size_t d = 0; d < 3; ++d) {
+    for (std::size_t l = 0; l < octet_size; ++l) accelerations[d].set(l, l == lane ? ground[d] : 9);
+  }
+  const std::vector<const LinearSystem*> systems(octet_size, &alone.system);
+  StructureStep<Octet> step(systems, state, time_step);
+  step.begin(time_step, accelerations, {});
+  step.receive(0, static_cast<LocalIndex>(n), force.data());
+  step.complete();
+  const StepSums expected = take_step(alone, 0, false);
+  const StepSums sums = step.sums(lane);
+  for (std::size_t i = 0; i < n; ++i) {
+    EXPECT_EQ(state.velocity[i][lane], alone.state.velocity[i]);
+    EXPECT_EQ(state.displacement[i][lane], alone.state.displacement[i]);
+  }
+  expect_close(sums.mass_sum, expected.mass_sum, 1e3);
+  expect_close(sums.stiffness_work, expected.stiffness_work, 1e5);
+  expect_close(sums.filtered, expected.filtered, 1e5);
+  expect_close(sums.device, expected.device, 1e3);
+  for (std::size_t d = 0; d < 3; ++d) expect_close(sums.momentum[d], expected.momentum[d], 1e3);
+}
+
+TEST(StructureStep, RoundsARunInALaneLikeOneByItself) {
+  const std::vector<Kind> mixture{Kind::translations, Kind::translations, Kind::damped,
+                                  Kind::six,          Kind::lone,         Kind::translations};
+  const std::vector<Kind> plain(5, Kind::translations);
+  expect_lane_of_eight(nodes_in_a_row(plain));
+  expect_lane_of_eight(yielding(nodes_in_a_row(mixture)));
+  expect_lane_of_eight(filtered(yielding(nodes_in_a_row(mixture))));
+  expect_lane_of_eight(coordinates(7));
+  expect_lane_of_eight(filtered(coordinates(7)));
 }
 
 void expect_coupled_step(LinearSystem system) {
@@ -395,10 +434,10 @@ void expect_correction(bool with_filters) {
   Case given = make();
   const std::vector<LocalIndex> dofs{1, 4, 7};
   StructureState expected = given.state;
-  StructureStep step(given.system, given.state, time_step);
+  StructureStep<double> step(std::array{&given.system}, given.state, time_step);
   interactions::Before before(dofs.size());
   step.watch(dofs, false);
-  step.remember(dofs, before);
+  step.remember(0, dofs, before);
   step.begin(time_step, ground, {given.stiffness_velocity.data(), true});
   step.receive(6, 12, &given.force[6]);
   step.receive(0, 6, given.force.data());
@@ -407,7 +446,7 @@ void expect_correction(bool with_filters) {
   for (const LocalIndex dof : dofs) {
     velocity.push_back(given.state.velocity[static_cast<std::size_t>(dof)] + 0.25);
   }
-  step.correct(dofs, before, velocity);
+  step.correct(0, dofs, before, velocity);
   // The reference: the forces that lead to these velocities act beside q.
   Case pushed = make();
   StructureState plain = expected;
@@ -429,7 +468,7 @@ void expect_correction(bool with_filters) {
     EXPECT_NEAR(given.state.velocity[i], after, 1e-13);
     EXPECT_NEAR(given.state.displacement[i], expected.displacement[i] + time_step * after, 1e-15);
   }
-  const StepSums sums = step.sums();
+  const StepSums sums = step.sums(0);
   EXPECT_NEAR(sums.mass_sum, reference.mass_sum, 1e-10 * std::abs(reference.mass_sum));
   EXPECT_NEAR(sums.stiffness_work, reference.stiffness_work,
               1e-10 * std::abs(reference.stiffness_work));
@@ -443,13 +482,6 @@ void expect_correction(bool with_filters) {
 TEST(StructureStep, CorrectsSumsAndStateForAnotherVelocity) {
   expect_correction(false);
   expect_correction(true);
-}
-
-TEST(DampedDofs, AreThoseWithARowOfTheExtraDamping) {
-  const LinearSystem system = nodes_in_a_row({Kind::translations, Kind::damped, Kind::six});
-  const std::vector<char> damped = dofs_of_extra_damping(system);
-  EXPECT_EQ(damped, (std::vector<char>{0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0}));
-  EXPECT_EQ(dofs_of_extra_damping(nodes_in_a_row({Kind::lone})), std::vector<char>{0});
 }
 
 }  // namespace structure_step_test
