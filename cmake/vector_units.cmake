@@ -28,7 +28,7 @@ set(POUNDING_KERNEL_FILES
   "^stiffness/(assembled_rows|beam_elements|element_sorter|element_stiffness|stiffness|strain_sorter)[.]"
   "^interactions/(solvers/|[a-z_]+[.])"
   "^common/row_products[.]"
-  "^ensemble/octet_group"
+  "^ensemble/member_batch"
   "^motion/oscillator"
   "^observers/recorder"
   "^system/(block_factorisation|coupled_mass|rigid_body|trace)")

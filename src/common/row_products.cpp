@@ -34,14 +34,14 @@ void multiply_together(const double* rows, std::size_t n, const double* x, doubl
 }
 
 /// Rows whose sums have registers of their own, beside two factors.
-constexpr std::size_t octet_rows = octet_parts == 1 ? 8 : octet_parts == 2 ? 6 : 3;
+constexpr std::size_t batch_rows = batch_parts == 1 ? 8 : batch_parts == 2 ? 6 : 3;
 
 /// `count` rows; their sums stay in registers.
 template <std::size_t count>
-void multiply_together(const double* rows, std::size_t n, const Octet* x, Octet* out) {
-  Octet sums[count]{};
+void multiply_together(const double* rows, std::size_t n, const BatchValue* x, BatchValue* out) {
+  BatchValue sums[count]{};
   for (std::size_t k = 0; k < n; ++k) {
-    for (std::size_t r = 0; r < count; ++r) add_product(all_octet(rows[r * n + k]), x[k], sums[r]);
+    for (std::size_t r = 0; r < count; ++r) add_product(all_eight(rows[r * n + k]), x[k], sums[r]);
   }
   for (std::size_t r = 0; r < count; ++r) out[r] = sums[r];
 }
@@ -66,12 +66,12 @@ void add_rows(const double* rows, std::size_t n, const double* parts, double* ou
 }
 
 template <std::size_t count>
-void add_rows(const double* rows, std::size_t n, const Octet* parts, Octet* out) {
-  Octet scale[count];
+void add_rows(const double* rows, std::size_t n, const BatchValue* parts, BatchValue* out) {
+  BatchValue scale[count];
   for (std::size_t r = 0; r < count; ++r) scale[r] = parts[r];
   for (std::size_t k = 0; k < n; ++k) {
-    Octet sum = out[k];
-    for (std::size_t r = 0; r < count; ++r) add_product(all_octet(rows[r * n + k]), scale[r], sum);
+    BatchValue sum = out[k];
+    for (std::size_t r = 0; r < count; ++r) add_product(all_eight(rows[r * n + k]), scale[r], sum);
     out[k] = sum;
   }
 }
@@ -105,11 +105,11 @@ void multiply_rows(const double* rows, std::size_t count, std::size_t n, const d
   for (; r < count; ++r) multiply_together<1>(rows + r * n, n, x, out + stride * r, stride);
 }
 
-void multiply_rows(const double* rows, std::size_t count, std::size_t n, const Octet* x,
-                   Octet* out) {
+void multiply_rows(const double* rows, std::size_t count, std::size_t n, const BatchValue* x,
+                   BatchValue* out) {
   std::size_t r = 0;
-  for (; r + octet_rows <= count; r += octet_rows) {
-    multiply_together<octet_rows>(rows + r * n, n, x, out + r);
+  for (; r + batch_rows <= count; r += batch_rows) {
+    multiply_together<batch_rows>(rows + r * n, n, x, out + r);
   }
   for (; r + 3 <= count; r += 3) multiply_together<3>(rows + r * n, n, x, out + r);
   for (; r < count; ++r) multiply_together<1>(rows + r * n, n, x, out + r);
@@ -121,8 +121,8 @@ void multiply_both_ways(const double* rows, const double* weights, std::size_t c
 }
 
 void multiply_both_ways(const double* rows, const double* weights, std::size_t count, std::size_t n,
-                        const Octet* x, Octet* parts, Octet* out) {
-  multiply_blocks_both_ways<octet_rows>(rows, weights, count, n, x, parts, out);
+                        const BatchValue* x, BatchValue* parts, BatchValue* out) {
+  multiply_blocks_both_ways<batch_rows>(rows, weights, count, n, x, parts, out);
 }
 
 }  // namespace pounding

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "common/octet.h"
+#include "common/batch_value.h"
 
 namespace pounding {
 
@@ -12,8 +12,8 @@ void multiply_rows(const double* rows, std::size_t count, std::size_t n, const d
                    double* out, std::size_t stride = 1);
 
 /// out[r] = sum over k of rows[r * n + k] x[k] in every lane.
-void multiply_rows(const double* rows, std::size_t count, std::size_t n, const Octet* x,
-                   Octet* out);
+void multiply_rows(const double* rows, std::size_t count, std::size_t n, const BatchValue* x,
+                   BatchValue* out);
 
 /// parts[r] = weights[r] (b_r . x) and out = sum over r of parts[r] b_r, with b_r the `count` dense
 /// rows of length n that lie one after the other: B^T diag(weights) B x, in which each row is read
@@ -21,6 +21,6 @@ void multiply_rows(const double* rows, std::size_t count, std::size_t n, const O
 void multiply_both_ways(const double* rows, const double* weights, std::size_t count, std::size_t n,
                         const double* x, double* parts, double* out);
 void multiply_both_ways(const double* rows, const double* weights, std::size_t count, std::size_t n,
-                        const Octet* x, Octet* parts, Octet* out);
+                        const BatchValue* x, BatchValue* parts, BatchValue* out);
 
 }  // namespace pounding

@@ -19,35 +19,35 @@ std::vector<double> diagonal_of(const LinearSystem& system, const stiffness::Sti
 
 }  // namespace
 
-OctetStep::OctetStep(std::span<const LinearSystem* const> systems, const LinearSystem& scene,
+BatchStep::BatchStep(std::span<const LinearSystem* const> systems, const LinearSystem& scene,
                      double time_step)
-    : state_(std::make_unique<StateOf<Octet>>()),
+    : state_(std::make_unique<StateOf<BatchValue>>()),
       time_step_(time_step),
-      stiffness_(constants_of<Octet>(
+      stiffness_(constants_of<BatchValue>(
           systems, [](const auto& s) { return diagonal_of(s, s.stiffness.get()); })),
-      beta_(number_of<Octet>(systems, [](const auto& s) { return s.damping.beta; })) {
-  const std::vector<Octet> zeros(coordinates(), Octet{});
+      beta_(number_of<BatchValue>(systems, [](const auto& s) { return s.damping.beta; })) {
+  const std::vector<BatchValue> zeros(coordinates(), BatchValue{});
   state_->displacement = state_->velocity = force_ = stiffness_velocity_ = zeros;
   if (std::ranges::any_of(systems, &LinearSystem::has_extra_damping)) {
-    extra_damping_ = constants_of<Octet>(
+    extra_damping_ = constants_of<BatchValue>(
         systems, [](const auto& s) { return diagonal_of(s, s.extra_damping.get()); });
     state_->extra_force = zeros;
   }
   take_dashpots(systems, scene);
   structure_.emplace(systems, *state_, time_step, dashpots_.has_value());
   state_->filtered.assign(structure_->filters(), zeros);
-  state_->inelastic_force.assign(systems.front()->inelastic.size(), Octet{});
+  state_->inelastic_force.assign(systems.front()->inelastic.size(), BatchValue{});
 }
 
-void OctetStep::take_dashpots(std::span<const LinearSystem* const> systems,
+void BatchStep::take_dashpots(std::span<const LinearSystem* const> systems,
                               const LinearSystem& scene) {
   const auto dashpots = interactions::dashpot_rows(scene);
   if (!dashpots) return;
-  for (std::size_t lane = 0; lane < systems.size(); ++lane) {
-    const LinearSystem& own = *systems[lane];
-    braked_[lane] = own.inverse_mass == scene.inverse_mass &&
-                    own.lumped_mass == scene.lumped_mass &&
-                    interactions::dashpot_rows(own) == dashpots;
+  for (std::size_t member = 0; member < systems.size(); ++member) {
+    const LinearSystem& own = *systems[member];
+    braked_[member] = own.inverse_mass == scene.inverse_mass &&
+                      own.lumped_mass == scene.lumped_mass &&
+                      interactions::dashpot_rows(own) == dashpots;
   }
   if (std::ranges::none_of(braked_, std::identity())) return;
   std::fill(braked_.begin() + systems.size(), braked_.end(), true);  // nothing moves in these
@@ -55,27 +55,27 @@ void OctetStep::take_dashpots(std::span<const LinearSystem* const> systems,
   free_velocity_.resize(coordinates());
 }
 
-void OctetStep::brake(double share) {
-  const std::span<Octet> velocity = structure_->waiting();
+void BatchStep::brake(double share) {
+  const std::span<BatchValue> velocity = structure_->waiting();
   std::ranges::copy(velocity, free_velocity_.begin());
   dashpots_->brake(share, state_->velocity, velocity);
   dashpot_loss_ = dashpots_->loss(state_->velocity, velocity);
-  for (std::size_t lane = 0; lane < octet_size; ++lane) {
-    if (braked_[lane]) continue;
-    dashpot_loss_.set(lane, 0);
+  for (std::size_t member = 0; member < batch_size; ++member) {
+    if (braked_[member]) continue;
+    dashpot_loss_.set(member, 0);
     for (std::size_t i = 0; i < velocity.size(); ++i) {
-      velocity[i].set(lane, free_velocity_[i][lane]);
+      velocity[i].set(member, free_velocity_[i][member]);
     }
   }
 }
 
-void OctetStep::step(double duration, const std::array<Octet, 3>& ground_acceleration,
+void BatchStep::step(double duration, const std::array<BatchValue, 3>& ground_acceleration,
                      std::span<const double> loads, bool with_energies, bool with_forces) {
   ++steps_;
-  extra_before_ = Octet{};
-  const Octet beta = beta_;
+  extra_before_ = BatchValue{};
+  const BatchValue beta = beta_;
   for (std::size_t i = 0; i < coordinates(); ++i) {
-    const Octet& velocity = state_->velocity[i];
+    const BatchValue& velocity = state_->velocity[i];
     force_[i] = stiffness_[i] * (state_->displacement[i] + beta * velocity);
     if (with_energies) stiffness_velocity_[i] = stiffness_[i] * velocity;
     if (extra_damping_.empty()) continue;
@@ -89,79 +89,79 @@ void OctetStep::step(double duration, const std::array<Octet, 3>& ground_acceler
   structure_->complete();
 }
 
-OctetLane::OctetLane(OctetStep& octet, std::size_t lane, StructureState& state)
-    : SteppedRun(*octet.structure_, lane, state), octet_(octet) {
-  const auto put = [lane](std::span<const double> values, std::vector<Octet>& to) {
-    for (std::size_t i = 0; i < to.size(); ++i) to[i].set(lane, values[i]);
+BatchMember::BatchMember(BatchStep& batch, std::size_t member, StructureState& state)
+    : SteppedRun(*batch.structure_, member, state), batch_(batch) {
+  const auto put = [member](std::span<const double> values, std::vector<BatchValue>& to) {
+    for (std::size_t i = 0; i < to.size(); ++i) to[i].set(member, values[i]);
   };
-  put(state.displacement, octet.state_->displacement);
-  put(state.velocity, octet.state_->velocity);
+  put(state.displacement, batch.state_->displacement);
+  put(state.velocity, batch.state_->velocity);
   for (std::size_t k = 0; k < state.filtered.size(); ++k) {
-    put(state.filtered[k], octet.state_->filtered[k]);
+    put(state.filtered[k], batch.state_->filtered[k]);
   }
 }
 
-void OctetLane::take(const std::vector<Octet>& values, std::vector<double>& to) const {
-  for (std::size_t i = 0; i < values.size(); ++i) to[i] = values[i][lane_];
+void BatchMember::take(const std::vector<BatchValue>& values, std::vector<double>& to) const {
+  for (std::size_t i = 0; i < values.size(); ++i) to[i] = values[i][member_];
 }
 
-const std::vector<double>& OctetLane::displacement() const {
-  if (displacement_known_ != octet_.steps_) {
-    take(octet_.state_->displacement, state_.displacement);
-    displacement_known_ = octet_.steps_;
+const std::vector<double>& BatchMember::displacement() const {
+  if (displacement_known_ != batch_.steps_) {
+    take(batch_.state_->displacement, state_.displacement);
+    displacement_known_ = batch_.steps_;
   }
   return state_.displacement;
 }
 
-const std::vector<double>& OctetLane::velocity() const {
-  if (velocity_known_ != octet_.steps_) {
-    take(octet_.state_->velocity, state_.velocity);
-    velocity_known_ = octet_.steps_;
+const std::vector<double>& BatchMember::velocity() const {
+  if (velocity_known_ != batch_.steps_) {
+    take(batch_.state_->velocity, state_.velocity);
+    velocity_known_ = batch_.steps_;
   }
   return state_.velocity;
 }
 
-void OctetLane::bring_state() const {
+void BatchMember::bring_state() const {
   displacement();
   velocity();
   for (std::size_t k = 0; k < state_.filtered.size(); ++k) {
-    take(octet_.state_->filtered[k], state_.filtered[k]);
+    take(batch_.state_->filtered[k], state_.filtered[k]);
   }
 }
 
-std::span<const double> OctetLane::places(const Trace& trace) {
+std::span<const double> BatchMember::places(const Trace& trace) {
   const std::size_t count = trace.known().size();
   if (count == 0) return {};
   places_.resize(count);
-  octet_.places_.resize(count);
-  if (octet_.places_known_ != octet_.steps_) {
-    multiply_rows(trace.row(0).data(), count, octet_.coordinates(),
-                  octet_.state_->displacement.data(), octet_.places_.data());
-    octet_.places_known_ = octet_.steps_;
+  batch_.places_.resize(count);
+  if (batch_.places_known_ != batch_.steps_) {
+    multiply_rows(trace.row(0).data(), count, batch_.coordinates(),
+                  batch_.state_->displacement.data(), batch_.places_.data());
+    batch_.places_known_ = batch_.steps_;
   }
-  take(octet_.places_, places_);
+  take(batch_.places_, places_);
   return places_;
 }
 
-void OctetLane::correct(std::span<const LocalIndex> dofs, const interactions::Before& before,
-                        std::span<const double> velocity) {
-  for (std::size_t k = 0; k < dofs.size() && octet_.brakes(lane_); ++k) {
+void BatchMember::correct(std::span<const LocalIndex> dofs, const interactions::Before& before,
+                          std::span<const double> velocity) {
+  for (std::size_t k = 0; k < dofs.size() && batch_.brakes(member_); ++k) {
     const std::size_t i = dofs[k];
-    const double change = velocity[k] - octet_.state_->velocity[i][lane_];
-    const double loss = octet_.dashpots_->loss_rate(i)[lane_] * change;
-    octet_.dashpot_loss_.set(lane_, octet_.dashpot_loss_[lane_] + loss);
+    const double change = velocity[k] - batch_.state_->velocity[i][member_];
+    const double loss = batch_.dashpots_->loss_rate(i)[member_] * change;
+    batch_.dashpot_loss_.set(member_, batch_.dashpot_loss_[member_] + loss);
   }
   SteppedRun::correct(dofs, before, velocity);
   for (const LocalIndex i : dofs) {
-    state_.displacement[i] = octet_.state_->displacement[i][lane_];
-    state_.velocity[i] = octet_.state_->velocity[i][lane_];
+    state_.displacement[i] = batch_.state_->displacement[i][member_];
+    state_.velocity[i] = batch_.state_->velocity[i][member_];
   }
 }
 
-StepSums OctetLane::sums() const {
-  StepSums total = step_.sums(lane_);
-  total.extra_damping_before = octet_.extra_before_[lane_];
-  total.link_loss = octet_.dashpot_loss_[lane_];
+StepSums BatchMember::sums() const {
+  StepSums total = step_.sums(member_);
+  total.extra_damping_before = batch_.extra_before_[member_];
+  total.link_loss = batch_.dashpot_loss_[member_];
   return total;
 }
 

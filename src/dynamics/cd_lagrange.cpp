@@ -12,7 +12,7 @@ namespace pounding {
 
 CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
                        const GroundMotion& motion, double time_step, Profile& profile,
-                       const SupportMotion* supports, const LoadHistories* loads, RunLane lane)
+                       const SupportMotion* supports, const LoadHistories* loads, BatchPlace place)
     : systems_(systems),
       motion_(motion),
       support_motion_(supports),
@@ -27,16 +27,16 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
       load_values_(loads != nullptr ? loads->size() : 0, 0.0) {
   structure_steps_.reserve(systems_.size());
   runs_.reserve(systems_.size());
-  lanes_.reserve(systems_.size());
+  members_.reserve(systems_.size());
   for (std::size_t s = 0; s < systems_.size(); ++s) {
     StructureState& state = state_.structures[s];
     start_filters(systems_[s], time_step, state);
-    if (lane.structures.empty()) {
+    if (place.structures.empty()) {
       StructureStep<double>& step =
           structure_steps_.emplace_back(std::array{&systems_[s]}, state, time_step);
       structures_.push_back(&runs_.emplace_back(step, 0, state));
     } else {
-      structures_.push_back(&lanes_.emplace_back(lane.structures[s], lane.number, state));
+      structures_.push_back(&members_.emplace_back(place.structures[s], place.number, state));
     }
     ledger_.push_back(&sums_[s]);
     vectors_.emplace_back(systems_[s], state);
@@ -134,7 +134,7 @@ void CdLagrange::free_velocity(bool with_forces) {
 
 void CdLagrange::close_energy(const interactions::Step& step) {
   const ScopedEvent event(events_.close_energy);
-  for (std::size_t s = 0; s < lanes_.size(); ++s) sums_[s] = lanes_[s].sums();
+  for (std::size_t s = 0; s < members_.size(); ++s) sums_[s] = members_[s].sums();
   for (std::size_t s = 0; s < structure_steps_.size(); ++s) {
     const double extra_damping_before = sums_[s].extra_damping_before;
     sums_[s] = structure_steps_[s].sums(0);

@@ -19,9 +19,9 @@
 
 namespace pounding {
 
-/// Lane of a run among eight that are stepped together.
-struct RunLane {
-  std::span<OctetStep> structures;  ///< empty: the run is stepped by itself
+/// Place of a run among those that are stepped together.
+struct BatchPlace {
+  std::span<BatchStep> structures;  ///< empty: the run is stepped by itself
   std::size_t number = 0;
 };
 
@@ -49,16 +49,16 @@ struct RunLane {
 /// without damping. Times are n dt, never accumulated. Stable for dt below `stable_time_step`;
 /// contact does not lower it. A step allocates nothing, opens nothing, prints nothing.
 ///
-/// Eight runs of reduced structures can share the line `free_velocity`, each in a lane: `open` of
-/// all, OctetStep::step of every structure, `close` of all.
+/// Eight runs of reduced structures can share the line `free_velocity`, in a batch: `open` of
+/// all, BatchStep::step of every structure, `close` of all.
 class CdLagrange {
  public:
   /// All references must outlive this object. `supports`: null where the ground moves as one;
   /// `loads`: null where no load acts;
-  /// `lane`: where the structures of this run are stepped. Collective.
+  /// `place`: where the structures of this run are stepped. Collective.
   CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems, const GroundMotion& motion,
              double time_step, Profile& profile, const SupportMotion* supports = nullptr,
-             const LoadHistories* loads = nullptr, RunLane lane = {});
+             const LoadHistories* loads = nullptr, BatchPlace place = {});
   ~CdLagrange();
 
   /// Takes an interaction in, after those that it has; before the first step. Returns it.
@@ -76,7 +76,7 @@ class CdLagrange {
   /// will. Collective; every rank asks alike for energies.
   void step(bool look_at_gap, bool with_energies, bool with_forces = false);
   /// The parts of a step before the structures' own one, elongations and gaps of u_n, and after it,
-  /// impulses and ledger; for runs in lanes. Returns whether that one is to be made with energies.
+  /// impulses and ledger; for members of a batch. Returns whether to make it with energies.
   bool open(bool look_at_gap, bool with_energies);
   void close();
   /// An interaction asks for the forces of this step, to correct it. After `open`.
@@ -95,7 +95,7 @@ class CdLagrange {
   void save(SavedState& saved) const;
   void load(const SavedState& saved);
 
-  /// State that the next step starts from; in a lane, where a line of the ledger was asked for.
+  /// State that the next step starts from; in a batch, where a line of the ledger was asked for.
   const State& state() const { return state_; }
   /// State of a structure as PETSc vectors.
   const StateVectors& vectors(std::size_t structure) const { return vectors_[structure]; }
@@ -140,15 +140,15 @@ class CdLagrange {
   Profile& profile_;
   State state_;
   interactions::SupportStep supports_;
-  std::vector<StructureStep<double>> structure_steps_;  ///< none in a lane
+  std::vector<StructureStep<double>> structure_steps_;  ///< none in a batch
   std::vector<SteppedRun<double>> runs_;                ///< of these
-  std::vector<OctetLane> lanes_;                        ///< per structure in their place
+  std::vector<BatchMember> members_;                    ///< per structure in their place
   std::vector<std::unique_ptr<interactions::Interaction>> interactions_;
   EnergyBalance energy_;
   std::vector<StepSums> sums_;
   std::vector<double> rest_before_;                          ///< see StepSums
   std::vector<double> load_values_;                          ///< f of every load in the step
-  std::vector<interactions::SteppedStructure*> structures_;  ///< runs or lanes
+  std::vector<interactions::SteppedStructure*> structures_;  ///< runs or members
   std::vector<interactions::LedgerPart*> ledger_;            ///< those of sums_
   std::vector<std::vector<double>> stiffness_velocity_;      ///< K v-, where energies are asked for
   std::vector<StateVectors> vectors_;

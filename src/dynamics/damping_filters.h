@@ -4,8 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "common/batch_value.h"
 #include "common/lanes.h"
-#include "common/octet.h"
 #include "dynamics/state.h"
 #include "system/linear_system.h"
 
@@ -78,15 +78,15 @@ Number filtered_force(const Filters<Number>& filters, const Number& stiffness_fo
   return force;
 }
 
-/// Filters of a run in a lane; those that it lacks let everything pass.
+/// Filters of a run in a batch; those that it lacks let everything pass.
 template <typename Number>
-void put_filters(const Filters<double>& from, std::size_t lane, Filters<Number>& to) {
+void put_filters(const Filters<double>& from, std::size_t member, Filters<Number>& to) {
   to.count = std::max(to.count, from.count);
-  set_lane(to.passing, lane, from.passing);
+  set_member(to.passing, member, from.passing);
   for (std::size_t k = 0; k < from.count; ++k) {
-    set_lane(to.filters[k].weight, lane, from.filters[k].weight);
-    set_lane(to.filters[k].keep, lane, from.filters[k].keep);
-    set_lane(to.filters[k].take, lane, from.filters[k].take);
+    set_member(to.filters[k].weight, member, from.filters[k].weight);
+    set_member(to.filters[k].keep, member, from.filters[k].keep);
+    set_member(to.filters[k].take, member, from.filters[k].take);
   }
 }
 

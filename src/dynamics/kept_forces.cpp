@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "common/octet.h"
+#include "common/batch_value.h"
 
 namespace pounding {
 
@@ -38,6 +38,6 @@ void KeptForces<Number>::take(LocalIndex begin, LocalIndex end, const Number* fo
 }
 
 template class KeptForces<double>;
-template class KeptForces<Octet>;
+template class KeptForces<BatchValue>;
 
 }  // namespace pounding

@@ -12,7 +12,7 @@
 namespace pounding {
 
 /// State of one structure, all that evolves; owned dofs of this rank. `Number`: double in one run,
-/// Octet in eight. Before the step to t_n:
+/// BatchValue in eight. Before the step to t_n:
 template <typename Number>
 struct StateOf {
   std::vector<Number> displacement;             ///< u_n [m, rad]

@@ -6,15 +6,15 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/octet.h"
+#include "common/batch_value.h"
 #include "common/wide_lanes.h"
 #include "dynamics/damping_filters.h"
 #include "dynamics/update.h"
 
 /// Policies by which dofs are brought one step on: the place of their masses, the effect of the
-/// ground, and other actions on them. Arrays hold a `Number` for each dof: double, or Octet where
-/// eight runs are stepped together. The step is made for a `Value` at once: a Number, or a vector
-/// of doubles. See StructureStep.
+/// ground, and other actions on them. Arrays hold a `Number` for each dof: double, or BatchValue
+/// where eight runs are stepped together. The step is made for a `Value` at once: a Number, or a
+/// vector of doubles. See StructureStep.
 namespace pounding {
 
 /// Dofs in which directions repeat, three vectors of them.
@@ -341,9 +341,9 @@ class Actions {
     return value;
   }
 
-  const ActionParts<Number> parts_;
-  Filters<Value> filters_{};
-  std::array<Number*, max_filters> memory_{};
+  const ActionParts<Number>& parts_;
+  Filters<Value> filters_;
+  std::array<Number*, max_filters> memory_;
 };
 
 }  // namespace pounding

@@ -22,11 +22,11 @@ bool directions_are(const LinearSystem& system, std::size_t dof, std::array<int,
   return true;
 }
 
-/// Adds the sums of one run to those of its lane.
+/// Adds the sums of one run to those of its member.
 template <typename Number>
-void add_in_lane(const StepTotals<double>& from, std::size_t lane, StepTotals<Number>& to) {
-  const auto add = [lane](double part, Number& sum) {
-    set_lane(sum, lane, of_lane(sum, lane) + part);
+void add_to_member(const StepTotals<double>& from, std::size_t member, StepTotals<Number>& to) {
+  const auto add = [member](double part, Number& sum) {
+    set_member(sum, member, of_member(sum, member) + part);
   };
   add(from.dofs.stiffness_work, to.dofs.stiffness_work);
   add(from.dofs.mass_sum, to.dofs.mass_sum);
@@ -62,9 +62,9 @@ StructureStep<Number>::StructureStep(std::span<const LinearSystem* const> system
       vectors_(std::make_unique<VectorParts>()) {
   terms_.time_step = Number{} + time_step;
   filters_.passing = Number{} + 1.0;
-  for (std::size_t lane = 0; lane < systems.size(); ++lane) {
-    const LinearSystem& system = *systems[lane];
-    put_filters(filters_of(system, time_step), lane, filters_);
+  for (std::size_t member = 0; member < systems.size(); ++member) {
+    const LinearSystem& system = *systems[member];
+    put_filters(filters_of(system, time_step), member, filters_);
     filters_forces_ = filters_forces_ || system.uniform_damping;
     corrections_need_forces_ =
         corrections_need_forces_ || system.uniform_damping || system.damping.beta != 0;
@@ -72,14 +72,12 @@ StructureStep<Number>::StructureStep(std::span<const LinearSystem* const> system
   for (std::size_t d = 0; d < 3; ++d) {
     gravity_[d] = number_of<Number>(systems, [d](const auto& s) { return s.gravity[d]; });
     if (!system_.generalised) continue;
-    influence_[d] = constants_of<Number>(systems, [d](const auto& s) -> const std::vector<double>& {
-      return s.generalised->influence[d];
-    });
+    influence_[d] = constants_of<Number>(
+        systems, [d](const auto& s) -> const auto& { return s.generalised->influence[d]; });
   }
   for (std::size_t c = 0; system_.supports && c < system_.supports->shape.size(); ++c) {
     supports_.push_back(constants_of<Number>(
-        systems,
-        [c](const auto& s) -> const std::vector<double>& { return s.supports->shape[c]; }));
+        systems, [c](const auto& s) -> const auto& { return s.supports->shape[c]; }));
   }
   for (std::size_t l = 0; system_.loads && l < system_.loads->loads.size(); ++l) {
     const LoadShape& shape = system_.loads->loads[l];
@@ -180,8 +178,8 @@ void StructureStep<Number>::begin(double duration, const std::array<Number, 3>& 
   for (std::size_t d = 0; d < 3; ++d) {
     ground_step_[d] = h * (ground_acceleration[d] - gravity_[d]);
     shaken_[d] = false;
-    for (std::size_t lane = 0; lane < runs_; ++lane) {
-      shaken_[d] = shaken_[d] || of_lane(ground_step_[d], lane) != 0;
+    for (std::size_t member = 0; member < runs_; ++member) {
+      shaken_[d] = shaken_[d] || of_member(ground_step_[d], member) != 0;
     }
   }
   if constexpr (std::is_same_v<Number, double>) {
@@ -290,10 +288,11 @@ void StructureStep<Number>::complete() {
     }
     mass.take(waiting_.velocity.data(), field_.data());
     mass.solve(field_.data());
-    mass.put(field_.data(), waiting_.velocity.data());
-    for (const NodeDofs& node : mass.nodes()) {
-      for (LocalIndex i = node.begin; i < node.begin + node.count; ++i) {
-        waiting_.velocity[i] += state_.velocity[i];
+    for (std::size_t n = 0; n < mass.nodes().size(); ++n) {
+      const std::size_t begin = mass.nodes()[n].begin, count = mass.nodes()[n].count;
+      const double* const change = &field_[mass.place(n)];
+      for (std::size_t c = 0; c < count; ++c) {
+        waiting_.velocity[begin + c] = state_.velocity[begin + c] + change[c];
       }
     }
   }
@@ -304,73 +303,74 @@ void StructureStep<Number>::complete() {
 }
 
 template <typename Number>
-void StructureStep<Number>::act(std::size_t lane, std::span<const LocalIndex> dofs,
+void StructureStep<Number>::act(std::size_t member, std::span<const LocalIndex> dofs,
                                 std::span<const double> force, bool from_rest) {
   for (std::size_t k = 0; k < dofs.size(); ++k) {
     const std::size_t i = dofs[k];
-    set_lane(state_.inelastic_force[i], lane, force[k]);
+    set_member(state_.inelastic_force[i], member, force[k]);
     for (std::size_t f = 0; from_rest && f < filters_.count; ++f) {
       // The filter that holds the force at rest, which takes nothing, has it from the start.
       const auto& filter = filters_.filters[f];
-      if (of_lane(filter.take, lane) == 0) continue;
+      if (of_member(filter.take, member) == 0) continue;
       Number& memory = state_.filtered[f][i];
-      const double newest = (1 - of_lane(filter.keep, lane)) / 2;
-      set_lane(memory, lane, of_lane(memory, lane) + (1 - newest) * force[k]);
+      const double newest = (1 - of_member(filter.keep, member)) / 2;
+      set_member(memory, member, of_member(memory, member) + (1 - newest) * force[k]);
     }
   }
 }
 
 template <typename Number>
-void StructureStep<Number>::remember(std::size_t lane, std::span<const LocalIndex> dofs,
+void StructureStep<Number>::remember(std::size_t member, std::span<const LocalIndex> dofs,
                                      interactions::Before& before) const {
   for (std::size_t k = 0; k < dofs.size(); ++k) {
     const std::size_t i = dofs[k];
-    before.displacement[k] = of_lane(state_.displacement[i], lane);
-    before.velocity[k] = of_lane(state_.velocity[i], lane);
+    before.displacement[k] = of_member(state_.displacement[i], member);
+    before.velocity[k] = of_member(state_.velocity[i], member);
   }
 }
 
 template <typename Number>
-void StructureStep<Number>::correct(std::size_t lane, std::span<const LocalIndex> dofs,
+void StructureStep<Number>::correct(std::size_t member, std::span<const LocalIndex> dofs,
                                     const interactions::Before& before,
                                     std::span<const double> velocity) {
-  const StepTerms<double> terms{of_lane(terms_.time_step, lane), of_lane(terms_.duration, lane),
-                                of_lane(terms_.decay, lane), of_lane(terms_.beta, lane),
-                                of_lane(terms_.drag, lane)};
+  const StepTerms<double> terms{of_member(terms_.time_step, member),
+                                of_member(terms_.duration, member), of_member(terms_.decay, member),
+                                of_member(terms_.beta, member), of_member(terms_.drag, member)};
   StepTotals<double> change;
   for (std::size_t k = 0; k < dofs.size(); ++k) {
     const std::size_t i = dofs[k];
     const DofState<double> old{before.displacement[k], before.velocity[k]};
-    DofState<double> dof{of_lane(state_.displacement[i], lane), of_lane(state_.velocity[i], lane)};
+    DofState<double> dof{of_member(state_.displacement[i], member),
+                         of_member(state_.velocity[i], member)};
     DofForces<double> forces;
     if (keeps_) {
       const DofForces<Number>& kept = forces_.at(dofs[k]);
-      forces = {of_lane(kept.stiffness, lane), of_lane(kept.acting, lane)};
+      forces = {of_member(kept.stiffness, member), of_member(kept.acting, member)};
     }
     if (!state_.extra_force.empty()) {
-      change.dofs.device += of_lane(state_.extra_force[i], lane) * (velocity[k] - dof.velocity);
+      change.dofs.device += of_member(state_.extra_force[i], member) * (velocity[k] - dof.velocity);
     }
     const double gained =
-        correct_dof(terms, of_lane(mass_[i], lane), old, velocity[k], forces, dof, change.dofs);
-    if (!known_step_.empty()) change.dofs.known_work += of_lane(known_step_[i], lane) * gained;
+        correct_dof(terms, of_member(mass_[i], member), old, velocity[k], forces, dof, change.dofs);
+    if (!known_step_.empty()) change.dofs.known_work += of_member(known_step_[i], member) * gained;
     if (system_.generalised) {
       for (std::size_t d = 0; d < 3; ++d) {
-        change.momentum[d] += of_lane(influence_[d][i], lane) * gained;
+        change.momentum[d] += of_member(influence_[d][i], member) * gained;
       }
     } else if (system_.direction[i] >= 0) {
       change.momentum[system_.direction[i]] += gained;
     }
-    set_lane(state_.velocity[i], lane, dof.velocity);
-    set_lane(state_.displacement[i], lane, dof.displacement);
+    set_member(state_.velocity[i], member, dof.velocity);
+    set_member(state_.displacement[i], member, dof.displacement);
   }
-  add_in_lane(change, lane, totals_);
+  add_to_member(change, member, totals_);
 }
 
 template <typename Number>
-StepSums StructureStep<Number>::sums(std::size_t lane) const {
+StepSums StructureStep<Number>::sums(std::size_t member) const {
   StepSums total;
   add_to(
-      totals_, [lane](const Number& value) { return of_lane(value, lane); }, total);
+      totals_, [member](const Number& value) { return of_member(value, member); }, total);
   if constexpr (std::is_same_v<Number, double>) {
     add_to(
         vectors_->totals, [](const WideLanes& value) { return add_up(value); }, total);
@@ -380,11 +380,11 @@ StepSums StructureStep<Number>::sums(std::size_t lane) const {
     }
   }
   total.added_kinetic_before = added_kinetic_before_;
-  total.load = of_lane(load_before_ + load_power(), lane);
+  total.load = of_member(load_before_ + load_power(), member);
   return total;
 }
 
 template class StructureStep<double>;
-template class StructureStep<Octet>;
+template class StructureStep<BatchValue>;
 
 }  // namespace pounding

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "common/octet.h"
+#include "common/batch_value.h"
 #include "dynamics/damping_filters.h"
 #include "dynamics/kept_forces.h"
 #include "dynamics/state.h"
@@ -30,10 +30,10 @@ Constants<Number> constants_of(std::span<const LinearSystem* const> systems, con
     return std::invoke(get, *systems.front());
   } else {
     std::vector<Number> all;
-    for (std::size_t lane = 0; lane < systems.size(); ++lane) {
-      const std::vector<double>& values = std::invoke(get, *systems[lane]);
+    for (std::size_t member = 0; member < systems.size(); ++member) {
+      const std::vector<double>& values = std::invoke(get, *systems[member]);
       all.resize(values.size(), Number{});
-      for (std::size_t i = 0; i < values.size(); ++i) set_lane(all[i], lane, values[i]);
+      for (std::size_t i = 0; i < values.size(); ++i) set_member(all[i], member, values[i]);
     }
     return all;
   }
@@ -43,8 +43,8 @@ Constants<Number> constants_of(std::span<const LinearSystem* const> systems, con
 template <typename Number, typename Get>
 Number number_of(std::span<const LinearSystem* const> systems, const Get& get) {
   Number number{};
-  for (std::size_t lane = 0; lane < systems.size(); ++lane) {
-    set_lane(number, lane, get(*systems[lane]));
+  for (std::size_t member = 0; member < systems.size(); ++member) {
+    set_member(number, member, get(*systems[member]));
   }
   return number;
 }
@@ -69,8 +69,8 @@ struct StepRequest {
 ///
 /// v+ is free of contact until `correct` is called.
 ///
-/// `Number`: double for one run; Octet for up to eight of the same structure, which may differ in
-/// mass, stiffness, damping and ground motion, lane by lane. A step allocates nothing.
+/// `Number`: double for one run; BatchValue for up to eight of the same structure, which may differ
+/// in mass, stiffness, damping and ground motion. A step allocates nothing.
 template <typename Number>
 class StructureStep final : public stiffness::ReceiverOf<Number> {
  public:
@@ -99,15 +99,15 @@ class StructureStep final : public stiffness::ReceiverOf<Number> {
   /// Forces of this step at the watched dofs, where they were asked for.
   const KeptForces<Number>& forces() const { return forces_; }
 
-  /// See SteppedStructure; of the run in a lane.
-  void act(std::size_t lane, std::span<const LocalIndex> dofs, std::span<const double> force,
+  /// See SteppedStructure; of one run of the batch.
+  void act(std::size_t member, std::span<const LocalIndex> dofs, std::span<const double> force,
            bool from_rest);
-  void remember(std::size_t lane, std::span<const LocalIndex> dofs,
+  void remember(std::size_t member, std::span<const LocalIndex> dofs,
                 interactions::Before& before) const;
-  void correct(std::size_t lane, std::span<const LocalIndex> dofs,
+  void correct(std::size_t member, std::span<const LocalIndex> dofs,
                const interactions::Before& before, std::span<const double> velocity);
   /// Sums of the whole step.
-  StepSums sums(std::size_t lane) const;
+  StepSums sums(std::size_t member) const;
 
  private:
   /// Terms and sums of whole vectors of dofs, as wide as those of the unit.
@@ -182,32 +182,32 @@ class StructureStep final : public stiffness::ReceiverOf<Number> {
   double added_kinetic_before_ = 0;
 };
 
-/// One run of a StructureStep, as the scheme and its interactions see it: alone, or in a lane.
+/// One run of a StructureStep, as the scheme and its interactions see it: alone, or in a batch.
 template <typename Number>
 class SteppedRun : public interactions::SteppedStructure {
  public:
   /// References must outlive this object; `state`: of the run.
-  SteppedRun(StructureStep<Number>& step, std::size_t lane, StructureState& state)
-      : step_(step), lane_(lane), state_(state) {}
+  SteppedRun(StructureStep<Number>& step, std::size_t member, StructureState& state)
+      : step_(step), member_(member), state_(state) {}
 
   const std::vector<double>& displacement() const override { return state_.displacement; }
   const std::vector<double>& velocity() const override { return state_.velocity; }
   void watch(std::span<const LocalIndex> dofs, bool always) override { step_.watch(dofs, always); }
   void act(std::span<const LocalIndex> dofs, std::span<const double> force,
            bool from_rest) override {
-    step_.act(lane_, dofs, force, from_rest);
+    step_.act(member_, dofs, force, from_rest);
   }
   void remember(std::span<const LocalIndex> dofs, interactions::Before& before) const override {
-    step_.remember(lane_, dofs, before);
+    step_.remember(member_, dofs, before);
   }
   void correct(std::span<const LocalIndex> dofs, const interactions::Before& before,
                std::span<const double> velocity) override {
-    step_.correct(lane_, dofs, before, velocity);
+    step_.correct(member_, dofs, before, velocity);
   }
 
  protected:
   StructureStep<Number>& step_;
-  std::size_t lane_;
+  std::size_t member_;
   StructureState& state_;
 };
 

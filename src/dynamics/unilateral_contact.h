@@ -11,9 +11,9 @@
 
 #include "common/petsc.h"
 #include "common/saved_state.h"
+#include "dynamics/damping_filters.h"
 #include "dynamics/energy_balance.h"
 #include "dynamics/state.h"
-#include "dynamics/damping_filters.h"
 #include "interactions/contact_problem.h"
 #include "interactions/interaction.h"
 #include "system/linear_system.h"

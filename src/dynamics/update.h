@@ -8,7 +8,7 @@
 #include "interactions/interaction.h"
 
 /// One step of central differences for one dof (double), for several, a lane for each (WideLanes),
-/// or for one dof of eight runs (Octet): the only place where it is written. With
+/// or for one dof of eight runs (BatchValue): the only place where it is written. With
 /// w = u_n + beta v-, v- = v_{n-1/2} and v+ = v_{n+1/2}:
 ///
 ///     q       = K w,  given

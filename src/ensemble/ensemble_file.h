@@ -6,7 +6,7 @@
 
 #include <mpi.h>
 
-#include "ensemble/octet_group.h"
+#include "ensemble/member_batch.h"
 #include "io/new_file.h"
 #include "scene/member_table.h"
 

@@ -15,8 +15,8 @@
 #include "driver/build_model.h"
 #include "driver/time_loop.h"
 #include "ensemble/ensemble_file.h"
+#include "ensemble/member_batch.h"
 #include "ensemble/member_doubts.h"
-#include "ensemble/octet_group.h"
 #include "fidelity/fidelity_climb.h"
 #include "io/new_file.h"
 #include "model/time_step.h"
@@ -234,7 +234,7 @@ class Ensemble {
   }
 
   void check_memory() const {
-    const double wanted = OctetRecorder::memory(layout_.channels.size(), times_) * size_of(comm_);
+    const double wanted = BatchRecorder::memory(layout_.channels.size(), times_) * size_of(comm_);
     double available = available_memory();
     MPI_Bcast(&available, 1, MPI_DOUBLE, 0, comm_);
     if (wanted <= available) return;
@@ -249,11 +249,11 @@ class Ensemble {
   void print_plan() const {
     std::printf(
         "ensemble %s: %zu members, %zu at a time on each rank; time step %.6g s, %lld steps\n",
-        table_.file.c_str(), members_.size(), octet_size, shared_.time_step,
+        table_.file.c_str(), members_.size(), batch_size, shared_.time_step,
         static_cast<long long>(shared_.steps));
     std::printf("  %s\n", step_source_text(scene_, shared_).c_str());
     std::printf("  histories in memory: %.0f MB per rank\n",
-                OctetRecorder::memory(layout_.channels.size(), times_) / 1e6);
+                BatchRecorder::memory(layout_.channels.size(), times_) / 1e6);
   }
 
   void open_file() {
@@ -285,11 +285,11 @@ class Ensemble {
     const double start = MPI_Wtime();
     on_every_rank(comm_, [&] {
       if (missing_.empty()) return;
-      OctetRecorder recorder(model().probes, model().systems, model().meshes, times_);
-      const std::size_t stride = octet_size * static_cast<std::size_t>(size_of(comm_));
-      const std::size_t begin = octet_size * static_cast<std::size_t>(rank_of(comm_));
+      BatchRecorder recorder(model().probes, model().systems, model().meshes, times_);
+      const std::size_t stride = batch_size * static_cast<std::size_t>(size_of(comm_));
+      const std::size_t begin = batch_size * static_cast<std::size_t>(rank_of(comm_));
       for (std::size_t first = begin; first < missing_.size(); first += stride) {
-        const std::size_t count = std::min(octet_size, missing_.size() - first);
+        const std::size_t count = std::min(batch_size, missing_.size() - first);
         if (!step_group({&missing_[first], count}, recorder, stop)) return;
         if (root()) show(std::min(first + stride, missing_.size()), MPI_Wtime() - start);
       }
@@ -298,18 +298,18 @@ class Ensemble {
     seconds_ = MPI_Wtime() - start;
   }
 
-  bool step_group(std::span<const std::size_t> numbers, OctetRecorder& recorder,
+  bool step_group(std::span<const std::size_t> numbers, BatchRecorder& recorder,
                   StopTogether& stop) {
     std::vector<const MemberScene*> scenes;
     for (const std::size_t number : numbers) scenes.push_back(&members_[number]);
-    OctetGroup group(scenes, scene_, parts_, recorder);
+    MemberBatch group(scenes, scene_, parts_, recorder);
     try {
       if (!group.run([&] { return stop.ask(); })) return false;
     } catch (const DivergenceError& error) {
-      throw UserError(table_.place(numbers[group.failed_lane()]) + error.what());
+      throw UserError(table_.place(numbers[group.failed_member()]) + error.what());
     }
-    for (std::size_t lane = 0; lane < numbers.size(); ++lane) {
-      file_->write(numbers[lane], group.result(lane));
+    for (std::size_t member = 0; member < numbers.size(); ++member) {
+      file_->write(numbers[member], group.result(member));
     }
     return !stop.ask();
   }
@@ -360,7 +360,7 @@ class Ensemble {
   std::optional<Model>
       own_;  ///< of this rank alone; none on one rank, where the shared one is that
   EnsembleModel parts_;
-  OctetRecorder::Times times_;
+  BatchRecorder::Times times_;
   std::optional<EnsembleFile> file_;
   MemberDoubts doubts_;
   std::vector<double> intervals_;  ///< shortest between samples of a member's motion [s]

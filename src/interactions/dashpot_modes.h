@@ -77,8 +77,8 @@ class DashpotMatrix {
 ///
 ///     w+ = w_free - U diag(g) U^T (w_free + w-)
 ///
-/// `Value`: double, or Octet for eight runs of the structure that share mass and dashpots. Local;
-/// nothing allocates after construction.
+/// `Value`: double, or BatchValue for eight runs of the structure that share mass and dashpots.
+/// Local; nothing allocates after construction.
 template <typename Value>
 class DashpotBrake {
  public:

@@ -91,9 +91,9 @@ class SteppedStructure {
   /// Over the owned dofs: u_n and v- before the free step, u_{n+1} and v+ after it [m, rad].
   virtual const std::vector<double>& displacement() const = 0;
   virtual const std::vector<double>& velocity() const = 0;
-  /// Brings the state of its run up to date where the step keeps it in lanes.
+  /// Brings the state of its run up to date where the step keeps it in a batch.
   virtual void bring_state() const {}
-  /// u_n at the known places of a trace [m, rad], where runs in lanes all ask for it; else empty.
+  /// u_n at the known places of a trace [m, rad], where members of a batch ask for it; else empty.
   virtual std::span<const double> places(const Trace& /*trace*/) { return {}; }
   /// Dofs that `correct` may change. Allocates; before the first step. `always`: in any step; else
   /// in steps whose interaction says `corrects` alone.

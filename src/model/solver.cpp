@@ -120,7 +120,7 @@ void Solver::restart() {
 void Solver::make_stepper() {
   const Parts& parts = parts_;
   stepper_ = std::make_unique<CdLagrange>(parts.comm, parts.systems, *parts.motion, parts.time_step,
-                                          *parts.profile, parts.supports, parts.loads, parts.lane);
+                                          *parts.profile, parts.supports, parts.loads, parts.batch);
   links_.clear();
   inelastic_.clear();
   for (std::size_t s = 0; s < parts.systems.size(); ++s) {
@@ -129,9 +129,9 @@ void Solver::make_stepper() {
                              ? nullptr
                              : &stepper_->add(std::make_unique<interactions::InelasticElements>(
                                    s, parts.meshes[s], system, parts.time_step, system.laws)));
-    const bool braked_in_lanes =
-        !parts.lane.structures.empty() && parts.lane.structures[s].brakes(parts.lane.number);
-    links_.push_back(system.links && !braked_in_lanes
+    const bool braked_in_batch =
+        !parts.batch.structures.empty() && parts.batch.structures[s].brakes(parts.batch.number);
+    links_.push_back(system.links && !braked_in_batch
                          ? &stepper_->add(interactions::make_links(system, s, parts.time_step))
                          : nullptr);
   }

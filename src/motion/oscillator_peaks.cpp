@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/batch_value.h"
 #include "common/memory.h"
-#include "common/octet.h"
 #include "motion/oscillator_step.h"
 
 namespace pounding {
@@ -145,8 +145,8 @@ double followed_load(std::span<const double> load, const Oscillator& o) {
 
 /// Oscillators side by side: their chains of sums hide each other's latency.
 constexpr std::size_t vectors = 3;
-constexpr std::size_t together = vectors * octet_size;
-using Vector = Octet[vectors];
+constexpr std::size_t together = vectors * batch_size;
+using Vector = BatchValue[vectors];
 
 /// A step of oscillators side by side over `stride` samples at once, which the state before and the
 /// samples of h^2 a from the first to the last determine.
@@ -171,7 +171,7 @@ class Stride {
       }
       for (std::size_t c = 0; c < columns.size(); ++c) {
         for (std::size_t r = 0; r < 2; ++r) {
-          effect_[c][r][i / octet_size].set(i % octet_size, columns[c][r]);
+          effect_[c][r][i / batch_size].set(i % batch_size, columns[c][r]);
         }
       }
     }
@@ -179,10 +179,10 @@ class Stride {
 
   void go(const double* load, Vector& u, Vector& v) const {
     for (std::size_t b = 0; b < vectors; ++b) {
-      Octet u1 = effect_[2][0][b] * all_octet(load[0]), v1 = effect_[2][1][b] * all_octet(load[0]);
+      auto u1 = effect_[2][0][b] * all_eight(load[0]), v1 = effect_[2][1][b] * all_eight(load[0]);
       for (std::size_t n = 1; n <= stride; ++n) {
-        add_product(effect_[n + 2][0][b], all_octet(load[n]), u1);
-        add_product(effect_[n + 2][1][b], all_octet(load[n]), v1);
+        add_product(effect_[n + 2][0][b], all_eight(load[n]), u1);
+        add_product(effect_[n + 2][1][b], all_eight(load[n]), v1);
       }
       add_product(effect_[1][0][b], v[b], u1);
       add_product(effect_[1][1][b], v[b], v1);
@@ -267,10 +267,10 @@ void Block::pass(std::span<const double> load, Passage& passage, Vector& u, Vect
   }
   for (std::size_t b = 0; b < vectors; ++b) {
     passage.largest[b] = largest[b];
-    const OctetMask still =
-        magnitude(u[b]) + magnitude(v[b]) + all_octet(passage.load) < all_octet(rest);
-    u[b] = choose(still, Octet{}, u[b]);
-    v[b] = choose(still, Octet{}, v[b]);
+    const BatchMask still =
+        magnitude(u[b]) + magnitude(v[b]) + all_eight(passage.load) < all_eight(rest);
+    u[b] = choose(still, BatchValue{}, u[b]);
+    v[b] = choose(still, BatchValue{}, v[b]);
   }
 }
 
@@ -278,7 +278,7 @@ void Block::look_between(std::span<const double> load, std::size_t i, double& pe
   const Oscillator& o = oscillators_[i];
   const Stepper stepper(o);
   const BetweenSamples bound(o, stride_);
-  const std::size_t b = i / octet_size, l = i % octet_size;
+  const std::size_t b = i / batch_size, l = i % batch_size;
   for (const Passage& passage : passages_) {
     if (bound.of_displacement * passage.largest[b][l] + bound.of_load * passage.load <= peak) {
       continue;
@@ -306,7 +306,7 @@ std::vector<double> Block::peaks(std::span<const double> load, AfterRecord after
   }
   std::vector<double> peaks;
   for (std::size_t i = 0; i < oscillators_.size(); ++i) {
-    const std::size_t b = i / octet_size, l = i % octet_size;
+    const std::size_t b = i / batch_size, l = i % batch_size;
     double peak = largest[b][l];
     look_between(load, i, peak);
     if (after == AfterRecord::free_vibration) {

@@ -81,9 +81,9 @@ void CoupledMass::solve_transposed_half(double* x) const {
 }
 
 void CoupledMass::take(const double* owned, double* x) const {
-  std::fill_n(x, field_size(), 0.0);
   for (std::size_t n = 0; n < nodes().size(); ++n) {
-    std::copy_n(owned + nodes()[n].begin, nodes()[n].count, x + place(n));
+    const std::size_t begin = nodes()[n].begin, count = nodes()[n].count;
+    for (std::size_t c = 0; c < width; ++c) x[place(n) + c] = c < count ? owned[begin + c] : 0;
   }
 }
 

@@ -326,17 +326,17 @@ TEST(StructureStep, MovesTheSameWithoutEnergies) {
   EXPECT_EQ(fewer.kinetic_before, 0);
 }
 
-/// Eight runs that differ in their ground's motion and state, of which lane 5 is the case.
-void expect_lane_of_eight(LinearSystem system) {
+/// Eight runs that differ in their ground's motion and state, of which member 5 is the case.
+void expect_member_of_batch(LinearSystem system) {
   Case alone(std::move(system));
-  constexpr std::size_t lane = 5;
+  constexpr std::size_t member = 5;
   const std::size_t n = alone.force.size();
-  StateOf<Octet> state;
-  std::vector<Octet> force;
-  const auto spread = [&](const std::vector<double>& from, std::vector<Octet>& to) {
-    to.assign(from.size(), Octet{});
+  StateOf<BatchValue> state;
+  std::vector<BatchValue> force;
+  const auto spread = [&](const std::vector<double>& from, std::vector<BatchValue>& to) {
+    to.assign(from.size(), BatchValue{});
     for (std::size_t i = 0; i < from.size(); ++i) {
-      for (std::size_t l = 0; l < octet_size; ++l) to[i].set(l, from[i] * (l == lane ? 1 : 1.7));
+      for (std::size_t l = 0; l < batch_size; ++l) to[i].set(l, from[i] * (l == member ? 1 : 1.7));
     }
   };
   spread(alone.state.displacement, state.displacement);
@@ -345,20 +345,21 @@ void expect_lane_of_eight(LinearSystem system) {
   spread(alone.state.inelastic_force, state.inelastic_force);
   for (const auto& memory : alone.state.filtered) spread(memory, state.filtered.emplace_back());
   spread(alone.force, force);
-  std::array<Octet, 3> accelerations{};
+  std::array<BatchValue, 3> accelerations{};
   for (std::size_t d = 0; d < 3; ++d) {
-    for (std::size_t l = 0; l < octet_size; ++l) accelerations[d].set(l, l == lane ? ground[d] : 9);
+    for (std::size_t l = 0; l < batch_size; ++l)
+      accelerations[d].set(l, l == member ? ground[d] : 9);
   }
-  const std::vector<const LinearSystem*> systems(octet_size, &alone.system);
-  StructureStep<Octet> step(systems, state, time_step);
+  const std::vector<const LinearSystem*> systems(batch_size, &alone.system);
+  StructureStep<BatchValue> step(systems, state, time_step);
   step.begin(time_step, accelerations, {});
   step.receive(0, static_cast<LocalIndex>(n), force.data());
   step.complete();
   const StepSums expected = take_step(alone, 0, false);
-  const StepSums sums = step.sums(lane);
+  const StepSums sums = step.sums(member);
   for (std::size_t i = 0; i < n; ++i) {
-    EXPECT_EQ(state.velocity[i][lane], alone.state.velocity[i]);
-    EXPECT_EQ(state.displacement[i][lane], alone.state.displacement[i]);
+    EXPECT_EQ(state.velocity[i][member], alone.state.velocity[i]);
+    EXPECT_EQ(state.displacement[i][member], alone.state.displacement[i]);
   }
   expect_close(sums.mass_sum, expected.mass_sum, 1e3);
   expect_close(sums.stiffness_work, expected.stiffness_work, 1e5);
@@ -367,15 +368,15 @@ void expect_lane_of_eight(LinearSystem system) {
   for (std::size_t d = 0; d < 3; ++d) expect_close(sums.momentum[d], expected.momentum[d], 1e3);
 }
 
-TEST(StructureStep, RoundsARunInALaneLikeOneByItself) {
+TEST(StructureStep, RoundsAMemberOfABatchLikeARunByItself) {
   const std::vector<Kind> mixture{Kind::translations, Kind::translations, Kind::damped,
                                   Kind::six,          Kind::lone,         Kind::translations};
   const std::vector<Kind> plain(5, Kind::translations);
-  expect_lane_of_eight(nodes_in_a_row(plain));
-  expect_lane_of_eight(yielding(nodes_in_a_row(mixture)));
-  expect_lane_of_eight(filtered(yielding(nodes_in_a_row(mixture))));
-  expect_lane_of_eight(coordinates(7));
-  expect_lane_of_eight(filtered(coordinates(7)));
+  expect_member_of_batch(nodes_in_a_row(plain));
+  expect_member_of_batch(yielding(nodes_in_a_row(mixture)));
+  expect_member_of_batch(filtered(yielding(nodes_in_a_row(mixture))));
+  expect_member_of_batch(coordinates(7));
+  expect_member_of_batch(filtered(coordinates(7)));
 }
 
 void expect_coupled_step(LinearSystem system) {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/batch_value.h"
 #include "common/dense_matrix.h"
-#include "common/octet.h"
 
 namespace pounding::interactions {
 namespace dashpot_modes_test {
@@ -97,28 +97,28 @@ TEST(DashpotBrake, LeaveAloneWhatTheyDoNotHold) {
   for (std::size_t i = 1; i < Braked::size; ++i) EXPECT_NEAR(velocity[i], braked.free[i], 1e-15);
 }
 
-void expect_each_lane(std::size_t count) {
+void expect_each_member(std::size_t count) {
   const Braked braked(count);
   DashpotBrake<double> one({braked.system, braked.dashpots, Braked::time_step});
-  DashpotBrake<Octet> all({braked.system, braked.dashpots, Braked::time_step});
-  std::vector<Octet> before(Braked::size, Octet{});
-  std::vector<Octet> velocities(Braked::size, Octet{});
-  const auto level = [](std::size_t lane) { return 0.25 * static_cast<double>(lane) - 1; };
-  for (std::size_t lane = 0; lane < octet_size; ++lane) {
+  DashpotBrake<BatchValue> all({braked.system, braked.dashpots, Braked::time_step});
+  std::vector<BatchValue> before(Braked::size, BatchValue{});
+  std::vector<BatchValue> velocities(Braked::size, BatchValue{});
+  const auto level = [](std::size_t member) { return 0.25 * static_cast<double>(member) - 1; };
+  for (std::size_t member = 0; member < batch_size; ++member) {
     for (std::size_t i = 0; i < Braked::size; ++i) {
-      before[i].set(lane, level(lane) * braked.before[i]);
-      velocities[i].set(lane, level(lane) * braked.free[i]);
+      before[i].set(member, level(member) * braked.before[i]);
+      velocities[i].set(member, level(member) * braked.free[i]);
     }
   }
   all.brake(0.5, before, velocities);
-  const Octet losses = all.loss(before, velocities);
+  const BatchValue losses = all.loss(before, velocities);
   std::vector<double> velocity = braked.free;
   one.brake(0.5, braked.before, velocity);
   const double loss = one.loss(braked.before, velocity);
-  for (std::size_t lane = 0; lane < octet_size; ++lane) {
-    EXPECT_NEAR(losses[lane], level(lane) * level(lane) * loss, 1e-13 * loss);
+  for (std::size_t member = 0; member < batch_size; ++member) {
+    EXPECT_NEAR(losses[member], level(member) * level(member) * loss, 1e-13 * loss);
     for (std::size_t i = 0; i < Braked::size; ++i) {
-      EXPECT_NEAR(velocities[i][lane], level(lane) * velocity[i], 1e-13);
+      EXPECT_NEAR(velocities[i][member], level(member) * velocity[i], 1e-13);
     }
   }
   // Contact that then moves a coordinate of one run.
@@ -129,7 +129,7 @@ void expect_each_lane(std::size_t count) {
 }
 
 TEST(DashpotBrake, BrakeEightRunsAsEachOfThem) {
-  for (const std::size_t count : {5u, 20u}) expect_each_lane(count);
+  for (const std::size_t count : {5u, 20u}) expect_each_member(count);
 }
 
 }  // namespace dashpot_modes_test

@@ -1,4 +1,4 @@
-#include "ensemble/octet_group.h"
+#include "ensemble/member_batch.h"
 
 #include <algorithm>
 #include <limits>
@@ -18,15 +18,15 @@ namespace {
 /// Steps between two questions whether to stop.
 constexpr std::int64_t stop_interval = 2000;
 
-std::size_t records_of(const OctetRecorder::Times& times) {
+std::size_t records_of(const BatchRecorder::Times& times) {
   return static_cast<std::size_t>(times.steps / times.stride) + 1;
 }
 
-Solver::Parts parts_in_lane(const MemberScene& member, const EnsembleModel& shared,
-                            const Model& model, RunLane lane, Profile& profile) {
+Solver::Parts parts_in_batch(const MemberScene& member, const EnsembleModel& shared,
+                             const Model& model, BatchPlace place, Profile& profile) {
   Solver::Parts parts =
       solver_parts(MPI_COMM_SELF, member.scene, model, shared.model->meshes, profile);
-  parts.lane = lane;
+  parts.batch = place;
   return parts;
 }
 
@@ -71,8 +71,8 @@ class SmallestGaps final : public Observer {
 
 }  // namespace
 
-OctetGroup::OctetGroup(std::span<const MemberScene* const> members, const Scene& scene,
-                       const EnsembleModel& shared, OctetRecorder& recorder)
+MemberBatch::MemberBatch(std::span<const MemberScene* const> members, const Scene& scene,
+                         const EnsembleModel& shared, BatchRecorder& recorder)
     : scene_(scene),
       shared_(*shared.model),
       recorder_(recorder),
@@ -81,16 +81,16 @@ OctetGroup::OctetGroup(std::span<const MemberScene* const> members, const Scene&
   for (std::size_t s = 0; s < shared_.systems.size(); ++s) {
     std::vector<const LinearSystem*> systems;
     for (const Model& model : models_) systems.push_back(&model.systems[s]);
-    octets_.emplace_back(systems, shared_.systems[s], shared_.time_step);
+    batches_.emplace_back(systems, shared_.systems[s], shared_.time_step);
   }
-  for (std::size_t lane = 0; lane < members.size(); ++lane) {
-    runs_.push_back(
-        std::make_unique<MemberRun>(*members[lane], shared, models_[lane], RunLane{octets_, lane}));
+  for (std::size_t member = 0; member < members.size(); ++member) {
+    runs_.push_back(std::make_unique<MemberRun>(*members[member], shared, models_[member],
+                                                BatchPlace{batches_, member}));
   }
-  recorder_.restart(octets_);
+  recorder_.restart(batches_);
 }
 
-bool OctetGroup::run(const std::function<bool()>& stopped) {
+bool MemberBatch::run(const std::function<bool()>& stopped) {
   for (std::int64_t n = 0; n <= shared_.steps; ++n) {
     if (n % stop_interval == 0 && stopped()) return false;
     step(n);
@@ -98,35 +98,35 @@ bool OctetGroup::run(const std::function<bool()>& stopped) {
   return true;
 }
 
-void OctetGroup::step(std::int64_t n) {
-  if (passes_.due(n)) passes_.look(octets_, static_cast<double>(n) * shared_.time_step);
+void MemberBatch::step(std::int64_t n) {
+  if (passes_.due(n)) passes_.look(batches_, static_cast<double>(n) * shared_.time_step);
   const bool records = recorder_.due(n);
-  if (records) recorder_.take_displacements(octets_);
+  if (records) recorder_.take_displacements(batches_);
   bool with_energies = false, with_forces = false;
-  for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
-    with_energies = runs_[lane]->open() || with_energies;
-    with_forces = runs_[lane]->stepper().corrects() || with_forces;
+  for (std::size_t member = 0; member < runs_.size(); ++member) {
+    with_energies = runs_[member]->open() || with_energies;
+    with_forces = runs_[member]->stepper().corrects() || with_forces;
     for (std::size_t d = 0; d < 3; ++d) {
-      acceleration_[d].set(lane, runs_[lane]->stepper().ground_acceleration()[d]);
+      acceleration_[d].set(member, runs_[member]->stepper().ground_acceleration()[d]);
     }
   }
   const double duration = runs_.front()->stepper().force_duration();
-  for (OctetStep& octet : octets_) {
-    octet.step(duration, acceleration_, runs_.front()->stepper().load_values(), with_energies,
+  for (BatchStep& batch : batches_) {
+    batch.step(duration, acceleration_, runs_.front()->stepper().load_values(), with_energies,
                with_forces);
   }
-  for (failed_lane_ = 0; failed_lane_ < runs_.size(); ++failed_lane_) runs_[failed_lane_]->close();
+  for (failed_ = 0; failed_ < runs_.size(); ++failed_) runs_[failed_]->close();
   recorder_.add_step(duration, acceleration_);
-  if (records) recorder_.record(octets_);
+  if (records) recorder_.record(batches_);
 }
 
-MemberResult OctetGroup::result(std::size_t lane) {
+MemberResult MemberBatch::result(std::size_t member) {
   MemberResult result;
-  runs_[lane]->fill(result);
-  passes_.fill(lane, result);
+  runs_[member]->fill(result);
+  passes_.fill(member, result);
   const double frequency = stated_frequency(scene_, recorder_.interval());
   for (std::size_t c = 0; c < recorder_.channels(); ++c) {
-    const std::span<const double> history = recorder_.acceleration(c, lane);
+    const std::span<const double> history = recorder_.acceleration(c, member);
     const std::span<const double> counted =
         history.subspan(std::min(recorder_.first(), history.size()));
     for (const auto& spectrum :
@@ -136,14 +136,14 @@ MemberResult OctetGroup::result(std::size_t lane) {
         result.spectra.push_back(point.pseudo_acceleration);
       }
     }
-    result.displacement.push_back(recorder_.largest_displacement(c, lane));
+    result.displacement.push_back(recorder_.largest_displacement(c, member));
     result.acceleration.push_back(
         stated_peak(history, recorder_.interval(), frequency, recorder_.first()));
   }
   return result;
 }
 
-OctetPasses::OctetPasses(std::span<const MemberScene* const> scenes, std::span<const Model> models,
+BatchPasses::BatchPasses(std::span<const MemberScene* const> scenes, std::span<const Model> models,
                          std::span<const Mesh> meshes)
     : deepest_(scenes.front()->scene.contacts.size()), deepest_row_(deepest_.size()) {
   const std::vector<interactions::Constraint>& rows = models.front().interface.watched;
@@ -175,50 +175,50 @@ OctetPasses::OctetPasses(std::span<const MemberScene* const> scenes, std::span<c
       }
     }
   }
-  for (std::size_t lane = 0; lane < models.size(); ++lane) {
+  for (std::size_t member = 0; member < models.size(); ++member) {
     for (std::size_t w = 0; w < rows.size(); ++w) {
-      double gap = models[lane].interface.watched[w].initial_gap;
-      const bool at_rest = scenes[lane]->scene.contacts[rows[w].contact].gap_at_rest;
-      for (std::size_t s = 0; s < values_.size() && models[lane].equilibrium && at_rest; ++s) {
-        const std::vector<double>& rest = models[lane].systems[s].rest_displacement;
+      double gap = models[member].interface.watched[w].initial_gap;
+      const bool at_rest = scenes[member]->scene.contacts[rows[w].contact].gap_at_rest;
+      for (std::size_t s = 0; s < values_.size() && models[member].equilibrium && at_rest; ++s) {
+        const std::vector<double>& rest = models[member].systems[s].rest_displacement;
         gap -= std::inner_product(rest.begin(), rest.end(), &values_[s][w * rest.size()], 0.0);
       }
-      gaps_[w].set(lane, gap);
+      gaps_[w].set(member, gap);
     }
   }
 }
 
-void OctetPasses::look(std::span<const OctetStep> octets, double time) {
+void BatchPasses::look(std::span<const BatchStep> batches, double time) {
   openings_ = gaps_;
   for (std::size_t s = 0; s < values_.size(); ++s) {
-    multiply_rows(values_[s].data(), gaps_.size(), octets[s].coordinates(),
-                  octets[s].state().displacement.data(), products_.data());
+    multiply_rows(values_[s].data(), gaps_.size(), batches[s].coordinates(),
+                  batches[s].state().displacement.data(), products_.data());
     for (std::size_t w = 0; w < gaps_.size(); ++w) openings_[w] += products_[w];
   }
   for (std::size_t w = 0; w < gaps_.size(); ++w) {
-    for (std::size_t lane = 0; lane < octet_size; ++lane) {
-      OtherPass& deepest = deepest_[contact_[w]][lane];
-      if (!(-openings_[w][lane] > deepest.depth)) continue;
-      deepest.depth = -openings_[w][lane];
+    for (std::size_t member = 0; member < batch_size; ++member) {
+      OtherPass& deepest = deepest_[contact_[w]][member];
+      if (!(-openings_[w][member] > deepest.depth)) continue;
+      deepest.depth = -openings_[w][member];
       deepest.time = time;
-      deepest_row_[contact_[w]][lane] = w;
+      deepest_row_[contact_[w]][member] = w;
     }
   }
 }
 
-void OctetPasses::fill(std::size_t lane, MemberResult& result) const {
+void BatchPasses::fill(std::size_t member, MemberResult& result) const {
   for (std::size_t c = 0; c < deepest_.size(); ++c) {
-    result.other_depth.push_back(deepest_[c][lane].depth);
-    result.other_row.push_back(static_cast<double>(deepest_row_[c][lane]));
-    result.other_time.push_back(deepest_[c][lane].time);
+    result.other_depth.push_back(deepest_[c][member].depth);
+    result.other_row.push_back(static_cast<double>(deepest_row_[c][member]));
+    result.other_time.push_back(deepest_[c][member].time);
   }
 }
 
-double OctetRecorder::memory(std::size_t channels, const Times& times) {
-  return static_cast<double>(channels * octet_size * records_of(times) * sizeof(double));
+double BatchRecorder::memory(std::size_t channels, const Times& times) {
+  return static_cast<double>(channels * batch_size * records_of(times) * sizeof(double));
 }
 
-OctetRecorder::OctetRecorder(std::span<const ResolvedProbe> probes,
+BatchRecorder::BatchRecorder(std::span<const ResolvedProbe> probes,
                              std::span<const LinearSystem> systems, std::span<const Mesh> meshes,
                              const Times& times)
     : channels_(3 * probes.size()),
@@ -242,72 +242,72 @@ OctetRecorder::OctetRecorder(std::span<const ResolvedProbe> probes,
     rows.values = probe_rows(Trace(systems[s], meshes[s], places, false), counts);
     rows_.push_back(std::move(rows));
   }
-  values_.assign(channels_, Octet{});
-  products_.assign(channels_, Octet{});
-  block_.assign(block_records * channels_, Octet{});
-  history_.resize(channels_ * octet_size * capacity_);
+  values_.assign(channels_, BatchValue{});
+  products_.assign(channels_, BatchValue{});
+  block_.assign(block_records * channels_, BatchValue{});
+  history_.resize(channels_ * batch_size * capacity_);
 }
 
-void OctetRecorder::restart(std::span<const OctetStep> octets) {
-  multiply(octets, &StateOf<Octet>::velocity);
+void BatchRecorder::restart(std::span<const BatchStep> batches) {
+  multiply(batches, &StateOf<BatchValue>::velocity);
   last_velocity_ = values_;
-  displacement_.assign(channels_, Octet{});
-  ground_.fill(Octet{});
+  displacement_.assign(channels_, BatchValue{});
+  ground_.fill(BatchValue{});
   blocked_ = records_ = 0;
 }
 
-void OctetRecorder::add_step(double duration, const std::array<Octet, 3>& ground_acceleration) {
-  for (std::size_t d = 0; d < 3; ++d) ground_[d] += ground_acceleration[d] * all_octet(duration);
+void BatchRecorder::add_step(double duration, const std::array<BatchValue, 3>& acceleration) {
+  for (std::size_t d = 0; d < 3; ++d) ground_[d] += acceleration[d] * all_eight(duration);
 }
 
-void OctetRecorder::multiply(std::span<const OctetStep> octets,
-                             std::vector<Octet> StateOf<Octet>::*quantity) {
+void BatchRecorder::multiply(std::span<const BatchStep> all,
+                             std::vector<BatchValue> StateOf<BatchValue>::*part) {
   for (const Rows& rows : rows_) {
-    const Octet* const x = (octets[rows.structure].state().*quantity).data();
+    const BatchValue* const x = (all[rows.structure].state().*part).data();
     multiply_rows(rows.values.data(), rows.channels.size(), rows.width, x, products_.data());
     for (std::size_t r = 0; r < rows.channels.size(); ++r) values_[rows.channels[r]] = products_[r];
   }
 }
 
-void OctetRecorder::take_displacements(std::span<const OctetStep> octets) {
+void BatchRecorder::take_displacements(std::span<const BatchStep> batches) {
   if (records_ < first_) return;
-  multiply(octets, &StateOf<Octet>::displacement);
+  multiply(batches, &StateOf<BatchValue>::displacement);
   for (std::size_t c = 0; c < channels_; ++c) {
     displacement_[c] = larger(displacement_[c], magnitude(values_[c]));
   }
 }
 
-void OctetRecorder::record(std::span<const OctetStep> octets) {
-  multiply(octets, &StateOf<Octet>::velocity);
-  Octet* const out = &block_[blocked_ * channels_];
+void BatchRecorder::record(std::span<const BatchStep> batches) {
+  multiply(batches, &StateOf<BatchValue>::velocity);
+  BatchValue* const out = &block_[blocked_ * channels_];
   for (std::size_t c = 0; c < channels_; ++c) {
     out[c] = (values_[c] - last_velocity_[c] + ground_[c % 3]) / interval_;
     last_velocity_[c] = values_[c];
   }
-  ground_.fill(Octet{});
+  ground_.fill(BatchValue{});
   ++records_;
   if (++blocked_ == block_records) flush();
 }
 
-void OctetRecorder::flush() {
+void BatchRecorder::flush() {
   const std::size_t first = records_ - blocked_;
   for (std::size_t c = 0; c < channels_; ++c) {
-    for (std::size_t lane = 0; lane < octet_size; ++lane) {
-      double* const to = &history_[(c * octet_size + lane) * capacity_ + first];
-      for (std::size_t r = 0; r < blocked_; ++r) to[r] = block_[r * channels_ + c][lane];
+    for (std::size_t member = 0; member < batch_size; ++member) {
+      double* const to = &history_[(c * batch_size + member) * capacity_ + first];
+      for (std::size_t r = 0; r < blocked_; ++r) to[r] = block_[r * channels_ + c][member];
     }
   }
   blocked_ = 0;
 }
 
-std::span<const double> OctetRecorder::acceleration(std::size_t channel, std::size_t lane) {
+std::span<const double> BatchRecorder::acceleration(std::size_t channel, std::size_t member) {
   if (blocked_ > 0) flush();
-  return {&history_[(channel * octet_size + lane) * capacity_], records_};
+  return {&history_[(channel * batch_size + member) * capacity_], records_};
 }
 
 MemberRun::MemberRun(const MemberScene& member, const EnsembleModel& shared, const Model& model,
-                     RunLane lane)
-    : solver_(parts_in_lane(member, shared, model, lane, profile_)),
+                     BatchPlace place)
+    : solver_(parts_in_batch(member, shared, model, place, profile_)),
       run_{MPI_COMM_SELF, member.scene, model, solver_},
       impacts_(observers_.add(std::make_unique<ImpactWatch>(run_))),
       smallest_gaps_(member.scene.contacts.size(), std::numeric_limits<double>::infinity()) {

@@ -36,14 +36,14 @@ struct MemberResult {
   std::vector<double> contact_residual;  ///< one number: of complementarity, largest [-]
 };
 
-/// One run of a group: the scheme of single runs in a lane, with its interactions, its ledger and
+/// One run of a batch: the scheme of single runs in its place, with interactions, ledger and
 /// those outputs of single runs that an ensemble keeps. Local.
 class MemberRun {
  public:
-  /// `lane`: where the structures of `model`, which is the member's own, are stepped. The arguments
+  /// `place`: where the structures of `model`, the member's own, are stepped. The arguments
   /// must outlive this object.
   MemberRun(const MemberScene& member, const EnsembleModel& shared, const Model& model,
-            RunLane lane);
+            BatchPlace place);
 
   /// Before the structures' step; returns whether that is to be made with energies.
   bool open();
@@ -67,7 +67,7 @@ class MemberRun {
 /// history of the absolute acceleration, which is the change of velocity over the interval, ground
 /// included. A channel is a direction of a probe. Everything is kept in memory: channels x records
 /// x 8 doubles, which the next group of runs uses again.
-class OctetRecorder {
+class BatchRecorder {
  public:
   struct Times {
     double time_step = 0;    ///< [s]
@@ -77,7 +77,7 @@ class OctetRecorder {
   };
 
   /// `systems`, `meshes`: per structure, of any of the runs, whose coordinates are alike.
-  OctetRecorder(std::span<const ResolvedProbe> probes, std::span<const LinearSystem> systems,
+  BatchRecorder(std::span<const ResolvedProbe> probes, std::span<const LinearSystem> systems,
                 std::span<const Mesh> meshes, const Times& times);
 
   std::size_t channels() const { return channels_; }
@@ -88,18 +88,18 @@ class OctetRecorder {
   static double memory(std::size_t channels, const Times& times);
 
   /// Begins runs from their states at t = 0.
-  void restart(std::span<const OctetStep> octets);
+  void restart(std::span<const BatchStep> batches);
   bool due(std::int64_t step) const { return step % stride_ == 0; }
   /// The ground's acceleration in a step [m/s2], and how long it acted [s].
-  void add_step(double duration, const std::array<Octet, 3>& ground_acceleration);
+  void add_step(double duration, const std::array<BatchValue, 3>& acceleration);
   /// Before the step to be recorded.
-  void take_displacements(std::span<const OctetStep> octets);
+  void take_displacements(std::span<const BatchStep> batches);
   /// After it.
-  void record(std::span<const OctetStep> octets);
+  void record(std::span<const BatchStep> batches);
   /// After the last record: samples of a channel of a run [m/s2].
-  std::span<const double> acceleration(std::size_t channel, std::size_t lane);
-  double largest_displacement(std::size_t channel, std::size_t lane) const {
-    return displacement_[channel][lane];
+  std::span<const double> acceleration(std::size_t channel, std::size_t member);
+  double largest_displacement(std::size_t channel, std::size_t member) const {
+    return displacement_[channel][member];
   }
 
  private:
@@ -111,7 +111,7 @@ class OctetRecorder {
     std::vector<std::size_t> channels;  ///< numbers among all
   };
   /// values_ := rows times the coordinates.
-  void multiply(std::span<const OctetStep> octets, std::vector<Octet> StateOf<Octet>::*quantity);
+  void multiply(std::span<const BatchStep> all, std::vector<BatchValue> StateOf<BatchValue>::*part);
   /// Brings the records of the block to the histories.
   void flush();
 
@@ -123,70 +123,70 @@ class OctetRecorder {
   std::size_t first_;
   std::size_t capacity_;  ///< records of a run
   std::vector<Rows> rows_;
-  std::vector<Octet> values_;         ///< per channel
-  std::vector<Octet> products_;       ///< of the channels of one structure
-  std::vector<Octet> last_velocity_;  ///< per channel
-  std::vector<Octet> displacement_;   ///< per channel, largest
-  std::array<Octet, 3> ground_{};
-  std::vector<Octet> block_;  ///< shape (block records, channels)
-  LargeArray history_;        ///< shape (channels, lanes, records)
+  std::vector<BatchValue> values_;         ///< per channel
+  std::vector<BatchValue> products_;       ///< of the channels of one structure
+  std::vector<BatchValue> last_velocity_;  ///< per channel
+  std::vector<BatchValue> displacement_;   ///< per channel, largest
+  std::array<BatchValue, 3> ground_{};
+  std::vector<BatchValue> block_;  ///< shape (block records, channels)
+  LargeArray history_;             ///< shape (channels, members, records)
   std::size_t blocked_ = 0;
   std::size_t records_ = 0;  ///< made, those of the block included
 };
 
 /// Looks in eight runs how far nodes of primaries go into secondaries in passes that are not taken,
 /// as often as a single run does.
-class OctetPasses {
+class BatchPasses {
  public:
-  /// `scenes` and `models`: per lane, `models` with the gaps at the start. The arguments are read
+  /// `scenes` and `models`: per member, `models` with the gaps at the start. The arguments are read
   /// here only.
-  OctetPasses(std::span<const MemberScene* const> scenes, std::span<const Model> models,
+  BatchPasses(std::span<const MemberScene* const> scenes, std::span<const Model> models,
               std::span<const Mesh> meshes);
 
   bool due(std::int64_t step) const { return !gaps_.empty() && step % stride_ == 0; }
-  void look(std::span<const OctetStep> octets, double time);
-  void fill(std::size_t lane, MemberResult& result) const;
+  void look(std::span<const BatchStep> batches, double time);
+  void fill(std::size_t member, MemberResult& result) const;
 
  private:
   /// Opening of each row by each coordinate, shape (rows, coordinates); per structure.
   std::vector<std::vector<double>> values_;
-  std::vector<Octet> gaps_;   ///< per row, unloaded [m]
-  std::vector<int> contact_;  ///< per row
-  std::vector<Octet> openings_;
-  std::vector<Octet> products_;
-  std::vector<std::array<OtherPass, octet_size>> deepest_;        ///< per contact
-  std::vector<std::array<std::size_t, octet_size>> deepest_row_;  ///< and where
+  std::vector<BatchValue> gaps_;  ///< per row, unloaded [m]
+  std::vector<int> contact_;      ///< per row
+  std::vector<BatchValue> openings_;
+  std::vector<BatchValue> products_;
+  std::vector<std::array<OtherPass, batch_size>> deepest_;        ///< per contact
+  std::vector<std::array<std::size_t, batch_size>> deepest_row_;  ///< and where
   std::int64_t stride_ = 1;
 };
 
 /// Up to eight members of an ensemble from t_0 to the end time, stepped together: the structures in
-/// lanes (OctetStep), interactions and outputs member by member (MemberRun). A member's results
-/// depend neither on its lane nor on its companions. Local: nothing is communicated.
-class OctetGroup {
+/// batches (BatchStep), interactions and outputs member by member (MemberRun). A member's results
+/// depend neither on its place nor on its companions. Local: nothing is communicated.
+class MemberBatch {
  public:
   /// All arguments must outlive this object. `members`: at most eight.
-  OctetGroup(std::span<const MemberScene* const> members, const Scene& scene,
-             const EnsembleModel& shared, OctetRecorder& recorder);
+  MemberBatch(std::span<const MemberScene* const> members, const Scene& scene,
+              const EnsembleModel& shared, BatchRecorder& recorder);
 
   /// Steps to the end; false if `stopped`, asked now and then, said so. Throws DivergenceError with
-  /// the lane's number in `failed_lane`.
+  /// the member's number in `failed_member`.
   bool run(const std::function<bool()>& stopped);
-  std::size_t failed_lane() const { return failed_lane_; }
-  /// Results of the run in a lane.
-  MemberResult result(std::size_t lane);
+  std::size_t failed_member() const { return failed_; }
+  /// Results of a member.
+  MemberResult result(std::size_t member);
 
  private:
   void step(std::int64_t n);
 
   const Scene& scene_;
   const Model& shared_;
-  OctetRecorder& recorder_;
+  BatchRecorder& recorder_;
   std::vector<Model> models_;  ///< per member, as the next ones
-  OctetPasses passes_;
-  std::vector<OctetStep> octets_;  ///< per structure
+  BatchPasses passes_;
+  std::vector<BatchStep> batches_;  ///< per structure
   std::vector<std::unique_ptr<MemberRun>> runs_;
-  std::array<Octet, 3> acceleration_{};
-  std::size_t failed_lane_ = 0;
+  std::array<BatchValue, 3> acceleration_{};
+  std::size_t failed_ = 0;
 };
 
 }  // namespace pounding
