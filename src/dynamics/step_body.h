@@ -17,7 +17,10 @@ void advance_values(StateOf<Number>& state, const StepTerms<Number>& all, std::s
   Number* const displacement = state.displacement.data();
   Number* const velocity = state.velocity.data();
   const StepTerms<Value> terms = in_lanes<Value>(all);
-  DofSums<Value> sums = totals.dofs;
+  DofSums<Value>& kept = totals.dofs;
+  // One by one: a copy of the whole is a call, and its sums stay in memory.
+  DofSums<Value> sums{kept.stiffness_work, kept.mass_sum, kept.filtered, kept.device,
+                      kept.known_work};
   const auto advance_value = [&]<int k>(std::size_t i, const Number* from, auto count)
       __attribute__((always_inline)) {
     Value q, f, mass, inverse_mass, after;
@@ -74,7 +77,7 @@ void advance_values(StateOf<Number>& state, const StepTerms<Number>& all, std::s
     advance_last.template operator()<1>();
     advance_last.template operator()<2>();
   }
-  totals.dofs = sums;
+  kept = {sums.stiffness_work, sums.mass_sum, sums.filtered, sums.device, sums.known_work};
 }
 
 }  // namespace pounding
