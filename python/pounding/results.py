@@ -52,8 +52,13 @@ class Result:
     forces: dict = field(default_factory=dict)  # of forces.csv: largest values
     energy: dict = field(default_factory=dict)
     yielding: dict = field(default_factory=dict)  # of yielding.csv: laws of elements and how far they went
+    others: dict = field(default_factory=dict)  # of tables that are none of these: name -> columns
     title: str = ""
     without: "Result | None" = None  # the run without pounding, where one is set beside it
+
+    def table(self, name: str) -> dict:
+        """Column -> array of the table NAME.csv, empty where the run left none."""
+        return getattr(self, name) if name in COLUMNS else self.others.setdefault(name, {})
 
     @property
     def probes(self) -> list:
@@ -343,6 +348,17 @@ def _check_table(table: dict, kind: str) -> None:
                 raise ValueError(f"it is cut: {probe} {way} at {damping:g} has {count} of {most} frequencies")
 
 
+def result_files(folder: Path) -> list:
+    """Names of all files that a run may leave in its folder, as it says there before its first step; of a folder without
+    that none."""
+    head = "# Files of results: "
+    try:
+        lines = (folder / "resolved.yaml").read_text(errors="replace").splitlines()
+    except OSError:
+        return []
+    return next((line.removeprefix(head).split() for line in lines if line.startswith(head)), [])
+
+
 def load(folder: Path | str) -> Result:
     """Reads the folder. Throws ResultError if it is not there, holds nothing, or a file is bad."""
     folder = Path(folder)
@@ -353,13 +369,10 @@ def load(folder: Path | str) -> Result:
     readers = {
         "summary.json": lambda path: result.summary.update(_read_summary(path)),
         "history.h5": lambda path: _read_history(path, result),
-        "spectra.csv": lambda path: result.spectra.update(_read_table(path)),
-        "contact_points.csv": lambda path: result.contact_points.update(_read_table(path)),
-        "impacts.csv": lambda path: result.impacts.update(_read_table(path)),
-        "forces.csv": lambda path: result.forces.update(_read_table(path)),
-        "energy.csv": lambda path: result.energy.update(_read_table(path)),
-        "yielding.csv": lambda path: result.yielding.update(_read_table(path)),
     }
+    tables = dict.fromkeys([*COLUMNS, *(name[:-4] for name in result_files(folder) if name.endswith(".csv"))])
+    for table in tables:
+        readers[f"{table}.csv"] = lambda path: result.table(path.stem).update(_read_table(path))
     for name, read in readers.items():
         path = folder / name
         if not path.exists():
@@ -370,7 +383,7 @@ def load(folder: Path | str) -> Result:
                 raise ValueError("no file with contents")
             read(path)
             if path.stem in COLUMNS:
-                _check_table(getattr(result, path.stem), path.stem)
+                _check_table(result.table(path.stem), path.stem)
         except UNREADABLE as error:
             reason = " ".join(str(error).split()) or type(error).__name__
             raise ResultError(f"{path} cannot be read: {reason}") from error

@@ -12,15 +12,11 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from .files import open_new
-from .results import Result, load
+from .results import Result, load, result_files
 from .scenes import value_text
 
 SOURCE = Path(__file__).resolve().parents[2]
 LOG = "log.txt"
-# What a run leaves in its folder, or leaves behind where it is killed.
-RESULTS = ("summary.json", "history.h5", "spectra.csv", "impacts.csv", "contact_points.csv", "energy.csv", "forces.csv", "yielding.csv", "equipment.csv",
-           "resolved.yaml", "modes.h5", "modes.xdmf", "model.h5", "model.xdmf", "fields.h5", "fields.xdmf", "fields.vtkhdf",
-           "checkpoint.h5")
 CROWD = 4  # ranks per core; more are a slip
 # Where a batch system or a list of machines says what there is, the cores of this machine say nothing.
 ALLOCATIONS = ("SLURM_JOB_ID", "PBS_NODEFILE", "LSB_HOSTS", "LSB_MCPU_HOSTS", "PE_HOSTFILE",
@@ -174,7 +170,7 @@ class Job:
 
 def clear(folder: Path) -> None:
     """Removes what a run left in its folder, by name, and the folder if nothing else is in it."""
-    for name in (*RESULTS, LOG, "running.lock"):
+    for name in (*result_files(folder), LOG, "running.lock"):
         (folder / name).unlink(missing_ok=True)
     try:
         folder.rmdir()

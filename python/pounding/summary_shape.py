@@ -34,7 +34,7 @@ SUMMARY = {
     "machine": {"names": [TEXT], "processor": TEXT, "folder": TEXT},
     "overrides": {"*": TEXT}, "versions": {"*": TEXT}, "options": {"*": TEXT},
     "inputs": [{"option!": TEXT, "file!": TEXT, "bytes!": NUMBER, "sha256!": TEXT}],
-    "structures": {"*": STRUCTURE},
+    "structures": {"*": STRUCTURE}, "files": [{"name!": TEXT, "holds!": TEXT}],
     "motion": {"*": _Or({"*": ANY}, NONE)},
     "energy": {"*": LOOSE},
     "impacts": {"episodes!": NUMBER, "*": _Or(LOOSE, {"*": LOOSE})},

@@ -9,7 +9,7 @@ import stat
 from pathlib import Path
 
 from pounding.files import write_text
-from pounding.runs import RESULTS
+from pounding.results import result_files
 
 REQUEST, SUMMARY = "request.json", "summary.json"
 WHOLE = 64 * 2**20  # files up to so many bytes are compared by their contents, larger ones by their size
@@ -109,7 +109,7 @@ def sign(words: list, place: Path, folder: Path, more: tuple = ()) -> str:
     try:
         told = _summary(place)
         inputs_of(told)
-        request = {"words": [str(word) for word in words], "left": _left(place, (*RESULTS, *more)),
+        request = {"words": [str(word) for word in words], "left": _left(place, (*result_files(place), *more)),
                    "folders": _names(folder, folders_of(told))}
         write_text(place / REQUEST, json.dumps(request, indent=1))
     except (OSError, ValueError) as error:

@@ -1,7 +1,6 @@
 #include "driver/run_scene.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 #include <optional>
 
@@ -17,9 +16,9 @@
 #include "io/new_file.h"
 #include "observers/field_plan.h"
 #include "observers/floor_spectra.h"
+#include "observers/kinds.h"
 #include "observers/loops.h"
 #include "observers/model_file.h"
-#include "observers/observers.h"
 #include "output/result_folder.h"
 #include "report/provenance.h"
 #include "report/report.h"
@@ -27,19 +26,16 @@
 namespace pounding {
 namespace {
 
-void create_output(const Scene& scene) {
-  std::error_code failure;
-  std::filesystem::create_directories(scene.output, failure);
-  if (failure) throw UserError("option -output " + scene.output + ": the folder cannot be created");
-}
-
 /// Removes the results of an earlier run; the resolved options are the first thing in the folder.
 /// Rank 0.
 void begin_results(const Scene& scene, const std::string& resolved, const Provenance& provenance,
                    const ResultFolder& folder) {
-  const std::vector<std::string> removed = folder.clear(scene.restart, tables_of_observers());
+  const std::vector<std::string> removed = folder.clear(scene.restart, result_files());
   if (!removed.empty()) print_removed(scene, removed);
-  write_whole_file(scene.output + "/resolved.yaml", resolved + provenance_comment(provenance));
+  std::string files = "# Files of results:";
+  for (const ResultFile& file : result_files()) files += " " + file.name;
+  write_whole_file(scene.output + "/resolved.yaml",
+                   resolved + files + "\n" + provenance_comment(provenance));
 }
 
 [[noreturn]] void stop(const Scene& scene, const Model& model, int signal, std::int64_t step) {
@@ -107,7 +103,7 @@ RunOutcome run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
   if (!scene.restart.empty()) {
     check_checkpoint(comm, scene.restart, lasting_options(comm, resolved));
   }
-  if (scene.dry_run && scene.write_model) on_rank0(comm, [&] { create_output(scene); });
+  if (scene.dry_run && scene.write_model) on_rank0(comm, [&] { create_output(scene.output); });
   const Model model = build_model(comm, scene, read.stiffness_factors, profile);
   if (!scene.dry_run) note_model(comm, scene, model.buildings, provenance);
   return_freed_memory();
@@ -120,7 +116,7 @@ RunOutcome run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
     if (scene.write_model) write_model(comm, scene, model);
   }
   if (scene.write_modes) {
-    on_rank0(comm, [&] { create_output(scene); });
+    on_rank0(comm, [&] { create_output(scene.output); });
     write_mode_shapes(comm, scene, model);
   }
   print_fields(comm, scene, model);
@@ -154,8 +150,7 @@ RunOutcome run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
     std::ranges::move(cabinet_spectra(scene, loop.recorder(), spectra),
                       std::back_inserter(spectra));
     std::ranges::move(compute_ground_spectra(scene, *model.motion), std::back_inserter(spectra));
-    write_floor_spectra(scene.output + "/spectra.csv", spectra, scene.spectra.start,
-                        scene.csv_digits);
+    write_floor_spectra(scene, spectra);
     statistics.warnings =
         displacement_warnings(loop.recorder().largest_displacement(), model.interface.model_size);
     append(contact_warnings(statistics.complementarity_residual), statistics.warnings);

@@ -44,7 +44,7 @@ double TimeLoop::measure(int steps) {
 int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
   const StopSignal stop_signal;
   observers_.emplace(make_observers({comm_, scene_, model_, solver_}, profile_));
-  Observers& observers = observers_->all;
+  Observers& observers = *observers_;
   if (restart != nullptr) {
     solver_.stepper().load(*restart);
     for (const auto& observer : observers.list()) observer->load(*restart);
@@ -74,7 +74,7 @@ int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
 
 void TimeLoop::flush() {
   const ScopedTimer timer(profile_, Phase::output);
-  for (const auto& observer : observers_->all.list()) observer->flush();
+  for (const auto& observer : observers_->list()) observer->flush();
 }
 
 void TimeLoop::write_checkpoint(const RunIdentity& identity) {
@@ -87,7 +87,7 @@ void TimeLoop::write_checkpoint(const RunIdentity& identity) {
     throw DivergenceError("the run diverged: not a number at step " + std::to_string(step()) +
                           "; the checkpoint before is kept");
   }
-  for (const auto& observer : observers_->all.list()) observer->save(saved);
+  for (const auto& observer : observers_->list()) observer->save(saved);
   pounding::write_checkpoint(comm_, scene_.output + "/checkpoint.h5", identity, model_.meshes,
                              model_.systems, saved);
 }
@@ -95,7 +95,7 @@ void TimeLoop::write_checkpoint(const RunIdentity& identity) {
 void TimeLoop::fill(RunStatistics& statistics) const {
   statistics.complete = step() >= model_.steps;
   statistics.steps = step() + 1 - first_step_;
-  for (const auto& observer : observers_->all.list()) observer->report(statistics);
+  for (const auto& observer : observers_->list()) observer->report(statistics);
   if (solver_.contact() != nullptr) {
     statistics.contact_rows = solver_.contact()->rows();
     statistics.coupled_rows = solver_.contact()->coupled_rows();

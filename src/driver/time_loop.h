@@ -11,7 +11,7 @@
 
 #include "model/model.h"
 #include "model/solver.h"
-#include "observers/observers.h"
+#include "observers/kinds.h"
 #include "observers/run_statistics.h"
 #include "output/checkpoint.h"
 
@@ -33,8 +33,8 @@ class TimeLoop {
   int run(const RunIdentity& identity, const SavedState* restart);
 
   /// After `run`.
-  const ImpactCatalogue& impacts() const { return observers_->impacts.catalogue(); }
-  const Recorder& recorder() const { return observers_->history; }
+  const ImpactCatalogue& impacts() const { return observers_->impacts(); }
+  const Recorder& recorder() const { return observers_->history(); }
   /// The last step made.
   std::int64_t step() const { return solver_.stepper().state().step - 1; }
   /// After `run`: findings of the steps and of the observers, which write their tables. Collective.
@@ -49,7 +49,7 @@ class TimeLoop {
   const Model& model_;
   Profile& profile_;
   Solver solver_;
-  std::optional<RunObservers> observers_;  ///< of the run
+  std::optional<Observers> observers_;  ///< of the run
   std::int64_t first_step_ = 0;
 };
 

@@ -9,8 +9,9 @@
 #include "driver/time_loop.h"
 #include "motion/response_spectrum.h"
 #include "observers/floor_spectra.h"
+#include "observers/impact_catalogue.h"
+#include "observers/kinds.h"
 #include "observers/recorder.h"
-#include "observers/watchdog.h"
 
 namespace pounding {
 namespace {
@@ -309,10 +310,9 @@ MemberRun::MemberRun(const MemberScene& member, const EnsembleModel& shared, con
                      BatchPlace place)
     : solver_(parts_in_batch(member, shared, model, place, profile_)),
       run_{MPI_COMM_SELF, member.scene, model, solver_},
-      impacts_(observers_.add(std::make_unique<ImpactWatch>(run_))),
+      observers_(make_observers(run_, profile_, true)),
       smallest_gaps_(member.scene.contacts.size(), std::numeric_limits<double>::infinity()) {
   observers_.add(std::make_unique<SmallestGaps>(run_, smallest_gaps_));
-  observers_.add(make_energy_watch(run_));
   observers_.start(solver_.stepper(), nullptr);
 }
 
@@ -327,8 +327,8 @@ void MemberRun::close() {
 }
 
 void MemberRun::fill(MemberResult& result) {
-  impacts_.finish(true);
-  const ImpactCatalogue& catalogue = impacts_.catalogue();
+  for (const auto& observer : observers_.list()) observer->finish(true);
+  const ImpactCatalogue& catalogue = observers_.impacts();
   const std::size_t contacts = smallest_gaps_.size();
   result.smallest_gap = smallest_gaps_;
   result.energy_residual = {solver_.stepper().energy().relative_residual()};

@@ -12,8 +12,7 @@
 #include "ensemble/member_scene.h"
 #include "mesh/mesh.h"
 #include "mesh/probe_set.h"
-#include "observers/contact_watches.h"
-#include "observers/field_plan.h"
+#include "observers/observed_run.h"
 #include "observers/run_statistics.h"
 
 namespace pounding {
@@ -58,8 +57,7 @@ class MemberRun {
   Profile profile_{Profile::Clock::off};
   Solver solver_;
   ObservedRun run_;
-  Observers observers_{profile_};
-  ImpactWatch& impacts_;
+  Observers observers_;
   std::vector<double> smallest_gaps_;  ///< per contact, of all recorded ones [m]
 };
 

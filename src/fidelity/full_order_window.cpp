@@ -18,7 +18,7 @@
 #include "interactions/interface_rows.h"
 #include "model/solver.h"
 #include "motion/response_spectrum.h"
-#include "observers/field_plan.h"
+#include "observers/observed_run.h"
 
 namespace pounding {
 namespace {

@@ -8,12 +8,16 @@
 #include "interactions/interface_rows.h"
 #include "interactions/pairing/interface.h"
 #include "io/csv_file.h"
-#include "observers/field_plan.h"
+#include "observers/impact_catalogue.h"
 #include "observers/run_statistics.h"
 #include "system/trace.h"
 
 namespace pounding {
 namespace {
+
+const ResultFile impact_table{"impacts.csv", "the impacts of the contacts", impact_columns};
+const ResultFile point_table{"contact_points.csv", "the impulse of each pair of the contacts",
+                             "contact,x,y,z,impulse"};
 
 /// The catalogue of a scene's contacts, still empty.
 ImpactCatalogue make_catalogue(const Scene& scene, const Model& model) {
@@ -28,6 +32,34 @@ ImpactCatalogue make_catalogue(const Scene& scene, const Model& model) {
           std::move(places),
           {scene.impact_merge_time, scene.force_window, model.time_step}};
 }
+
+class ImpactWatch final : public Observer {
+ public:
+  explicit ImpactWatch(const ObservedRun& run)
+      : run_(run),
+        root_(std::max(run.contact_root(), 0)),
+        catalogue_(make_catalogue(run.scene, run.model)) {}
+  /// Complete on the root of the contacts, after `finish` on every rank.
+  const ImpactCatalogue* impacts() const override { return &catalogue_; }
+
+  bool follows() const override { return run_.is_contact_root(); }
+  void follow(const CdLagrange& stepper) override {
+    if (run_.solver.rows_act()) add_contact(stepper);
+  }
+  void finish(bool /*complete*/) override { catalogue_.finish(run_.comm, root_); }
+  void save(SavedState& saved) override {
+    if (rank_of(run_.comm) == root_) catalogue_.save(saved);
+  }
+  void load(const SavedState& saved) override { catalogue_.load(saved); }
+  void report(RunStatistics& statistics) override;
+
+ private:
+  void add_contact(const CdLagrange& stepper);
+
+  ObservedRun run_;
+  int root_;  ///< of the contacts, or rank 0 without them
+  ImpactCatalogue catalogue_;
+};
 
 /// The numbers of a slide in a saved state.
 constexpr auto slide_members = [](auto& slide, const auto& take) {
@@ -95,6 +127,18 @@ class SlideWatch final : public Observer {
   std::vector<double> start_gaps_;    ///< per row of passes that are not taken [m]
 };
 
+/// Contact ratio of a mat on compression-only springs: the stiffness of those that are pressed over
+/// that of all, 1 as long as nothing lifts off.
+struct ContactRatio {
+  double now = 1;           ///< at the last look
+  double smallest = 1;      ///< of all looks
+  double time = 0;          ///< of the smallest [s]
+  double low_duration = 0;  ///< time below 80 % [s]
+
+  /// Ratio below which the time counts.
+  static constexpr double low = 0.8;
+};
+
 /// The numbers of a ratio in a saved state.
 constexpr auto ratio_members = [](auto& ratio, const auto& take) {
   take(ratio.now, ratio.smallest, ratio.time, ratio.low_duration);
@@ -114,7 +158,7 @@ class UpliftWatch final : public Observer {
     saved.get("contact_ratio", numbers);
     from_rows(numbers, ratios_, ratio_members);
   }
-  void report(RunStatistics& statistics) override { statistics.contact_ratios = ratios_; }
+  void report(RunStatistics& statistics) override;
 
  private:
   ObservedRun run_;
@@ -170,21 +214,15 @@ void ImpactWatch::add_contact(const CdLagrange& stepper) {
   catalogue_.add_step(stepper.time(), stepper.force_duration(), step);
 }
 
-ImpactWatch::ImpactWatch(const ObservedRun& run)
-    : run_(run),
-      root_(std::max(run.contact_root(), 0)),
-      catalogue_(make_catalogue(run.scene, run.model)) {}
-
 void ImpactWatch::report(RunStatistics& statistics) {
   for (std::size_t c = 0; c < run_.scene.contacts.size(); ++c) {
     statistics.impacts.push_back(catalogue_.totals(static_cast<int>(c)));
   }
   statistics.all_impacts = catalogue_.totals();
   on_rank0(run_.comm, [&] {
-    write_impacts(run_.scene.output + "/impacts.csv", run_.contact_names(), catalogue_.impacts(),
+    write_impacts(run_.path(impact_table.name), run_.contact_names(), catalogue_.impacts(),
                   run_.scene.csv_digits);
-    CsvFile points(run_.scene.output + "/contact_points.csv", run_.scene.csv_digits);
-    points.header("contact,x,y,z,impulse");
+    ResultTable points(run_.scene, point_table);
     const auto& rows = run_.model.interface.constraints;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       points.row(run_.contact_names()[rows[i].contact],
@@ -192,6 +230,10 @@ void ImpactWatch::report(RunStatistics& statistics) {
     }
     points.close();
   });
+}
+
+OutputKind impact_output() {
+  return output<ImpactWatch>({impact_table, point_table}, nullptr, true);
 }
 
 SlideWatch::SlideWatch(const ObservedRun& run)
@@ -262,8 +304,8 @@ void SlideWatch::look(double time) {
   }
 }
 
-std::unique_ptr<Observer> make_slide_watch(const ObservedRun& run) {
-  return std::make_unique<SlideWatch>(run);
+OutputKind slide_output() {
+  return output<SlideWatch>({}, [](const ObservedRun& run) { return run.contact_root() >= 0; });
 }
 
 void UpliftWatch::observe(const CdLagrange& stepper) {
@@ -291,8 +333,31 @@ void UpliftWatch::observe(const CdLagrange& stepper) {
   }
 }
 
-std::unique_ptr<Observer> make_uplift_watch(const ObservedRun& run) {
-  return std::make_unique<UpliftWatch>(run);
+void UpliftWatch::report(RunStatistics& statistics) {
+  for (std::size_t s = 0; s < ratios_.size(); ++s) {
+    const ContactRatio& ratio = ratios_[s];
+    const std::string& name = run_.scene.structures[s].name;
+    statistics.findings.add(
+        "contact_ratio", name,
+        {{"end", ratio.now},
+         {"smallest", ratio.smallest},
+         {"time_of_smallest", ratio.time},
+         {"time_below_80_percent", ratio.low_duration}},
+        "  {:-12s} contact ratio of its compression-only springs {end:.3f} at the end, at least "
+        "{smallest:.3f} at {time_of_smallest:.4g} s, below {:.0f %} for "
+        "{time_below_80_percent:.4g} s\n",
+        {name, ContactRatio::low});
+  }
+}
+
+OutputKind uplift_output() {
+  return output<UpliftWatch>({}, [](const ObservedRun& run) {
+    return std::ranges::any_of(run.scene.structures, [](const Structure& structure) {
+      return std::ranges::any_of(structure.regions, [](const Region& region) {
+        return region.compression_only && is_spring(region.element);
+      });
+    });
+  });
 }
 
 void ContactHistory::follow(const CdLagrange& /*stepper*/) {
@@ -368,8 +433,8 @@ void ContactHistory::report(RunStatistics& statistics) {
   broadcast_array(run_.comm, statistics.closings, run_.contact_root());
 }
 
-std::unique_ptr<Observer> make_contact_history(const ObservedRun& run) {
-  return std::make_unique<ContactHistory>(run);
+OutputKind contact_history_output() {
+  return output<ContactHistory>({});
 }
 
 }  // namespace pounding

@@ -43,13 +43,17 @@ void EnergyLedger::load(const SavedState& saved) {
   added_ = saved.integer("ledger_added");
 }
 
-void write_energy(const std::string& path, const std::vector<EnergyLine>& lines, int digits) {
-  CsvFile file(path, digits);
+std::string energy_columns() {
   std::string names = "time,kinetic,strain";
   for (const LedgerRow& row : ledger_rows) {
     if (!row.key.empty()) names += "," + std::string(row.name);
   }
-  file.header(names + ",residual");
+  return names + ",residual";
+}
+
+void write_energy(const std::string& path, const std::vector<EnergyLine>& lines, int digits) {
+  CsvFile file(path, digits);
+  file.header(energy_columns());
   for (const EnergyLine& line : lines) {
     std::vector<double> values{line.time, line.kinetic, line.strain};
     for (std::size_t r = 0; r < ledger_rows.size(); ++r) {

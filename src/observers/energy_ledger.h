@@ -30,6 +30,9 @@ class EnergyLedger {
   EnergyLine last_;
 };
 
+/// Columns of `energy.csv`.
+std::string energy_columns();
+
 /// `energy.csv`: one row per line, of `digits` significant digits. Throws UserError if the file
 /// cannot be written.
 void write_energy(const std::string& path, const std::vector<EnergyLine>& lines, int digits);

@@ -8,15 +8,11 @@
 
 #include "common/error.h"
 #include "common/facts.h"
+#include "mesh/node_table.h"
+#include "observers/observed_run.h"
 
 namespace pounding {
 namespace {
-
-/// Never more than the run has, nor than an int holds.
-double whole(const Model& model, double count) {
-  constexpr double most = std::numeric_limits<int>::max();
-  return std::clamp(count, 1.0, std::min(static_cast<double>(model.steps) + 1, most));
-}
 
 /// Whole parts of a number that may miss the next whole one by round-off only.
 std::int64_t parts(double count) {
@@ -56,14 +52,28 @@ std::vector<char> yielding_structures(const Scene& scene) {
   return yields;
 }
 
-int record_stride(const Scene& scene, const Model& model) {
-  return static_cast<int>(whole(model, scene.output_interval / model.time_step));
+bool shows_rotations(const LinearSystem& system, const Mesh& mesh) {
+  const bool rotates = component_columns(mesh) > 3;
+  return rotates && !system.generalised;
 }
 
-std::int64_t gap_stride(const Scene& scene, const Model& model) {
-  const int sample = record_stride(scene, model);
-  const double records = whole(model, scene.gap_interval / (model.time_step * sample));
-  return sample * static_cast<std::int64_t>(records);
+std::size_t cells_of(const Mesh& mesh) {
+  GlobalIndex count = 0;
+  for (const ElementBlock& block : mesh.blocks) count += block.global_count;
+  return static_cast<std::size_t>(count);
+}
+
+double fields_size(const Scene& scene, const Model& model, const FieldSteps& steps) {
+  const std::vector<char> yields = yielding_structures(scene);
+  double numbers = 0;
+  for (std::size_t s = 0; s < model.meshes.size(); ++s) {
+    const Mesh& mesh = model.meshes[s];
+    const int quantities =
+        2 + (shows_rotations(model.systems[s], mesh) ? 1 : 0) + (scene.contacts.empty() ? 0 : 1);
+    numbers += 3 * quantities * static_cast<double>(mesh.global_nodes);
+    if (yields[s] != 0) numbers += 3 * static_cast<double>(cells_of(mesh));
+  }
+  return numbers * sizeof(double) * static_cast<double>(steps.count);
 }
 
 std::optional<FieldSteps> planned_fields(const Scene& scene, const Model& model) {
@@ -71,7 +81,7 @@ std::optional<FieldSteps> planned_fields(const Scene& scene, const Model& model)
   const std::int64_t sample = record_stride(scene, model);
   const double interval = static_cast<double>(sample) * model.time_step;
   FieldSteps steps;
-  steps.stride = sample * parts(whole(model, scene.fields_interval / interval));
+  steps.stride = sample * parts(whole_steps(model, scene.fields_interval / interval));
   steps.first =
       sample * static_cast<std::int64_t>(std::ceil(scene.fields_start / interval * (1 - 1e-9)));
   const std::int64_t last = scene.fields_end > 0
@@ -90,8 +100,7 @@ std::optional<FieldSteps> planned_fields(const Scene& scene, const Model& model)
 std::vector<std::string> check_fields(MPI_Comm comm, const Scene& scene, const Model& model) {
   const auto steps = planned_fields(scene, model);
   if (!steps) return {};
-  const double bytes = FieldWriter::size(*steps, model.systems, model.meshes,
-                                         !scene.contacts.empty(), yielding_structures(scene));
+  const double bytes = fields_size(scene, model, *steps);
   const double every = static_cast<double>(steps->stride) * model.time_step;
   std::vector<std::string> doubts;
   const std::string frames =
@@ -117,8 +126,7 @@ std::vector<std::string> check_fields(MPI_Comm comm, const Scene& scene, const M
 void print_fields(MPI_Comm comm, const Scene& scene, const Model& model) {
   const auto steps = planned_fields(scene, model);
   if (!steps) return;
-  const double bytes = FieldWriter::size(*steps, model.systems, model.meshes,
-                                         !scene.contacts.empty(), yielding_structures(scene));
+  const double bytes = fields_size(scene, model, *steps);
   if (rank_of(comm) != 0) return;
   std::printf("fields for ParaView: %lld frames every %.4g s from t = %.4g s, up to %.3g MB\n",
               static_cast<long long>(steps->count),

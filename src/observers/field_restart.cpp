@@ -28,8 +28,8 @@ void copy_numbers(const PlacedFile& from, std::int64_t source, const PlacedFile&
 }  // namespace
 
 void FieldWriter::save(SavedState& saved) {
-  const int rank = rank_of(layout_.comm);
-  if (rank == layout_.impulse_root && !impulses_.empty()) saved.put("fields_impulse", impulses_);
+  const int rank = rank_of(run_.comm);
+  if (rank == impulse_root() && !impulses_.empty()) saved.put("fields_impulse", impulses_);
   if (rank == 0) saved.put("fields_frames", {static_cast<double>(frames_)});
   flush();
 }
@@ -38,13 +38,13 @@ void FieldWriter::load(const SavedState& saved) {
   frames_ = saved.integer("fields_frames");
   if (frames_ < 0) saved.refuse_values("fields_frames");
   if (!impulses_.empty()) saved.get("fields_impulse", impulses_);
-  on_rank0(layout_.comm, [&] {
+  on_rank0(run_.comm, [&] {
     try {
-      const Hdf5Reader file(layout_.continued);
-      bool same = file.number("/", "time_step") == layout_.time_step &&
-                  file.number("/", "first_step") == static_cast<double>(layout_.steps.first) &&
-                  file.number("/", "stride") == static_cast<double>(layout_.steps.stride) &&
-                  frames_ <= layout_.steps.count;
+      const Hdf5Reader file(continued_);
+      bool same = file.number("/", "time_step") == run_.model.time_step &&
+                  file.number("/", "first_step") == static_cast<double>(steps_.first) &&
+                  file.number("/", "stride") == static_cast<double>(steps_.stride) &&
+                  frames_ <= steps_.count;
       for (const StructureFields& fields : structures_) {
         for (const Quantity& quantity : fields.quantities) {
           if (frames_ == 0 || !same) continue;
@@ -53,11 +53,10 @@ void FieldWriter::load(const SavedState& saved) {
         }
       }
       if (!same) {
-        throw std::runtime_error(layout_.continued +
-                                 ": written by another run than the checkpoint");
+        throw std::runtime_error(continued_ + ": written by another run than the checkpoint");
       }
       if (!(file.rows("frames", 0, 1)[0] >= static_cast<double>(frames_))) {
-        throw std::runtime_error(layout_.continued + ": fewer frames are whole than the " +
+        throw std::runtime_error(continued_ + ": fewer frames are whole than the " +
                                  std::to_string(frames_) + " of the checkpoint");
       }
     } catch (const std::runtime_error& error) {
@@ -69,27 +68,27 @@ void FieldWriter::load(const SavedState& saved) {
 
 void FieldWriter::start(const CdLagrange& /*stepper*/, const SavedState* continued) {
   if (continued == nullptr) return;
-  const std::string path = layout_.folder + "/fields.h5";
+  const std::string path = run_.path("fields.h5");
   create(path + ".new");
-  on_rank0(layout_.comm, [&] {
+  on_rank0(run_.comm, [&] {
     copy_frames(path + ".new");
     std::error_code failure;
     std::filesystem::rename(path + ".new", path, failure);
     if (failure) throw UserError(path + ": could not be written (" + failure.message() + ")");
-    for (std::int64_t frame = 0; layout_.xdmf && frame < frames_; ++frame) {
+    for (std::int64_t frame = 0; xdmf_ && frame < frames_; ++frame) {
       text_ += frame_text(frame);
     }
     // A list that this run does not keep would be that of the run before.
-    if (!layout_.xdmf) std::filesystem::remove(layout_.folder + "/fields.xdmf", failure);
-    if (!layout_.vtkhdf) std::filesystem::remove(layout_.folder + "/fields.vtkhdf", failure);
+    if (!xdmf_) std::filesystem::remove(run_.path("fields.xdmf"), failure);
+    if (!vtkhdf_) std::filesystem::remove(run_.path("fields.vtkhdf"), failure);
   });
   open();
   flush();
 }
 
 void FieldWriter::copy_frames(const std::string& to) const try {
-  const Hdf5Reader old(layout_.continued);
-  const PlacedFile from(layout_.continued, PlacedFile::Access::read);
+  const Hdf5Reader old(continued_);
+  const PlacedFile from(continued_, PlacedFile::Access::read);
   const PlacedFile into(to, PlacedFile::Access::write);
   for (const StructureFields& fields : structures_) {
     for (const Quantity& quantity : fields.quantities) {

@@ -1,40 +1,24 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "io/new_file.h"
 #include "mesh/mesh.h"
-#include "observers/observer.h"
+#include "observers/field_plan.h"
+#include "observers/observed_run.h"
 #include "output/file_blocks.h"
 #include "output/mesh_grid.h"
 #include "system/trace.h"
 
 namespace pounding {
-
-/// The steps whose motion is kept as a whole: `count` of them from `first` on, every `stride`.
-struct FieldSteps {
-  std::int64_t first = 0;
-  std::int64_t stride = 1;
-  std::int64_t count = 0;
-
-  std::int64_t last() const { return first + (count - 1) * stride; }
-};
-
-/// A displacement component of a node of a structure that contacts move.
-struct ContactPlace {
-  int structure = 0;
-  GlobalIndex node = 0;  ///< file order
-  int component = 0;     ///< 0-2
-};
 
 /// Writes `fields.h5`, the motion of all nodes, and for ParaView `fields.xdmf`, `fields.vtkhdf` or
 /// both. Per structure, beside the datasets of write_mesh() and, for the latter, of
@@ -59,34 +43,9 @@ struct ContactPlace {
 /// allocates nothing but the line of the list.
 class FieldWriter final : public Observer {
  public:
-  struct Layout {
-    MPI_Comm comm = MPI_COMM_SELF;
-    std::string folder;
-    std::string continued;  ///< fields.h5 of the run that this one continues; empty: a new one
-    std::string title;
-    double time_step = 0;  ///< [s]
-    FieldSteps steps;
-    bool xdmf = true;    ///< whether fields.xdmf lists the frames
-    bool vtkhdf = true;  ///< whether fields.vtkhdf does
-    MeshLabels labels;
-    std::vector<ContactPlace> places;  ///< where contacts act, of all ranks
-    int impulse_root = 0;              ///< rank that knows all impulses
-    /// Adds the impulses of contacts in the step just made, per place [N s], on ranks that know
-    /// them.
-    std::function<void(std::span<double>)> add_impulses;
-    std::vector<char> yields;  ///< per structure, whether elements of it may
-    /// Region, number in the mesh file, ductility, damage and lost energy of each element of a
-    /// structure that this rank counts and that yields. Local.
-    std::function<std::vector<double>(std::size_t)> yielding;
-  };
-
   /// Creates the files, unless the run is a continued one. Throws UserError on every rank alike (no
   /// space). Collective.
-  FieldWriter(Layout layout, std::span<const LinearSystem> systems, std::span<const Mesh> meshes);
-
-  /// Bytes that the arrays take; `yields` as in the layout. Collective.
-  static double size(const FieldSteps& steps, std::span<const LinearSystem> systems,
-                     std::span<const Mesh> meshes, bool contacts, std::span<const char> yields);
+  explicit FieldWriter(const ObservedRun& run);
 
   /// Takes the frames over that `continued` knows from the file continued, which may be the one
   /// that is then replaced. Throws UserError on every rank alike. Collective.
@@ -135,7 +94,7 @@ class FieldWriter final : public Observer {
     }
   };
 
-  StructureFields fields_of(const LinearSystem& system, const Mesh& mesh, std::size_t structure);
+  StructureFields fields_of(std::size_t structure);
   void create(const std::string& path);
   /// Takes the places of all arrays of a file. Rank 0.
   std::vector<std::int64_t> reserve(Hdf5File& file) const;
@@ -149,9 +108,16 @@ class FieldWriter final : public Observer {
   /// Writes `fields.vtkhdf` of the frames so far. Rank 0.
   void list_for_vtk() const;
   double time_of(std::int64_t frame) const;
+  /// The rank that knows all impulses.
+  int impulse_root() const { return std::max(run_.contact_root(), 0); }
 
-  Layout layout_;
-  std::span<const Mesh> meshes_;
+  ObservedRun run_;
+  FieldSteps steps_;
+  std::string continued_;  ///< fields.h5 of the run that this one continues; empty: a new one
+  bool xdmf_;              ///< whether fields.xdmf lists the frames
+  bool vtkhdf_;            ///< whether fields.vtkhdf does
+  MeshLabels labels_;
+  std::vector<char> yields_;  ///< per structure, whether elements of it may
   std::vector<StructureFields> structures_;
   std::vector<double> impulses_;
   std::unique_ptr<PlacedFile> file_;
@@ -163,5 +129,7 @@ class FieldWriter final : public Observer {
   std::int64_t frames_place_ = 0;        ///< of their number in the file [bytes]
   std::string text_;                     ///< of the frames so far
 };
+
+OutputKind fields_output();
 
 }  // namespace pounding

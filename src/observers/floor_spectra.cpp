@@ -15,6 +15,9 @@
 namespace pounding {
 namespace {
 
+const ResultFile spectrum_table{
+    "spectra.csv", "response spectra of floors, cabinets and the ground", spectrum_columns};
+
 /// The accelerations of the channels that this rank works on: number rank, rank + size, ...; from
 /// record `first` on.
 std::vector<std::vector<double>> share_accelerations(MPI_Comm comm, std::size_t channels,
@@ -172,16 +175,18 @@ std::vector<ProbeSpectrum> compute_ground_spectra(const Scene& scene, const Grou
   return spectra;
 }
 
-void write_floor_spectra(const std::string& path, std::span<const ProbeSpectrum> spectra,
-                         double start, int digits) {
-  CsvFile file(path, digits);
-  file.header(spectrum_columns);
+OutputKind spectra_output() {
+  return {{spectrum_table}};
+}
+
+void write_floor_spectra(const Scene& scene, std::span<const ProbeSpectrum> spectra) {
+  ResultTable file(scene, spectrum_table);
   for (const ProbeSpectrum& spectrum : spectra) {
     const std::string label = spectrum.probe + "," + spectrum.direction + ",complete";
     for (const SpectrumPoint& point : spectrum.points) {
       file.row(label, {spectrum.damping_ratio, point.frequency, 1 / point.frequency,
                        point.displacement, point.pseudo_velocity, point.pseudo_acceleration,
-                       spectrum.interval, spectrum.valid_up_to, start, 0});
+                       spectrum.interval, spectrum.valid_up_to, scene.spectra.start, 0});
     }
   }
   file.close();

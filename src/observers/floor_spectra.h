@@ -8,6 +8,7 @@
 #include "motion/ground_motion.h"
 #include "motion/response_spectrum.h"
 #include "motion/synthetic.h"
+#include "observers/observed_run.h"
 #include "observers/recorder.h"
 #include "scene/scene.h"
 
@@ -36,10 +37,10 @@ std::vector<ProbeSpectrum> compute_floor_spectra(MPI_Comm comm, const Scene& sce
 /// the ground itself rests (a motion from below) and where a probe is called `ground_name`.
 std::vector<ProbeSpectrum> compute_ground_spectra(const Scene& scene, const GroundMotion& motion);
 
-/// `spectra.csv`, in the columns of `spectrum_columns` (io/csv_file.h); `start` [s]: of what
-/// counts; `digits`: significant ones. Throws UserError if it cannot be written.
-void write_floor_spectra(const std::string& path, std::span<const ProbeSpectrum> spectra,
-                         double start, int digits);
+/// `spectra.csv`, in the columns of `spectrum_columns` (io/csv_file.h). Throws UserError if it
+/// cannot be written.
+void write_floor_spectra(const Scene& scene, std::span<const ProbeSpectrum> spectra);
+OutputKind spectra_output();
 
 /// Capacities of the scene's equipment, in its order [m/s2]. Throws UserError: a file that is no
 /// spectrum, a band that the capacity or the floor spectra do not have. Serial.

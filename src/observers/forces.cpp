@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "common/error.h"
 #include "common/facts.h"
 #include "common/parallel.h"
 #include "common/saved_state.h"
 #include "elements/force_rows.h"
-#include "io/csv_file.h"
 #include "observers/run_statistics.h"
 #include "system/element_forces.h"
 #include "system/links.h"
@@ -58,24 +56,23 @@ const char* unit_of(const std::string& component) {
   return moment ? "N m" : "N";
 }
 
-/// `forces.csv`: the peak of every component of every element, of `digits` significant digits.
-/// Throws UserError if it cannot be written.
-void write_forces(const std::string& path, std::span<const ForceReport> reports, int digits) {
-  CsvFile file(path, digits);
-  file.header("item,component,unit,element,peak,time");
-  for (const ForceReport& report : reports) {
-    for (std::size_t e = 0; e < report.elements.size(); ++e) {
-      for (std::size_t c = 0; c < report.components.size(); ++c) {
-        const ForcePeak& peak = report.peaks[e * report.components.size() + c];
-        const std::string& element = report.elements[e];
-        const std::string& component = report.components[c];
-        file.row(report.name + "," + component + "," + unit_of(component),
-                 {element.empty() ? 0.0 : std::stod(element), peak.value, peak.time});
-      }
-    }
-  }
-  file.close();
-}
+const ResultFile force_table{"forces.csv", "the largest forces of the samples",
+                             "item,component,unit,element,peak,time"};
+
+/// The value of a force that was largest in magnitude, and when.
+struct ForcePeak {
+  double value = 0;  ///< [N, N m], of shells per length [N/m, N]
+  double time = 0;   ///< [s]
+};
+
+/// An item of the option `forces`.
+struct ForceReport {
+  std::string name{};
+  std::vector<std::string> components{};  ///< "Fx", "N", ...
+  std::vector<std::string> elements{};    ///< numbers in the file; one empty name of a total
+  std::optional<Vector3> about{};         ///< of a total: point that its moments are about [m]
+  std::size_t first = 0;                  ///< of its columns, shape (elements, components)
+};
 
 /// The numbers of a peak in a saved state.
 constexpr auto peak_members = [](auto& peak, const auto& take) { take(peak.value, peak.time); };
@@ -108,11 +105,12 @@ class Forces final : public Observer {
   /// Displacements of generalised coordinates at which K u is the force of the last step, damping
   /// included; of one without stiffness its own.
   std::span<const double> acting_displacement(std::size_t structure);
+  /// Rank 0.
+  void write_table() const;
 
   ObservedRun run_;
   double peaks_start_;
   std::vector<ForceReport> items_;
-  std::vector<std::size_t> first_;     ///< per item, of its columns
   std::vector<std::string> recorded_;  ///< columns with a history, which are the first
   std::string unit_ = "N, N m";
   std::vector<Total> totals_;
@@ -136,7 +134,7 @@ Forces::Forces(const ObservedRun& run) : run_(run), peaks_start_(run.scene.spect
       for (std::size_t i = 0; i < items_.size(); ++i) {
         if (model.forces[i].structure != static_cast<int>(s)) continue;
         const ForceItem& force = scene.forces[i];
-        const std::size_t first = first_[i];
+        const std::size_t first = items_[i].first;
         const auto add = [&rows](std::vector<ElementForces::Row> more) {
           std::ranges::move(more, std::back_inserter(rows));
         };
@@ -192,7 +190,6 @@ void Forces::lay_out() {
       item.elements.push_back(std::to_string(element));
     }
   }
-  first_.resize(items_.size());
   std::size_t next = 0;
   for (const bool recorded : {true, false}) {
     for (std::size_t i = 0; i < items_.size(); ++i) {
@@ -200,7 +197,7 @@ void Forces::lay_out() {
       if (recorded && scene.forces[i].kind == ForceKind::shells) {
         unit_ = "N, N m; of shells N/m, N m/m";
       }
-      first_[i] = next;
+      items_[i].first = next;
       next += items_[i].elements.size() * items_[i].components.size();
       for (std::size_t e = 0; recorded && e < items_[i].elements.size(); ++e) {
         const std::string& element = items_[i].elements[e];
@@ -293,20 +290,50 @@ void Forces::load(const SavedState& saved) {
 }
 
 void Forces::report(RunStatistics& statistics) {
-  for (std::size_t i = 0; i < items_.size(); ++i) {
-    const auto first = peaks_.begin() + static_cast<std::ptrdiff_t>(first_[i]);
-    const std::size_t columns = items_[i].elements.size() * items_[i].components.size();
-    items_[i].peaks.assign(first, first + static_cast<std::ptrdiff_t>(columns));
+  if (statistics.complete) on_rank0(run_.comm, [&] { write_table(); });
+  if (rank_of(run_.comm) != 0) return;
+  Facts facts;
+  facts.say("\nforce       largest kN, kN m (of shells per m) of samples      at s   element\n");
+  for (const ForceReport& item : items_) {
+    for (std::size_t c = 0; c < item.components.size(); ++c) {
+      const auto peak = [&](std::size_t e) {
+        return peaks_[item.first + e * item.components.size() + c];
+      };
+      std::size_t most = 0;
+      for (std::size_t e = 1; e < item.elements.size(); ++e) {
+        if (std::abs(peak(e).value) > std::abs(peak(most).value)) most = e;
+      }
+      Json& of = facts.values["forces"][item.name][item.components[c]] =
+          Json{{"peak", peak(most).value}, {"time", peak(most).time}};
+      if (!item.elements[most].empty()) of["element"] = std::stoll(item.elements[most]);
+      facts.text += told("  {:-18s} {peak:24.6g [kN]} {time:19.5f}   [{element}]\n", of,
+                         {item.name + "." + item.components[c]});
+    }
+    if (!item.about) continue;
+    facts.values["moments_about"][item.name] = *item.about;
+    facts.say("    moments about {:.6g} m\n", {*item.about});
   }
-  statistics.forces = items_;
-  if (!statistics.complete) return;
-  on_rank0(run_.comm, [&] {
-    write_forces(run_.scene.output + "/forces.csv", statistics.forces, run_.scene.csv_digits);
-  });
+  statistics.findings.add(facts);
 }
 
-std::unique_ptr<Observer> make_forces(const ObservedRun& run) {
-  return std::make_unique<Forces>(run);
+void Forces::write_table() const {
+  ResultTable file(run_.scene, force_table);
+  for (const ForceReport& item : items_) {
+    std::size_t column = item.first;
+    for (const std::string& element : item.elements) {
+      for (const std::string& component : item.components) {
+        const ForcePeak& peak = peaks_[column++];
+        file.row(item.name + "," + component + "," + unit_of(component),
+                 {element.empty() ? 0.0 : std::stod(element), peak.value, peak.time});
+      }
+    }
+  }
+  file.close();
+}
+
+OutputKind forces_output() {
+  return output<Forces>({force_table},
+                        [](const ObservedRun& run) { return !run.scene.forces.empty(); });
 }
 
 TotalForce::TotalForce(const ForceItem& item, const LinearSystem& system, const Mesh& mesh)

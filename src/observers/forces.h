@@ -1,9 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
 #include <vector>
 
 #include "dynamics/kept_forces.h"
@@ -11,8 +7,7 @@
 #include "interactions/structure_links.h"
 #include "mesh/force_places.h"
 #include "mesh/mesh.h"
-#include "observers/field_plan.h"
-#include "observers/run_statistics.h"
+#include "observers/observed_run.h"
 #include "system/element_forces.h"
 #include "system/linear_system.h"
 
@@ -24,7 +19,7 @@ namespace pounding {
 /// message more. Peaks count samples from `spectra_start` on; a continued run may count them from
 /// another time on where none that counted before it belongs to them. Throws UserError for groups
 /// without such forces. Collective.
-std::unique_ptr<Observer> make_forces(const ObservedRun& run);
+OutputKind forces_output();
 
 /// The force of the ground on a structure, or the force upwards through a level of it: minus the
 /// sum of all internal forces on the dofs above, those of springs, dashpots and links to the ground

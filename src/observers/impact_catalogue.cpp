@@ -14,7 +14,7 @@
 namespace pounding {
 namespace {
 
-constexpr std::size_t impact_columns = 17;
+constexpr std::size_t impact_width = 17;
 
 /// The numbers of an impact in a table.
 constexpr auto impact_members = [](auto& i, const auto& take) {
@@ -25,7 +25,7 @@ constexpr auto impact_members = [](auto& i, const auto& take) {
 
 /// Whether every row names one of so many contacts.
 bool names_contacts(const std::vector<double>& table, std::size_t contacts) {
-  for (std::size_t i = 0; i < table.size(); i += impact_columns) {
+  for (std::size_t i = 0; i < table.size(); i += impact_width) {
     if (!(table[i] >= 0 && table[i] < static_cast<double>(contacts)) ||
         table[i] != std::floor(table[i])) {
       return false;
@@ -179,8 +179,8 @@ void ImpactCatalogue::finish(MPI_Comm comm, int root) {
 }
 
 void ImpactCatalogue::save(SavedState& saved) const {
-  saved.put("impacts", to_rows(impacts_, impact_members), impact_columns);
-  saved.put("impacts_open", to_rows(open_, impact_members), impact_columns);
+  saved.put("impacts", to_rows(impacts_, impact_members), impact_width);
+  saved.put("impacts_open", to_rows(open_, impact_members), impact_width);
   saved.put("impacts_is_open", std::vector<double>(is_open_.begin(), is_open_.end()));
   saved.put("impacts_touched_rows", std::vector<double>(touched_.begin(), touched_.end()));
   saved.put("impacts_slipped_rows", slipped_);
@@ -191,7 +191,7 @@ void ImpactCatalogue::save(SavedState& saved) const {
 }
 
 void ImpactCatalogue::load(const SavedState& saved) {
-  std::vector<double> open(impact_columns * open_.size());
+  std::vector<double> open(impact_width * open_.size());
   std::vector<double> is_open(is_open_.size());
   std::vector<double> touched(touched_.size());
   saved.get("impacts_open", open);
@@ -199,10 +199,10 @@ void ImpactCatalogue::load(const SavedState& saved) {
   saved.get("impacts_touched_rows", touched);
   saved.get("impacts_slipped_rows", slipped_);
   saved.get("impacts_impulse_rows", row_impulses_);
-  const std::vector<double>& closed = saved.table("impacts", impact_columns);
+  const std::vector<double>& closed = saved.table("impacts", impact_width);
   if (!names_contacts(closed, open_.size())) saved.refuse_values("impacts");
   if (!names_contacts(open, open_.size())) saved.refuse_values("impacts_open");
-  impacts_.resize(closed.size() / impact_columns);
+  impacts_.resize(closed.size() / impact_width);
   from_rows(closed, impacts_, impact_members);
   from_rows(open, open_, impact_members);
   for (std::size_t c = 0; c < windows_.size(); ++c) {
@@ -233,9 +233,7 @@ ImpactTotals ImpactCatalogue::totals() const {
 void write_impacts(const std::string& path, const std::vector<std::string>& contacts,
                    std::span<const Impact> impacts, int digits) {
   CsvFile file(path, digits);
-  file.header(
-      "contact,start,end,duration,impulse,peak_force,points,energy_lost,max_penetration,lateral,"
-      "vertical,contact_time,left,bottom,tangential_impulse,slip,friction_loss,window_force");
+  file.header(impact_columns);
   for (const Impact& impact : impacts) {
     file.row(contacts[impact.contact],
              {impact.start, impact.end, impact.duration(), impact.impulse, impact.peak_force,

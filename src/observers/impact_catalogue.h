@@ -148,6 +148,11 @@ class ImpactCatalogue {
   std::vector<Impact> impacts_;
 };
 
+/// Columns of `impacts.csv`, see docs/manual/results.md.
+inline constexpr const char* impact_columns =
+    "contact,start,end,duration,impulse,peak_force,points,energy_lost,max_penetration,lateral,"
+    "vertical,contact_time,left,bottom,tangential_impulse,slip,friction_loss,window_force";
+
 /// `impacts.csv`: one line per episode, its columns as in docs/manual/results.md; `digits`:
 /// significant ones. Throws UserError if the file cannot be written.
 void write_impacts(const std::string& path, const std::vector<std::string>& contacts,

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <compare>
 #include <cstdio>
-#include <filesystem>
 #include <limits>
 #include <set>
 #include <string>
@@ -195,6 +194,9 @@ class Loops final : public Observer {
   std::vector<double> values_;      ///< elongation and force of each of these
 };
 
+const ResultFile law_table{"laws.csv", "the laws of the scene through cycles (-law_cycles)",
+                           "law,elongation,force,stored_J,lost_J"};
+
 /// A law with the name of the part that follows it.
 struct NamedLaw {
   std::string name;  ///< structure:group:component
@@ -347,17 +349,37 @@ void Loops::report(RunStatistics& statistics) {
   }
   MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM,
                 run_.comm);
-  for (const std::string& item : items_) statistics.loops.push_back({item, {}, {}});
-  for (std::size_t i = 0; i < names_.size(); ++i) {
-    LoopReport& loop = statistics.loops[static_cast<std::size_t>(item_of_[i])];
-    const double* const from = &all[width * i];
-    loop.links.push_back(names_[i]);
-    loop.totals.push_back({from[0], from[1], from[2], from[3]});
+  for (std::size_t item = 0; item < items_.size(); ++item) {
+    std::size_t links = 0;
+    std::array<double, width> most{};  // of the last two the sums
+    Json yielded = Json::array();
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (item_of_[i] != static_cast<int>(item)) continue;
+      const double* const from = &all[width * i];
+      ++links;
+      most = {std::max(most[0], from[0]), std::max(most[1], from[1]), most[2] + from[2],
+              most[3] + from[3]};
+      if (from[3] > 0) yielded.push_back(names_[i]);
+    }
+    statistics.findings.add(
+        "loops", items_[item],
+        {{"links", links},
+         {"yielded", yielded},
+         {"largest_elongation", most[0]},
+         {"largest_force", most[1]},
+         {"energy_taken", most[2]}},
+        "  {:-12s} {:.0f} of {links} links yielded, elongation at most {largest_elongation:.4g mm} "
+        "(or mrad), force {largest_force:.4g kN} (or kN m), took {energy_taken:.4g} J\n",
+        {items_[item], most[3]});
   }
 }
 
-std::unique_ptr<Observer> make_loops(const ObservedRun& run) {
-  return std::make_unique<Loops>(run);
+OutputKind loops_output() {
+  return output<Loops>({}, [](const ObservedRun& run) { return !run.scene.loops.empty(); });
+}
+
+OutputKind law_loops_output() {
+  return {{law_table}};
 }
 
 void write_law_loops(MPI_Comm comm, const Scene& scene) {
@@ -372,17 +394,11 @@ void write_law_loops(MPI_Comm comm, const Scene& scene) {
           "option -law_cycles: nothing in the scene yields by a law in one dimension; see "
           "-<structure>_<group>_skeleton");
     }
-    std::error_code failure;
-    std::filesystem::create_directories(scene.output, failure);
-    if (failure) {
-      throw UserError("option -output " + scene.output + ": the folder cannot be created");
-    }
-    const std::string path = scene.output + "/laws.csv";
-    CsvFile file(path, scene.csv_digits);
-    file.header("law,elongation,force,stored_J,lost_J");
+    create_output(scene.output);
+    ResultTable file(scene, law_table);
     for (const NamedLaw& law : laws) write_loops(law, scene.law_cycles, file);
     file.close();
-    std::printf("laws: %zu in %s\n", laws.size(), path.c_str());
+    std::printf("laws: %zu in %s/%s\n", laws.size(), scene.output.c_str(), law_table.name.c_str());
   });
 }
 

@@ -259,6 +259,13 @@ void write_model(MPI_Comm comm, const Scene& scene, const Model& model) {
   });
 }
 
+OutputKind model_output() {
+  return {{{"model.h5", "the meshes with groups, supports, contacts and probes", "", true},
+           {"model.xdmf", "model.h5 for ParaView", "", true},
+           {"modes.h5", "the shapes of the modes", "", true},
+           {"modes.xdmf", "modes.h5 for ParaView", "", true}}};
+}
+
 MeshLabels mesh_labels(const Scene& scene, const interactions::Interface& interface) {
   MeshLabels labels;
   for (const Structure& structure : scene.structures) {

@@ -2,7 +2,7 @@
 
 #include <mpi.h>
 
-#include "model/model.h"
+#include "observers/observed_run.h"
 #include "output/mesh_grid.h"
 #include "scene/scene.h"
 
@@ -21,6 +21,9 @@ namespace pounding {
 /// distributed meshes, the interface and the probes, nothing else. Throws UserError on every rank
 /// alike (no space). Collective.
 void write_model(MPI_Comm comm, const Scene& scene, const Model& model);
+
+/// The two of write_model and those of write_mode_shapes.
+OutputKind model_output();
 
 /// Groups and contacts of a scene as its pictures name them. Local.
 MeshLabels mesh_labels(const Scene& scene, const interactions::Interface& interface);

@@ -14,6 +14,18 @@ void Observers::start(const CdLagrange& stepper, const SavedState* continued) {
   earliest_ = std::ranges::min(next_);
 }
 
+const ImpactCatalogue& Observers::impacts() const {
+  return *(*std::ranges::find_if(list_, [](auto& one) {
+            return one->impacts() != nullptr;
+          }))->impacts();
+}
+
+const Recorder& Observers::history() const {
+  return *(*std::ranges::find_if(list_, [](auto& one) {
+            return one->history() != nullptr;
+          }))->history();
+}
+
 StepNeeds Observers::begin_due(const CdLagrange& stepper) {
   StepNeeds all;
   for (std::size_t i = 0; i < list_.size(); ++i) {

@@ -38,6 +38,8 @@ struct RecordColumns {
   }
 };
 
+class ImpactCatalogue;
+class Recorder;
 struct RunStatistics;
 
 /// Results of a step beside the motion, for which an output asks.
@@ -85,6 +87,9 @@ class Observer {
 
   /// Columns that it brings to every record of the history. Local.
   virtual std::optional<RecordColumns> columns() const { return std::nullopt; }
+  /// Results that others read of it; null where it has none.
+  virtual const ImpactCatalogue* impacts() const { return nullptr; }
+  virtual const Recorder* history() const { return nullptr; }
   /// Phase of the profile that its time counts for.
   virtual Phase phase() const { return Phase::output; }
 };
@@ -108,6 +113,9 @@ class Observers {
     return added;
   }
   std::span<const std::unique_ptr<Observer>> list() const { return list_; }
+  /// Results of the observers that have them; they must be there.
+  const ImpactCatalogue& impacts() const;
+  const Recorder& history() const;
 
   /// `continued`: see Observer::start. Collective.
   void start(const CdLagrange& stepper, const SavedState* continued);

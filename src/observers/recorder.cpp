@@ -6,10 +6,13 @@
 #include "common/parallel.h"
 #include "common/row_products.h"
 #include "io/schema.h"
+#include "observers/storeys.h"
 #include "system/support_shapes.h"
 
 namespace pounding {
 namespace {
+
+constexpr const char* history_file = "history.h5";
 
 constexpr std::size_t buffer_records = 4096;
 
@@ -25,23 +28,29 @@ double mean(std::span<const double* const> nodes, std::size_t place) {
 
 }  // namespace
 
-Recorder::Recorder(Layout layout, std::span<const LinearSystem> systems,
-                   std::span<const Mesh> meshes)
-    : layout_(std::move(layout)) {
-  for (const ResolvedProbe& probe : layout_.probes) {
+Recorder::Recorder(const ObservedRun& run, Observers& before)
+    : run_(run),
+      stride_(record_stride(run.scene, run.model)),
+      continued_(run.continued_path(history_file)),
+      drifts_(find_storeys(run.comm, run.scene, run.model)) {
+  const std::span<const LinearSystem> systems = run.model.systems;
+  for (const auto& other : before.list()) {
+    if (auto columns = other->columns()) columns_.push_back(std::move(*columns));
+  }
+  for (const ResolvedProbe& probe : run_.model.probes) {
     const bool mean = systems[probe.structure].generalised != nullptr;
     recorded_nodes_.push_back(mean ? 1 : probe.nodes.size());
   }
   std::vector<GlobalIndex> mine;  // probe, and place of the node in it
   for (std::size_t s = 0; s < systems.size(); ++s) {
-    structures_.push_back(find_nodes(systems[s], meshes[s], s, mine));
+    structures_.push_back(find_nodes(s, mine));
     nodes_ += structures_.back().values.size() / 3;
   }
-  bases_ = BaseMotion(layout_.bases, systems, meshes);
+  bases_ = BaseMotion(run.model.storey_bases, systems, run.model.meshes);
   base_values_.resize(bases_.values());
-  if (!layout_.bases.empty()) layout_.columns.push_back(base_columns());
+  if (!run_.model.storey_bases.empty()) columns_.push_back(base_columns());
   std::vector<int> places;  // table and column of each value beside those of nodes
-  for (const RecordColumns& columns : layout_.columns) {
+  for (const RecordColumns& columns : columns_) {
     for (const int column : columns.mine) {
       for (std::size_t q = 0; q < columns.quantities.size(); ++q) {
         places.insert(places.end(), {static_cast<int>(tables_.size() + q), column});
@@ -54,14 +63,14 @@ Recorder::Recorder(Layout layout, std::span<const LinearSystem> systems,
   width_ = values_per_node * nodes_ + places.size() / 2;
   buffer_.resize(buffer_records * width_);
   ground_.resize(3 * buffer_records);
-  if (rank_of(layout_.comm) != 0) {
-    send_array(layout_.comm, 0, mine);
-    send_array(layout_.comm, 0, places);
+  if (rank_of(run_.comm) != 0) {
+    send_array(run_.comm, 0, mine);
+    send_array(run_.comm, 0, places);
   }
-  for (int rank = 0; rank_of(layout_.comm) == 0 && rank < size_of(layout_.comm); ++rank) {
+  for (int rank = 0; rank_of(run_.comm) == 0 && rank < size_of(run_.comm); ++rank) {
     if (rank > 0) {
-      receive_array(layout_.comm, rank, mine);
-      receive_array(layout_.comm, rank, places);
+      receive_array(run_.comm, rank, mine);
+      receive_array(run_.comm, rank, places);
     }
     widths_.push_back(static_cast<int>(values_per_node * (mine.size() / 2) + places.size() / 2));
     rank_places_.push_back(places);
@@ -69,15 +78,15 @@ Recorder::Recorder(Layout layout, std::span<const LinearSystem> systems,
       order_.push_back({static_cast<std::size_t>(mine[i]), static_cast<std::size_t>(mine[i + 1])});
     }
   }
-  if (rank_of(layout_.comm) == 0) name_channels();
-  if (layout_.continued.empty()) on_rank0(layout_.comm, [&] { create_file(layout_.path); });
+  if (rank_of(run_.comm) == 0) name_channels();
+  if (continued_.empty()) on_rank0(run_.comm, [&] { create_file(run_.path(history_file)); });
 }
 
 Recorder::~Recorder() = default;
 
 RecordColumns Recorder::base_columns() const {
   RecordColumns columns{"bases", {}, {{"base_displacement", "m"}}, {}, base_values_};
-  for (const ResolvedProbe& base : layout_.bases) {
+  for (const ResolvedProbe& base : run_.model.storey_bases) {
     for (const char* direction : direction_names) {
       columns.mine.push_back(static_cast<int>(columns.names.size()));
       columns.names.push_back(base.name + "." + direction);  // "tower.x"
@@ -86,13 +95,14 @@ RecordColumns Recorder::base_columns() const {
   return columns;
 }
 
-Recorder::StructureNodes Recorder::find_nodes(const LinearSystem& system, const Mesh& mesh,
-                                              std::size_t structure,
+Recorder::StructureNodes Recorder::find_nodes(std::size_t structure,
                                               std::vector<GlobalIndex>& found) const {
+  const LinearSystem& system = run_.model.systems[structure];
+  const Mesh& mesh = run_.model.meshes[structure];
   std::vector<TracePoint> places;
   std::vector<std::size_t> counts;  // nodes of each probe
-  for (std::size_t p = 0; p < layout_.probes.size(); ++p) {
-    const ResolvedProbe& probe = layout_.probes[p];
+  for (std::size_t p = 0; p < run_.model.probes.size(); ++p) {
+    const ResolvedProbe& probe = run_.model.probes[p];
     const std::size_t before = places.size();
     for (std::size_t k = 0; k < probe.nodes.size(); ++k) {
       if (probe.structure != static_cast<int>(structure) || mesh.owned_node(probe.nodes[k]) < 0) {
@@ -125,12 +135,11 @@ Recorder::StructureNodes Recorder::find_nodes(const LinearSystem& system, const 
 }
 
 void Recorder::name_channels() {
-  for (const ResolvedProbe& probe : layout_.probes) {
+  for (const ResolvedProbe& probe : run_.model.probes) {
     for (const char* direction : direction_names) channels_.push_back(probe.name + "." + direction);
   }
   last_velocity_.assign(channels_.size(), 0.0);
   peaks_.assign(channels_.size(), {});
-  drifts_ = StoreyDrifts(layout_.storeys);
 }
 
 std::vector<Recorder::Quantity> Recorder::quantities() const {
@@ -147,9 +156,9 @@ std::vector<Recorder::Quantity> Recorder::quantities() const {
 void Recorder::create_file(const std::string& path) {
   file_ = std::make_unique<Hdf5File>(path);
   schema::write(*file_, schema::history);
-  file_->write_attribute("/", "title", layout_.title);
+  file_->write_attribute("/", "title", run_.scene.title);
   file_->write_strings("channels", channels_);
-  for (const RecordColumns& columns : layout_.columns) {
+  for (const RecordColumns& columns : columns_) {
     file_->write_strings(columns.list, columns.names);
   }
   for (const Quantity& quantity : quantities()) {
@@ -157,7 +166,7 @@ void Recorder::create_file(const std::string& path) {
   }
   file_->create_number("records");
   file_->write_attribute("/", "complete", 0);
-  const double half = layout_.time_step / 2;
+  const double half = run_.model.time_step / 2;
   if (!channels_.empty()) {
     file_->write_attribute("displacement", "frame", "relative to the ground");
     file_->write_attribute("velocity", "frame", "relative to the ground");
@@ -204,7 +213,7 @@ void Recorder::observe(const CdLagrange& stepper) {
   const State& state = stepper.state();
   put(state, &StructureState::velocity, state.supports.velocity, 3);
   double* out = buffer_.data() + buffered_ * width_ + values_per_node * nodes_;
-  for (const RecordColumns& columns : layout_.columns) {
+  for (const RecordColumns& columns : columns_) {
     out = std::copy(columns.values.begin(), columns.values.end(), out);
   }
   std::copy(ground_sum_.begin(), ground_sum_.end(), &ground_[3 * buffered_]);
@@ -215,7 +224,7 @@ void Recorder::observe(const CdLagrange& stepper) {
 std::vector<double> Recorder::gather_rows(std::size_t rows, std::vector<int>& offsets) const {
   std::vector<int> counts;
   std::vector<double> gathered;
-  if (rank_of(layout_.comm) == 0) {
+  if (rank_of(run_.comm) == 0) {
     int total = 0;
     for (const int width : widths_) {
       counts.push_back(width * static_cast<int>(rows));
@@ -225,7 +234,7 @@ std::vector<double> Recorder::gather_rows(std::size_t rows, std::vector<int>& of
     gathered.resize(total);
   }
   MPI_Gatherv(buffer_.data(), static_cast<int>(rows * width_), MPI_DOUBLE, gathered.data(),
-              counts.data(), offsets.data(), MPI_DOUBLE, 0, layout_.comm);
+              counts.data(), offsets.data(), MPI_DOUBLE, 0, run_.comm);
   return gathered;
 }
 
@@ -238,7 +247,7 @@ void Recorder::take_start(const State& state) {
   put(state, &StructureState::velocity, state.supports.velocity, 3);
   std::vector<int> offsets;
   const std::vector<double> gathered = gather_rows(1, offsets);
-  if (rank_of(layout_.comm) != 0) return;
+  if (rank_of(run_.comm) != 0) return;
   NodeValues values;
   find_values(0, gathered, offsets, values);
   for (std::size_t channel = 0; channel < channels_.size(); ++channel) {
@@ -251,7 +260,7 @@ void Recorder::flush() {
   buffered_ = 0;
   std::vector<int> offsets;
   const std::vector<double> gathered = gather_rows(rows, offsets);
-  on_rank0(layout_.comm, [&] {
+  on_rank0(run_.comm, [&] {
     if (rows > 0) write_rows(rows, gathered, offsets);
   });
 }
@@ -302,7 +311,7 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
   const auto first = static_cast<std::ptrdiff_t>(accelerations_.size());
   for (std::size_t row = 0; row < rows; ++row) {
     find_values(row, gathered, offsets, values);
-    time.push_back(static_cast<double>(records_++ * layout_.stride) * layout_.time_step);
+    time.push_back(static_cast<double>(records_++ * stride_) * run_.model.time_step);
     for (std::size_t channel = 0; channel < channels; ++channel) {
       const std::size_t d = channel % 3;
       const double u = mean(values[channel / 3], d);
@@ -316,7 +325,7 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
   }
   const std::span<const double> acceleration(accelerations_.begin() + first, accelerations_.end());
   note_peaks(static_cast<std::size_t>(records_) - rows, displacement, acceleration,
-             layout_.bases.empty() ? std::span<const double>() : tables.back());
+             run_.model.storey_bases.empty() ? std::span<const double>() : tables.back());
   file_->append("time", time);
   if (channels > 0) {
     file_->append("displacement", displacement);
@@ -338,12 +347,12 @@ void Recorder::count_rows() {
 }
 
 std::size_t Recorder::first_record_from(double start) const {
-  return pounding::first_record_from(start, layout_.time_step, interval());
+  return pounding::first_record_from(start, run_.model.time_step, interval());
 }
 
 void Recorder::note_peaks(std::size_t first_record, std::span<const double> displacement,
                           std::span<const double> acceleration, std::span<const double> bases) {
-  const std::size_t first = first_record_from(layout_.peaks_start);
+  const std::size_t first = first_record_from(run_.scene.spectra.start);
   for (std::size_t i = 0; i < displacement.size(); ++i) {
     largest_displacement_ = std::max(largest_displacement_, std::abs(displacement[i]));
     if (first_record + i / channels_.size() < first) continue;
@@ -361,7 +370,7 @@ void Recorder::note_peaks(std::size_t first_record, std::span<const double> disp
 
 void Recorder::finish(bool complete) {
   flush();
-  on_rank0(layout_.comm, [&] {
+  on_rank0(run_.comm, [&] {
     file_->close();
     if (complete) file_->mark("complete", 1);
   });
@@ -374,6 +383,11 @@ std::vector<double> Recorder::acceleration(std::size_t channel, std::size_t firs
     samples.push_back(accelerations_[i]);
   }
   return samples;
+}
+
+OutputKind history_output() {
+  return output<Recorder>(
+      {{history_file, "motion of the probes and what was recorded with it, over time", "", true}});
 }
 
 std::vector<double> probe_rows(const Trace& trace, std::span<const std::size_t> nodes) {

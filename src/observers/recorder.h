@@ -12,7 +12,7 @@
 #include "mesh/mesh.h"
 #include "mesh/probe_set.h"
 #include "observers/base_motion.h"
-#include "observers/observer.h"
+#include "observers/observed_run.h"
 #include "observers/storey_drifts.h"
 #include "system/trace.h"
 
@@ -27,7 +27,7 @@ struct ChannelPeaks {
 /// Writes `history.h5`. A record is made every `stride` steps: displacement at t_n, velocity at
 /// t_n + dt/2, and as absolute acceleration the change of velocity since the last record over the
 /// interval (so that no impulse is lost between samples), ground included. Bases: displacement at
-/// t_n. Beside these come the columns of the layout, as their owners bring them.
+/// t_n. Beside these come the columns of other observers, as these bring them.
 ///
 /// Values wait in a buffer on the rank that owns them and travel to rank 0 a few thousand records
 /// at a time, or on demand; a record itself neither allocates nor communicates. The
@@ -36,31 +36,16 @@ struct ChannelPeaks {
 /// `complete` is 1 when the run has reached its end, 0 before.
 class Recorder final : public Observer {
  public:
-  struct Layout {
-    MPI_Comm comm = MPI_COMM_SELF;
-    std::string path;
-    std::string continued;  ///< history of the run that this one continues; empty: a new one
-    std::string title;
-    std::vector<ResolvedProbe> probes;
-    std::vector<RecordColumns> columns;  ///< beside the motion of probes and bases
-    int stride = 1;
-    double time_step = 0;
-    std::vector<ResolvedProbe> bases;  ///< that move, of structures with storeys; named after these
-    std::vector<Storey> storeys;
-    double peaks_start = 0;  ///< records before do not count as peaks [s]
-  };
-
-  /// Rank 0 creates the file, unless the run is a continued one. Collective.
-  Recorder(Layout layout, std::span<const LinearSystem> systems, std::span<const Mesh> meshes);
+  /// Takes the columns of the observers before it. Rank 0 creates the file, unless the run is a
+  /// continued one. Throws UserError. Collective.
+  Recorder(const ObservedRun& run, Observers& before);
   ~Recorder() override;
 
   /// Takes the velocities that a new run starts with, or the records known to `continued` over from
   /// the history continued, which may be the file that is then replaced. Throws UserError on every
   /// rank alike. Collective.
   void start(const CdLagrange& stepper, const SavedState* continued) override;
-  std::int64_t next_due(std::int64_t step) const override {
-    return next_multiple(step, layout_.stride);
-  }
+  std::int64_t next_due(std::int64_t step) const override { return next_multiple(step, stride_); }
   StepNeeds begin(const CdLagrange& stepper) override;
   /// Makes the record. Collective only when the buffer is full.
   void observe(const CdLagrange& stepper) override;
@@ -71,6 +56,7 @@ class Recorder final : public Observer {
   void flush() override;
   /// Flushes and closes the file. Collective.
   void finish(bool complete) override;
+  const Recorder* history() const override { return this; }
   /// Writes all records to the file and keeps the values that the next one needs. Collective.
   void save(SavedState& saved) override;
 
@@ -85,8 +71,8 @@ class Recorder final : public Observer {
   double largest_displacement() const { return largest_displacement_; }
   /// The first record that counts: the middle of its interval is not before `start` [s].
   std::size_t first_record_from(double start) const;
-  double interval() const { return layout_.time_step * layout_.stride; }
-  const std::vector<ResolvedProbe>& probes() const { return layout_.probes; }
+  double interval() const { return run_.model.time_step * stride_; }
+  const std::vector<ResolvedProbe>& probes() const { return run_.model.probes; }
 
  private:
   /// The nodes of a structure that probes read, as far as this rank knows them. In generalised
@@ -108,8 +94,7 @@ class Recorder final : public Observer {
     std::string unit;
   };
 
-  StructureNodes find_nodes(const LinearSystem& system, const Mesh& mesh, std::size_t structure,
-                            std::vector<GlobalIndex>& found) const;
+  StructureNodes find_nodes(std::size_t structure, std::vector<GlobalIndex>& found) const;
   /// Writes a quantity of the state into the record at hand, `offset` values into each node.
   void put(const State& state, std::vector<double> StructureState::*quantity,
            std::span<const double> supports, std::size_t offset);
@@ -140,7 +125,10 @@ class Recorder final : public Observer {
   /// Sends appended rows to the disk before their number says that they are there. Rank 0.
   void count_rows();
 
-  Layout layout_;
+  ObservedRun run_;
+  int stride_;
+  std::string continued_;               ///< history of the run that this one continues; or empty
+  std::vector<RecordColumns> columns_;  ///< beside the motion of probes
   std::vector<StructureNodes> structures_;
   BaseMotion bases_;
   std::vector<double> base_values_;
@@ -167,6 +155,8 @@ class Recorder final : public Observer {
   double largest_displacement_ = 0;
   std::int64_t records_ = 0;
 };
+
+OutputKind history_output();
 
 /// Means of places over probes of a structure in generalised coordinates: three rows per probe, for
 /// x, y, z, over its coordinates, shape (3 probes, coordinates). `trace`: three components of every

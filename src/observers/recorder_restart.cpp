@@ -17,7 +17,7 @@ constexpr std::size_t copied_records = 16384;
 void Recorder::save(SavedState& saved) {
   flush();
   saved.put("recorder_ground_velocity", ground_sum_);
-  if (rank_of(layout_.comm) == 0) {
+  if (rank_of(run_.comm) == 0) {
     saved.put("recorder_records", {static_cast<double>(records_)});
     saved.put("recorder_last_velocity", last_velocity_);
   }
@@ -27,14 +27,14 @@ void Recorder::take_over(const SavedState& saved) {
   saved.get("recorder_ground_velocity", ground_sum_);
   records_ = saved.integer("recorder_records");
   if (records_ < 0) saved.refuse_values("recorder_records");
-  on_rank0(layout_.comm, [&] {
+  on_rank0(run_.comm, [&] {
     saved.get("recorder_last_velocity", last_velocity_);
     try {
-      const Hdf5Reader history(layout_.continued, Hdf5Reader::Kind::left_open);
+      const Hdf5Reader history(continued_, Hdf5Reader::Kind::left_open);
       check_history(history);
-      create_file(layout_.path + ".new");
+      create_file(run_.path("history.h5") + ".new");
       copy_history(history);
-      file_->move_to(layout_.path);
+      file_->move_to(run_.path("history.h5"));
     } catch (const UserError&) {
       throw;
     } catch (const std::runtime_error& error) {
@@ -48,11 +48,11 @@ void Recorder::check_history(const Hdf5Reader& history) const {
   const std::size_t records = records_;
   const auto refuse_unless = [&](bool same) {
     if (!same) {
-      throw std::runtime_error(layout_.continued + ": written by another run than the checkpoint");
+      throw std::runtime_error(continued_ + ": written by another run than the checkpoint");
     }
   };
   refuse_unless(history.strings("channels") == channels_);
-  for (const RecordColumns& columns : layout_.columns) {
+  for (const RecordColumns& columns : columns_) {
     refuse_unless(history.strings(columns.list) == columns.names);
   }
   for (const Quantity& quantity : quantities()) {
@@ -62,7 +62,7 @@ void Recorder::check_history(const Hdf5Reader& history) const {
   const double whole = history.rows("records", 0, 1)[0];
   if (!(whole >= static_cast<double>(records))) {
     std::ostringstream text;
-    text << layout_.continued << ": " << whole << " of its records are whole, the checkpoint needs "
+    text << continued_ << ": " << whole << " of its records are whole, the checkpoint needs "
          << records;
     throw std::runtime_error(text.str());
   }
@@ -81,8 +81,8 @@ void Recorder::copy_history(const Hdf5Reader& history) {
     if (!channels_.empty()) {
       const std::vector<double> acceleration = history.rows("acceleration", first, count);
       note_peaks(first, history.rows("displacement", first, count), acceleration,
-                 layout_.bases.empty() ? std::vector<double>()
-                                       : history.rows("base_displacement", first, count));
+                 run_.model.storey_bases.empty() ? std::vector<double>()
+                                                 : history.rows("base_displacement", first, count));
       accelerations_.insert(accelerations_.end(), acceleration.begin(), acceleration.end());
     }
   }

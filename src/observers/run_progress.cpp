@@ -14,6 +14,7 @@
 #include "common/crowded_node.h"
 #include "common/facts.h"
 #include "common/progress.h"
+#include "observers/impact_catalogue.h"
 
 namespace pounding {
 namespace {
@@ -26,9 +27,9 @@ std::string standard_output(const std::string& process) {
 
 class ProgressWatch final : public Observer {
  public:
-  ProgressWatch(const ObservedRun& run, const ImpactCatalogue& impacts)
+  ProgressWatch(const ObservedRun& run, Observers& before)
       : run_(run),
-        impacts_(impacts),
+        impacts_(before.impacts()),
         progress_(is_watched(), run.scene.progress_interval),
         stride_(std::max<std::int64_t>(1, run.model.steps / 200)) {}
 
@@ -98,9 +99,8 @@ void ProgressWatch::observe(const CdLagrange& stepper) {
                   stepper.energy().relative_residual()});
 }
 
-std::unique_ptr<Observer> make_progress_watch(const ObservedRun& run,
-                                              const ImpactCatalogue& impacts) {
-  return std::make_unique<ProgressWatch>(run, impacts);
+OutputKind progress_output() {
+  return output<ProgressWatch>({});
 }
 
 bool is_watched() {

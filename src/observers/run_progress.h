@@ -1,10 +1,8 @@
 #pragma once
 
-#include <memory>
 #include <string>
 
-#include "observers/field_plan.h"
-#include "observers/impact_catalogue.h"
+#include "observers/observed_run.h"
 
 namespace pounding {
 
@@ -43,9 +41,8 @@ class RunProgress {
   double next_;  ///< elapsed time of the next line [s]
 };
 
-/// Shows how far a run is; `impacts` must outlive it.
-std::unique_ptr<Observer> make_progress_watch(const ObservedRun& run,
-                                              const ImpactCatalogue& impacts);
+/// Shows how far a run is.
+OutputKind progress_output();
 
 /// Whether somebody sees the standard output as it is written. mpirun gives rank 0 a terminal of
 /// its own even where its output goes to a file or a pipe: there the output of mpirun itself

@@ -11,6 +11,7 @@
 
 #include <mpi.h>
 
+#include "common/facts.h"
 #include "common/matrix3.h"
 #include "common/profile.h"
 #include "dynamics/energy_balance.h"
@@ -101,66 +102,6 @@ struct OtherPass {
   static constexpr double deep_part = 0.01;
 };
 
-/// Contact ratio of a mat on compression-only springs: the stiffness of those that are pressed over
-/// that of all, 1 as long as nothing lifts off.
-struct ContactRatio {
-  double now = 1;           ///< at the last look
-  double smallest = 1;      ///< of all looks
-  double time = 0;          ///< of the smallest [s]
-  double low_duration = 0;  ///< time below 80 % [s]
-
-  /// Ratio below which the time counts.
-  static constexpr double low = 0.8;
-};
-
-/// Links of one item of the option `loops`, after the run.
-struct LoopReport {
-  std::string name;
-  std::vector<std::string> links;
-  std::vector<interactions::LinkTotals> totals;  ///< per link
-
-  /// Extremes over all links; `work` and `yielded` are sums.
-  interactions::LinkTotals whole() const;
-};
-
-/// Yielding of some elements by laws of one kind.
-struct YieldSum {
-  int elements = 0;
-  int yielded = 0;           ///< of them went beyond the first corner
-  double ductility = 0;      ///< the largest
-  std::int64_t element = 0;  ///< that had it
-  Vector3 place{};           ///< of that one [m]
-  /// Sample at which the first of them was beyond its first corner [s]; infinite: none was.
-  double first_time = std::numeric_limits<double>::infinity();
-  double lost = 0;  ///< energy of all [J]
-};
-
-/// Laws of one kind of the elements of a group that yield by a skeleton.
-struct YieldReport {
-  std::string name;  ///< structure:group:part
-  YieldSum whole{};
-  /// Per storey in which there are any, from below, by the name of the storey.
-  std::vector<std::pair<std::string, YieldSum>> storeys{};
-};
-
-/// The value of a force that was largest in magnitude, and when.
-struct ForcePeak {
-  double value = 0;  ///< [N, N m], of shells per length [N/m, N]
-  double time = 0;   ///< [s]
-};
-
-/// Peaks of an item of the option `forces`.
-struct ForceReport {
-  std::string name;
-  std::vector<std::string> components;  ///< "Fx", "N", ...
-  std::vector<std::string> elements;    ///< numbers in the file; one empty name of a total
-  std::vector<ForcePeak> peaks;         ///< shape (elements, components)
-  std::optional<Vector3> about{};       ///< of a total: point that its moments are about [m]
-
-  /// The element whose peak of a component is the largest.
-  std::size_t largest(std::size_t component) const;
-};
-
 /// Findings of a run, beside the model; complete on rank 0.
 struct RunStatistics {
   bool complete = false;                ///< the run came to its end, no signal stopped it
@@ -177,16 +118,13 @@ struct RunStatistics {
   std::vector<ImpactTotals> impacts;  ///< per contact
   ImpactTotals all_impacts;
   std::vector<interactions::FillerTotals> fillers;  ///< per contact; empty without fillers
-  std::vector<LoopReport> loops;                    ///< per item of the option
-  std::vector<YieldReport> yielding;                ///< per kind of law of a group; rank 0
-  std::vector<ForceReport> forces;                  ///< per item of the option; rank 0
   std::vector<Slide> slides;                        ///< per contact
   std::vector<OtherPass> other_passes;              ///< per contact
   std::vector<JointClosing> closings;               ///< per contact, of the samples of the gaps
-  std::vector<ContactRatio> contact_ratios;  ///< per structure; empty where nothing may lift off
-  StatedPeaks peaks;                         ///< rank 0
+  StatedPeaks peaks;                                ///< rank 0
   std::vector<std::string> overpressed;      ///< structures with a pendulum whose slope was cut
   std::vector<std::string> warnings;         ///< of the run, one line each
+  Facts findings;                            ///< that outputs bring to the summary; rank 0
   PhaseReport phases;                        ///< time and memory
   std::optional<FidelityEstimate> fidelity;  ///< with -fidelity_window; channels on rank 0
 };

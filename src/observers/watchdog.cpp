@@ -177,13 +177,13 @@ void EnergyWatch::observe(const CdLagrange& stepper) {
 void EnergyWatch::report(RunStatistics& statistics) {
   statistics.energy = ledger_.last();
   statistics.energy_residual = run_.solver.stepper().energy().relative_residual();
-  on_rank0(run_.comm, [&] {
-    write_energy(run_.scene.output + "/energy.csv", ledger_.lines(), run_.scene.csv_digits);
-  });
+  on_rank0(run_.comm,
+           [&] { write_energy(run_.path("energy.csv"), ledger_.lines(), run_.scene.csv_digits); });
 }
 
-std::unique_ptr<Observer> make_energy_watch(const ObservedRun& run) {
-  return std::make_unique<EnergyWatch>(run);
+OutputKind energy_output() {
+  return output<EnergyWatch>({{"energy.csv", "the energy ledger", energy_columns()}}, nullptr,
+                             true);
 }
 
 }  // namespace pounding

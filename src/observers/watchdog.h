@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -8,7 +7,7 @@
 #include "dynamics/state.h"
 #include "interactions/contact_problem.h"
 #include "model/model.h"
-#include "observers/field_plan.h"
+#include "observers/observed_run.h"
 
 /// Stops runs whose numbers cannot be trusted, at every line of the energy ledger.
 namespace pounding {
@@ -52,6 +51,6 @@ void watch_contact(MPI_Comm comm, const interactions::ContactProblem* contact, d
 
 /// Lines of the energy ledger: `energy.csv`. Each stops a run whose numbers cannot be trusted
 /// (watchdog.h), and the bounds of the gap rates go by it.
-std::unique_ptr<Observer> make_energy_watch(const ObservedRun& run);
+OutputKind energy_output();
 
 }  // namespace pounding

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
@@ -10,8 +11,8 @@
 
 #include "common/parallel.h"
 #include "common/types.h"
-#include "io/csv_file.h"
 #include "model/element_middle.h"
+#include "observers/field_plan.h"
 #include "observers/run_statistics.h"
 #include "observers/storeys.h"
 #include "system/links.h"
@@ -24,6 +25,9 @@ constexpr std::size_t of_springs = 100;
 constexpr std::size_t axial = 200;
 
 constexpr double never_yielded = -1;
+
+const ResultFile yielding_table{"yielding.csv", "the laws of elements and how far they went",
+                                "law,element,ductility,lost_J,x,y,z,first_time"};
 
 /// Numbers by which an element's law is known on every rank: structure, region, element, part.
 using LawKey = std::array<double, 4>;
@@ -57,6 +61,45 @@ struct YieldRow {
   double lost = 0;
   auto key() const { return std::tie(name, element); }
 };
+
+/// Yielding of some elements by laws of one kind.
+struct YieldSum {
+  std::string name{};  ///< structure:group:part, or storey
+  int elements = 0;
+  int yielded = 0;                 ///< of them went beyond the first corner
+  const YieldRow* most = nullptr;  ///< the one with the largest ductility, if that is above 0
+  /// Sample at which the first of them was beyond its first corner [s]; infinite: none was.
+  double first_time = std::numeric_limits<double>::infinity();
+  double lost = 0;                            ///< energy of all [J]
+  std::map<std::size_t, YieldSum> storeys{};  ///< in which there are any, from below
+
+  void add(const YieldRow& row) {
+    ++elements;
+    lost += row.lost;
+    if (row.ductility > 1) ++yielded;
+    if (row.since != never_yielded) first_time = std::min(first_time, row.since);
+    if (row.ductility > (most != nullptr ? most->ductility : 0)) most = &row;
+  }
+  Json values() const {
+    const YieldRow& largest = most != nullptr ? *most : YieldRow{};
+    return {{"elements", elements},
+            {"yielded", yielded},
+            {"ductility", largest.ductility},
+            {"element", largest.element},
+            {"place", largest.place},
+            {"first_time", std::isfinite(first_time) ? Json(first_time) : Json()},
+            {"energy_lost", lost}};
+  }
+};
+
+/// A line of the table of yielding in the report.
+std::string told_yielding(const std::string& name, const Json& of) {
+  return told("  {:-36s} {yielded:5d} of {elements:-5d} {ductility:10.4g} {element:9d}", of,
+              {name}) +
+         (of["first_time"].is_null() ? told(" {:12s}", nullptr, {"-"})
+                                     : told(" {first_time:12.4f}", of)) +
+         told(" {energy_lost:12.4g}  at {place:.4g} m\n", of);
+}
 
 class YieldTable final : public Observer {
  public:
@@ -93,19 +136,6 @@ class YieldTable final : public Observer {
   std::vector<Own> own_;
   std::vector<Storey> storeys_;
 };
-
-/// Adds a row to a sum.
-void add_row(const YieldRow& row, YieldSum& sum) {
-  ++sum.elements;
-  sum.lost += row.lost;
-  if (row.ductility > 1) ++sum.yielded;
-  if (row.since != never_yielded) sum.first_time = std::min(sum.first_time, row.since);
-  if (row.ductility > sum.ductility) {
-    sum.ductility = row.ductility;
-    sum.element = row.element;
-    sum.place = row.place;
-  }
-}
 
 /// A law of an element of this rank that may yield.
 struct FoundLaw {
@@ -149,6 +179,34 @@ void for_each_law(const ObservedRun& run, std::size_t s, Visit&& visit) {
                      [&] { return element_middle(mesh, group, all[b].number); }});
     }
   }
+}
+
+Facts facts_of(const std::vector<YieldSum>& sums) {
+  Facts facts;
+  double lost = 0;
+  int yielded = 0;
+  for (const YieldSum& sum : sums) {
+    lost += sum.lost;
+    yielded += sum.yielded;
+  }
+  if (yielded == 0) {
+    facts.say("\nnothing yielded; of the elongations of first corners there were at most\n");
+  } else {
+    facts.say("\nyielding, which took {:.4g} J\n", {lost});
+  }
+  facts.say(
+      "  law, storey                          yielded        ductility   element      first s "
+      "      J lost\n");
+  for (const YieldSum& sum : sums) {
+    Json of = sum.values();
+    facts.text += told_yielding(sum.name, of);
+    for (const auto& [order, storey] : sum.storeys) {
+      of["storeys"][storey.name] = storey.values();
+      facts.text += told_yielding("  " + storey.name, of["storeys"][storey.name]);
+    }
+    facts.values["yielding"][sum.name] = std::move(of);
+  }
+  return facts;
 }
 
 }  // namespace
@@ -273,39 +331,32 @@ std::string YieldTable::storey_of(const YieldRow& row, std::size_t& order) const
 
 void YieldTable::report(RunStatistics& statistics) {
   const std::vector<YieldRow> all = rows();
+  std::vector<YieldSum> sums;
   on_rank0(run_.comm, [&] {
-    CsvFile file(run_.scene.output + "/yielding.csv", run_.scene.csv_digits);
-    file.header("law,element,ductility,lost_J,x,y,z,first_time");
-    std::map<std::size_t, std::pair<std::string, YieldSum>> storeys;  // of the law at hand
-    const auto close = [&] {
-      for (auto& [order, storey] : storeys) {
-        statistics.yielding.back().storeys.push_back(std::move(storey));
-      }
-      storeys.clear();
-    };
+    ResultTable file(run_.scene, yielding_table);
     for (const YieldRow& row : all) {
       const bool elastic = row.since == never_yielded;
       file.row(row.name, {static_cast<double>(row.element), row.ductility, row.lost, row.place[0],
                           row.place[1], row.place[2],
                           elastic ? std::numeric_limits<double>::quiet_NaN() : row.since});
-      if (statistics.yielding.empty() || statistics.yielding.back().name != row.name) {
-        close();
-        statistics.yielding.push_back({row.name});
-      }
-      add_row(row, statistics.yielding.back().whole);
+      if (sums.empty() || sums.back().name != row.name) sums.push_back({row.name});
+      sums.back().add(row);
       std::size_t order = 0;
       const std::string storey = storey_of(row, order);
       if (storey.empty()) continue;
-      storeys[order].first = storey;
-      add_row(row, storeys[order].second);
+      YieldSum& within = sums.back().storeys[order];
+      within.name = storey;
+      within.add(row);
     }
-    close();
     file.close();
   });
+  if (!sums.empty()) statistics.findings.add(facts_of(sums));
 }
 
-std::unique_ptr<Observer> make_yield_table(const ObservedRun& run) {
-  return std::make_unique<YieldTable>(run);
+OutputKind yield_output() {
+  return output<YieldTable>({yielding_table}, [](const ObservedRun& run) {
+    return std::ranges::count(yielding_structures(run.scene), 1) > 0;
+  });
 }
 
 }  // namespace pounding

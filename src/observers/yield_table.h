@@ -1,16 +1,15 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <vector>
 
-#include "observers/field_plan.h"
+#include "observers/observed_run.h"
 
 namespace pounding {
 
 /// Ductility, lost energy, place and time of every element that yields by a law with a skeleton:
 /// yielding.csv at the end of the run, and their sums by group and storey in the report.
-std::unique_ptr<Observer> make_yield_table(const ObservedRun& run);
+OutputKind yield_output();
 
 /// Elements of a structure that this rank counts, that may yield and that were moved at all, for
 /// FieldWriter: region, number in the mesh file, largest ductility, damage and energy lost [J] of

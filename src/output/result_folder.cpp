@@ -17,17 +17,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* lock_name = "running.lock";
 
-/// Files that a run writes beside the tables of its outputs, and, while it writes, under which
-/// names.
-constexpr std::array written{
-    "resolved.yaml", "resolved.yaml.new", "summary.json",      "summary.json.new", "spectra.csv",
-    "laws.csv",      "equipment.csv",     "history.h5.new",    "model.xdmf.new",   "modes.xdmf.new",
-    "fields.h5.new", "fields.xdmf.new",   "fields.vtkhdf.new", "checkpoint.h5.new"};
-/// Files that a run in the same folder goes on from.
-constexpr std::array continued{"history.h5", "checkpoint.h5", "modes.h5",
-                               "modes.xdmf", "model.h5",      "model.xdmf",
-                               "fields.h5",  "fields.xdmf",   "fields.vtkhdf"};
-
 std::string lock_path(const std::string& folder) {
   return folder + "/" + lock_name;
 }
@@ -57,6 +46,12 @@ std::vector<fs::path> missing_folders(fs::path folder) {
     folder = folder.parent_path();
   }
   return missing;
+}
+
+void create_output(const std::string& folder) {
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (failure) throw UserError("option -output " + folder + ": the folder cannot be created");
 }
 
 ResultFolder::ResultFolder(const std::string& path)
@@ -105,22 +100,21 @@ ResultFolder::~ResultFolder() {
 }
 
 std::vector<std::string> ResultFolder::clear(const std::string& restart,
-                                             std::span<const char* const> tables) const {
+                                             std::span<const ResultFile> files) const {
   std::error_code ignored;
   const bool goes_on = !restart.empty() && fs::equivalent(fs::absolute(restart).parent_path(),
                                                           fs::absolute(path_), ignored);
   std::vector<std::string> removed;
-  const auto remove = [&](const char* name) {
+  const auto remove = [&](const std::string& name) {
     const fs::file_status there = fs::symlink_status(path_ + "/" + name, ignored);
     if ((fs::is_regular_file(there) || fs::is_symlink(there)) &&  // of a link the link alone
         fs::remove(path_ + "/" + name, ignored)) {
       removed.emplace_back(name);
     }
   };
-  for (const char* name : written) remove(name);
-  for (const char* name : tables) remove(name);
-  for (const char* name : continued) {
-    if (!goes_on) remove(name);
+  for (const ResultFile& file : files) {
+    if (!goes_on || !file.goes_on) remove(file.name);
+    remove(file.name + ".new");
   }
   return removed;
 }

@@ -7,8 +7,19 @@
 
 namespace pounding {
 
+/// A file that a run leaves in its folder of results.
+struct ResultFile {
+  std::string name;
+  std::string holds;      ///< in words, for summary.json
+  std::string columns{};  ///< of a table
+  bool goes_on = false;   ///< a run that continues in the folder begins from it
+};
+
 /// The folders of a path that are not there yet, the innermost first.
 std::vector<std::filesystem::path> missing_folders(std::filesystem::path folder);
+
+/// Makes the folder of results. Throws UserError.
+void create_output(const std::string& folder);
 
 /// The folder that a run writes to, and its alone for as long as this object lives: the file
 /// running.lock in it is locked (flock), which ends with the process however that dies. For one
@@ -23,11 +34,11 @@ class ResultFolder {
   /// Takes running.lock away, and the folders that were made for it and are still empty.
   ~ResultFolder();
 
-  /// Removes the files of an earlier run under the names that this program gives to results, among
-  /// them `tables`, and nothing else; returns the names. If the run continues from the checkpoint
-  /// `restart` in the folder, that, its history and the shapes of modes stay.
+  /// Removes these files of an earlier run, whole or as they are called while they are written, and
+  /// nothing else; returns the names. If the run continues from the checkpoint `restart` in the
+  /// folder, those that it begins from stay.
   std::vector<std::string> clear(const std::string& restart,
-                                 std::span<const char* const> tables) const;
+                                 std::span<const ResultFile> files) const;
 
  private:
   void lock();

@@ -5,48 +5,7 @@
 
 namespace pounding {
 
-Facts loop_facts(const RunStatistics& run) {
-  Facts facts;
-  for (const LoopReport& loop : run.loops) {
-    const interactions::LinkTotals most = loop.whole();
-    Json yielded = Json::array();
-    for (std::size_t i = 0; i < loop.links.size(); ++i) {
-      if (loop.totals[i].yielded > 0) yielded.push_back(loop.links[i]);
-    }
-    facts.add("loops", loop.name,
-              {{"links", loop.links.size()},
-               {"yielded", yielded},
-               {"largest_elongation", most.largest_elongation},
-               {"largest_force", most.largest_force},
-               {"energy_taken", most.work}},
-              "  {:-12s} {:.0f} of {links} links yielded, elongation at most "
-              "{largest_elongation:.4g mm} (or mrad), force {largest_force:.4g kN} (or kN m), took "
-              "{energy_taken:.4g} J\n",
-              {loop.name, most.yielded});
-  }
-  return facts;
-}
-
 namespace {
-
-Json values_of_yielding(const YieldSum& sum) {
-  return {{"elements", sum.elements},
-          {"yielded", sum.yielded},
-          {"ductility", sum.ductility},
-          {"element", sum.element},
-          {"place", sum.place},
-          {"first_time", std::isfinite(sum.first_time) ? Json(sum.first_time) : Json()},
-          {"energy_lost", sum.lost}};
-}
-
-/// A line of the table of yielding.
-std::string told_yielding(const std::string& name, const Json& of) {
-  return told("  {:-36s} {yielded:5d} of {elements:-5d} {ductility:10.4g} {element:9d}", of,
-              {name}) +
-         (of["first_time"].is_null() ? told(" {:12s}", nullptr, {"-"})
-                                     : told(" {first_time:12.4f}", of)) +
-         told(" {energy_lost:12.4g}  at {place:.4g} m\n", of);
-}
 
 /// Peak of each spectrum of a probe in one direction.
 std::string told_spectra(const std::vector<ProbeSpectrum>& spectra, const std::string& probe,
@@ -63,77 +22,6 @@ std::string told_spectra(const std::vector<ProbeSpectrum>& spectra, const std::s
 }
 
 }  // namespace
-
-Facts yield_facts(const RunStatistics& run) {
-  Facts facts;
-  if (run.yielding.empty()) return facts;
-  double lost = 0;
-  int yielded = 0;
-  for (const YieldReport& report : run.yielding) {
-    lost += report.whole.lost;
-    yielded += report.whole.yielded;
-  }
-  if (yielded == 0) {
-    facts.say("\nnothing yielded; of the elongations of first corners there were at most\n");
-  } else {
-    facts.say("\nyielding, which took {:.4g} J\n", {lost});
-  }
-  facts.say(
-      "  law, storey                          yielded        ductility   element      first s "
-      "      J lost\n");
-  for (const YieldReport& report : run.yielding) {
-    Json of = values_of_yielding(report.whole);
-    facts.text += told_yielding(report.name, of);
-    for (const auto& [storey, sum] : report.storeys) {
-      of["storeys"][storey] = values_of_yielding(sum);
-      facts.text += told_yielding("  " + storey, of["storeys"][storey]);
-    }
-    facts.values["yielding"][report.name] = std::move(of);
-  }
-  return facts;
-}
-
-Facts contact_ratio_facts(const Scene& scene, const RunStatistics& run) {
-  Facts facts;
-  for (std::size_t s = 0; s < run.contact_ratios.size(); ++s) {
-    const ContactRatio& ratio = run.contact_ratios[s];
-    const std::string& name = scene.structures[s].name;
-    facts.add("contact_ratio", name,
-              {{"end", ratio.now},
-               {"smallest", ratio.smallest},
-               {"time_of_smallest", ratio.time},
-               {"time_below_80_percent", ratio.low_duration}},
-              "  {:-12s} contact ratio of its compression-only springs {end:.3f} at the end, at "
-              "least {smallest:.3f} at {time_of_smallest:.4g} s, below {:.0f %} for "
-              "{time_below_80_percent:.4g} s\n",
-              {name, ContactRatio::low});
-  }
-  return facts;
-}
-
-Facts force_facts(const RunStatistics& run) {
-  Facts facts;
-  if (run.forces.empty()) return facts;
-  facts.say("\nforce       largest kN, kN m (of shells per m) of samples      at s   element\n");
-  for (const ForceReport& force : run.forces) {
-    Facts components;
-    for (std::size_t c = 0; c < force.components.size(); ++c) {
-      const std::size_t e = force.largest(c);
-      const ForcePeak& peak = force.peaks[e * force.components.size() + c];
-      Json& of =
-          components.values[force.components[c]] = {{"peak", peak.value}, {"time", peak.time}};
-      if (!force.elements[e].empty()) of["element"] = std::stoll(force.elements[e]);
-      components.text += told("  {:-18s} {peak:24.6g [kN]} {time:19.5f}   [{element}]\n", of,
-                              {force.name + "." + force.components[c]});
-    }
-    facts.values["forces"][force.name] = components.values;
-    facts.text += components.text;
-    if (!force.about) continue;
-    facts.values["moments_about"][force.name] = *force.about;
-    facts.say("    moments about {:.6g} m\n", {*force.about});
-  }
-  return facts;
-}
 
 Facts drift_facts(const StoreyDrifts& drifts) {
   Facts facts{Json::array()};

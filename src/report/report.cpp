@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include "common/byte_texts.h"
 #include "common/version.h"
 #include "io/new_file.h"
 #include "io/schema.h"
 #include "motion/response_spectrum.h"
-#include "observers/field_plan.h"
+#include "observers/kinds.h"
 #include "scene/resolved_options.h"
 
 namespace pounding {
@@ -170,12 +171,9 @@ void print_results(const FinishedRun& run) {
   const Scene& scene = run.scene;
   const RunStatistics& statistics = run.statistics;
   print("\n");
-  print(yield_facts(statistics));
   print(impact_facts(scene, statistics, run.impacts));
   print(joint_facts(scene, run.model, statistics));
-  print(loop_facts(statistics));
-  print(contact_ratio_facts(scene, statistics));
-  print(force_facts(statistics));
+  print(statistics.findings);
   print(drift_facts(run.recorder.drifts()));
   print(probe_facts(scene, statistics, run.recorder, run.spectra));
   print(fidelity_facts(scene, statistics));
@@ -224,13 +222,10 @@ void write_summary(const std::string& path, const FinishedRun& run) {
   facts.add("contact_rows", statistics.contact_rows);
   facts.add("coupled_rows", statistics.coupled_rows);
   facts.add("energy", energy_facts(statistics));
-  facts.add(contact_ratio_facts(scene, statistics));
   facts.add("impacts", impact_facts(scene, statistics, run.impacts));
   facts.add(separation_facts(scene, model));
   facts.add("contacts", joint_facts(scene, model, statistics));
-  facts.add(loop_facts(statistics));
-  facts.add(yield_facts(statistics));
-  facts.add(force_facts(statistics));
+  facts.add(statistics.findings);
   facts.add("drifts", drift_facts(run.recorder.drifts()));
   facts.add(probe_facts(scene, statistics, run.recorder, run.spectra));
   facts.add(equipment_facts(scene, run.capacities));
@@ -239,6 +234,12 @@ void write_summary(const std::string& path, const FinishedRun& run) {
   warnings.insert(warnings.end(), model.warnings.begin(), model.warnings.end());
   warnings.insert(warnings.end(), statistics.warnings.begin(), statistics.warnings.end());
   facts.add("warnings", warning_facts(warnings));
+  facts.add("files", Json::array());
+  for (const ResultFile& file : result_files()) {
+    const bool itself = scene.output + "/" + file.name == path;
+    if (!itself && !std::filesystem::exists(scene.output + "/" + file.name)) continue;
+    facts.values["files"].push_back({{"name", file.name}, {"holds", file.holds}});
+  }
   facts.add("options", Json::object());
   for (const auto& [name, value] : resolved_values(run.resolved)) {
     facts.values["options"][name] = value;

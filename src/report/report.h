@@ -96,12 +96,8 @@ Facts energy_facts(const RunStatistics& run);
 Facts phase_facts(const PhaseReport& report);
 Facts warning_facts(std::span<const std::string> lines);
 
-/// Facts of the records: loops, contact ratios of springs that press only, forces, drifts, probes;
-/// the report has the peaks of spectra too (record_facts.cpp).
-Facts loop_facts(const RunStatistics& run);
-Facts yield_facts(const RunStatistics& run);
-Facts contact_ratio_facts(const Scene& scene, const RunStatistics& run);
-Facts force_facts(const RunStatistics& run);
+/// Facts of the records: drifts, probes; the report has the peaks of spectra too
+/// (record_facts.cpp). Those of other outputs come with them (RunStatistics::findings).
 Facts drift_facts(const StoreyDrifts& drifts);
 Facts probe_facts(const Scene& scene, const RunStatistics& run, const Recorder& recorder,
                   const std::vector<ProbeSpectrum>& spectra);

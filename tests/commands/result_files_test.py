@@ -131,8 +131,16 @@ class Kept(InFolder):
         for name in ("summary.json", "history.h5", "log.txt", "notes.txt"):
             (self.out / name).write_text("")
         (self.out / "figures").mkdir()
+        (self.out / "resolved.yaml").write_text("end_time: 1\n# Files of results: resolved.yaml summary.json history.h5 own.csv\n")
         runs.clear(self.out)
         self.assertEqual({path.name for path in self.out.iterdir()}, {"notes.txt", "figures"})
+
+    def test_tables_that_no_reader_knows_are_read(self):
+        (self.out / "resolved.yaml").write_text("end_time: 1\n# Files of results: own.csv impacts.csv\n")
+        (self.out / "own.csv").write_text("time,momentum\n0,1.5\n1,2.5\n")
+        result = pounding.load(self.out)
+        self.assertEqual(list(result.table("own")["momentum"]), [1.5, 2.5])
+        self.assertEqual(result.table("impacts"), {})
 
 
 if __name__ == "__main__":

@@ -42,12 +42,13 @@ def run_rows(result: Result) -> list:
 
 
 def tables(result: Result) -> str:
-    changed = [(name, value) for name, value in overrides(result).items()]
+    changed = list(overrides(result).items())
     inputs = [(one["file"], one["option"], one["bytes"], one["sha256"]) for one in result.summary.get("inputs", [])]
     text = html_table("Date, machine, program", ["", ""], run_rows(result), text=(1,))
     text += html_table("Options of the command line, before those of the files", ["", ""], changed, text=(1,))
     text += html_table("Inputs, as they were when the run began (SHA-256)", ["file", "named by", "bytes", "SHA-256"], inputs,
                        text=(1,), hashes=(3,))
+    text += html_table("Files beside this page", ["", ""], [tuple(one.values()) for one in result.summary.get("files", [])], text=(1,))
     if str(result.summary.get("commit", "")).endswith("-changed"):
         text += ('<p class="note">The sources of the program were not those of the commit: build a committed state before '
                  "a report is filed.</p>\n")

@@ -22,7 +22,11 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::UnorderedElementsAre;
 
-constexpr std::array tables{"impacts.csv"};
+const std::vector<ResultFile> files{
+    {"summary.json", "numbers"},         {"impacts.csv", "impacts"},
+    {"spectra.csv", "spectra"},          {"history.h5", "motion", "", true},
+    {"modes.h5", "modes", "", true},     {"fields.h5", "fields", "", true},
+    {"checkpoint.h5", "state", "", true}};
 
 class Folder : public testing::Test {
  protected:
@@ -95,13 +99,13 @@ TEST_F(Folder, CannotBeAFile) {
 
 TEST_F(Folder, LosesWhatAnEarlierRunLeftAndNothingElse) {
   const ResultFolder folder(path());
-  EXPECT_THAT(folder.clear("", tables), IsEmpty());
+  EXPECT_THAT(folder.clear("", files), IsEmpty());
   fs::create_directories(path() + "/spectra.csv");  // no file of a run
   for (const char* name : {"summary.json", "history.h5", "checkpoint.h5", "checkpoint.h5.new",
                            "impacts.csv", "notes.txt", "report.html", "basis.h5"}) {
     touch(name);
   }
-  EXPECT_THAT(folder.clear("elsewhere/checkpoint.h5", tables),
+  EXPECT_THAT(folder.clear("elsewhere/checkpoint.h5", files),
               UnorderedElementsAre("summary.json", "history.h5", "checkpoint.h5",
                                    "checkpoint.h5.new", "impacts.csv"));
   EXPECT_THAT(names(), UnorderedElementsAre("running.lock", "spectra.csv", "notes.txt",
@@ -114,8 +118,8 @@ TEST_F(Folder, KeepsWhatItsRunGoesOnFrom) {
        {"summary.json", "history.h5", "checkpoint.h5", "modes.h5", "fields.h5"}) {
     touch(name);
   }
-  EXPECT_THAT(folder.clear(path() + "/checkpoint.h5", tables), ElementsAre("summary.json"));
-  EXPECT_THAT(folder.clear(path() + "/../run/./checkpoint.h5", tables), IsEmpty());
+  EXPECT_THAT(folder.clear(path() + "/checkpoint.h5", files), ElementsAre("summary.json"));
+  EXPECT_THAT(folder.clear(path() + "/../run/./checkpoint.h5", files), IsEmpty());
   EXPECT_THAT(names(), UnorderedElementsAre("running.lock", "history.h5", "checkpoint.h5",
                                             "modes.h5", "fields.h5"));
 }
