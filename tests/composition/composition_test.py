@@ -10,6 +10,7 @@ from cells import PROPERTIES, Cell, Refused, pair
 from features import FEATURES
 
 PROCESSORS = 2
+TIMEOUT = 7200  # s, with --all
 NAMED = {f.name: f for f in FEATURES}
 MENDED = [("bar with a rule", "uniform damping"), ("stiffness damping", "reactions"), ("uniform damping", "reactions"),
           ("uniform damping", "storey force"), ("friction pendulum", "wall of shells"), ("friction pendulum", "constant force"),
