@@ -245,7 +245,7 @@ void Forces::observe(const CdLagrange& stepper) {
 std::span<const double> Forces::acting_displacement(std::size_t structure) {
   const CdLagrange& stepper = run_.solver.stepper();
   const StructureState& state = stepper.state().structures[structure];
-  const KeptForces& forces = stepper.forces(structure);
+  const KeptForces<double>& forces = stepper.forces(structure);
   const std::vector<double>& squares = run_.model.buildings[structure].basis->squared_frequency;
   acting_ = state.displacement;
   for (std::size_t i = 0; i < acting_.size(); ++i) {
