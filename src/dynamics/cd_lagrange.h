@@ -30,13 +30,14 @@ struct BatchPlace {
 /// 113385; Fekak et al., Comput. Mech. 60 (2017)). Displacements are relative to the ground.
 ///
 ///     v_free    = v_{n-1/2} + dt ( g - iota a_g(t_n) - alpha v_{n-1/2} )
-///                           - dt M^-1 ( K (u_n + beta v_{n-1/2}) + D v_{n-1/2} )
+///                           - dt M^-1 ( K (u_n + beta v_{n-1/2}) + p_n + D v_{n-1/2} )
 ///     v_{n+1/2} = v_free + sum_k M^-1 b_k^T lambda_k
 ///     u_{n+1}   = u_n + dt v_{n+1/2}
 ///
-/// with loads M^-1 sum_l f_l(t_n) p_l beside the ground's acceleration (LoadShapes).
+/// with p_n the force of elements that yield, beside K u_n, by their laws (InelasticElements), and
+/// loads M^-1 sum_l f_l(t_n) p_l beside the ground's acceleration (LoadShapes).
 ///
-/// With uniform damping in place of Rayleigh's the force K u_n goes through filters (update.h), and
+/// With uniform damping in place of Rayleigh's K u_n + p_n goes through damping_filters.h, and
 /// D is the extra damping of regions, if any. The impulses lambda_k [N s] are those of interactions
 /// (Interaction), one after the other: links, fillers, and unilateral contact (UnilateralContact)
 /// last, each by its law and from the velocity that those before it leave.

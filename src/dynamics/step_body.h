@@ -23,7 +23,7 @@ void advance_values(StateOf<Number>& state, const StepTerms<Number>& all, std::s
                       kept.known_work};
   const auto advance_value = [&]<int k>(std::size_t i, const Number* from, auto count)
       __attribute__((always_inline)) {
-    Value q, f, mass, inverse_mass, after;
+    Value q, f{}, mass, inverse_mass, after;
     DofState<Value> dof;
     load_first(from, count, q);
     load_first(displacement + i, count, dof.displacement);

@@ -70,7 +70,12 @@ inline WideLanes spread(const WideLanes& of) {
 #else
 
 inline void load_first(const double* from, std::size_t count, WideLanes& to) {
+#ifdef __AVX__
+  const auto last = static_cast<std::int64_t>(count);
+  to = _mm256_maskload_pd(from, (__m256i)(lane_numbers < last));
+#else
   to = WideLanes{from[0], count > 1 ? from[1] : 0, count > 2 ? from[2] : 0, 0};
+#endif
 }
 inline void store_first(const WideLanes& from, std::size_t count, double* to) {
   to[0] = from[0];
@@ -296,7 +301,7 @@ class Actions {
   }
   /// Impulse on dofs whose mass is coupled, M (v_free - v-) if it were not.
   template <typename Count>
-  Value impulse(std::size_t i, Count count, const StepTerms<Value>& terms, const Value& before,
+  [[gnu::always_inline]] Value impulse(std::size_t i, Count count, const StepTerms<Value>& terms, const Value& before,
                 const Value& q, const Value& f, const Value& mass, const Value& ground_step) const {
     const bool filters = parts_.filters != nullptr;
     Value impulse =
@@ -313,12 +318,12 @@ class Actions {
   void keep(std::size_t i, Count count, const Value& q, const Value& f,
             const Value& velocity) const {
     store_first(q, count, &parts_.waiting->stiffness[i]);
-    store_first(f, count, &parts_.waiting->acting[i]);
+    if (parts_.filters != nullptr) store_first(f, count, &parts_.waiting->acting[i]);
     store_first(velocity, count, &parts_.waiting->velocity[i]);
   }
   template <typename Count>
   void take_back(std::size_t i, Count count, Value& f, Value& velocity) const {
-    f = at(parts_.waiting->acting.data(), i, count);
+    if (parts_.filters != nullptr) f = at(parts_.waiting->acting.data(), i, count);
     velocity = at(parts_.waiting->velocity.data(), i, count);
   }
   /// Adds the works of the actions on s = v+ + v-; `momentum`: M s.
