@@ -196,8 +196,8 @@ CLOSE, RANKS, SAME = 1e-12, 1e-10, 1e-9
 
 def within(tolerance, scene):
     """The tolerance of a scene: looser where a rest under gravity or a basis of a few modes is found by iterations."""
-    found = scene.options.get("preload") == "static" or any(key[1:] == "_model" for key in scene.options)
-    return max(tolerance, 2e-8) if found else tolerance
+    modes = any(key[1:] == "_model" for key in scene.options)
+    return max(tolerance, 1e-6 if modes else 2e-8 if scene.options.get("preload") == "static" else 0)
 
 
 def ledger(cell):
@@ -238,7 +238,7 @@ def in_all_modes(cell):
     modal = Scene.of({**scene.options, **{key: value for s in "ab" for key, value in (
         (f"{s}_model", "modal"), (f"{s}_modal_vectors", reference.summary["structures"][s]["dofs"]))}})
     cell.modal = modal
-    return reference.apart(cell.records(scene=modal), within(SAME, scene))
+    return reference.apart(cell.records(scene=modal), within(SAME, full(cell)))
 
 
 def as_member(cell):
