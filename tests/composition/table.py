@@ -26,7 +26,8 @@ cells that are *yes* and holds each to these:
 
 {properties}
 
-Two features that state the same option of a structure are laid on one house each. So *yes* means: it runs, and these hold.
+Two features that state the same option of a structure are laid on one house each. So *yes* means: it runs, and these hold,
+but for a property that a feature names with its reason as one that it has not (`spared` in its declaration).
 {counts}
 
 | sign | meaning |
