@@ -117,7 +117,7 @@ POUNDING_BATCH bool any(const BatchMask& mask) {
   return found;
 }
 
-/// Those of a where the mask is true, else those of b.
+/// Values of a where the mask is true, else of b.
 POUNDING_BATCH BatchValue choose(const BatchMask& mask, const BatchValue& a, const BatchValue& b) {
   return by_parts<BatchValue>([](const BatchMaskPart& first, const BatchPart& x,
                                  const BatchPart& y) { return first ? x : y; },

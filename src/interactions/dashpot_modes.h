@@ -108,7 +108,7 @@ class DashpotBrake {
     for (std::size_t i = 0; i < pull_.size(); ++i) sum += loss_rate(i) * (after[i] + before[i]);
     return sum;
   }
-  /// Its change with v+ of a coordinate after the dashpots [J s/m].
+  /// Change of the loss with v+ of a coordinate after the dashpots [J s/m].
   Value loss_rate(std::size_t i) const { return (Value{} + 1 / (2 * matrix_.share())) * pull_[i]; }
 
   /// v- + v+ of that step, before contact.

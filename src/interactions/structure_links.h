@@ -33,7 +33,7 @@ class StructureLinks : public Interaction {
   virtual bool overpressed() const { return false; }
   /// Force N_n of a link of this rank in the step just made [N, N m].
   virtual double force(std::size_t link) const = 0;
-  /// Those of the law of a link of this rank, see LinkLaw.
+  /// Ductility and lost energy [J] of the law of a link of this rank, see LinkLaw.
   double ductility(std::size_t link) const { return laws_[link]->ductility(memory_[link]); }
   double lost(std::size_t link) const { return laws_[link]->lost(memory_[link]); }
   /// Records some of this rank's links from now on, numbers into `links()` of the system.

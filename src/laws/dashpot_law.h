@@ -98,7 +98,7 @@ class SeriesLaw final : public LinkLaw {
 ///     N_n = c r + F + m3 (r+ - r-) / d
 ///     W   = 1/2 m y^2 + Q^2 / (2 k1) + 1/2 m3 r+^2                                         >= 0
 ///
-/// Its loss d (c r^2 + F^2 / c1) is never less than nothing, whatever the numbers are: it does not
+/// The loss d (c r^2 + F^2 / c1) is never less than nothing, whatever the numbers are: it does not
 /// limit the time step.
 class SoilLaw final : public LinkLaw {
  public:

@@ -65,7 +65,7 @@ class LinkLaw {
   /// solved for together, and their elongations are counted from e_n, so that these have no
   /// round-off of a large one. `share`: of a step, for which the force acts; half of the first one.
   virtual double rate(double /*share*/ = 1) const { return 0; }
-  /// Its offset [N], which knows differences of elongations only.
+  /// Offset of the force [N] at no rate, which knows differences of elongations only.
   virtual double offset(double /*before*/, double /*now*/, double /*share*/, Memory) const {
     return 0;
   }

@@ -30,7 +30,7 @@ struct MaxwellBranch {
 /// over the time d (dt, half of it in the first step). r' = r while the bar pulls; where S_n + D_n
 /// would push, r' >= r is the rate that leaves D_n = -S_n, the rest is slip; while the bar is slack
 /// r' = 0. While the bar stays taut S_n = k e_n, central differences; while it stays slack, none.
-/// Its work N_n (e_{n+1} - e_{n-1}) / 2 less W_{n+1/2} - W_{n-1/2} is at least
+/// The work N_n (e_{n+1} - e_{n-1}) / 2 less W_{n+1/2} - W_{n-1/2} is at least
 /// d (c r'^2 + sum_i omega_i qbar_i^2 / A_i) >= 0, and 0 without damping: it gives back no more
 /// than it took, for any step and however it switches. (Frozen at k e_n the tension feeds growing
 /// orbits below the limit of the taut bar.) N_n grows with e_{n+1}, so that the step has one

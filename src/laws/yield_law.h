@@ -14,7 +14,7 @@ namespace pounding::interactions {
 ///     N_n       = r k e_n + q_n
 ///     W_{n+1/2} = 1/2 r k e_n e_{n+1} + 1/2 k_e (e_n - p_n) (e_{n+1} - p_n)
 ///
-/// Its loss (p_n - p_{n-1}) (q_n + q_{n-1}) / 2 is never less than nothing, and W with the kinetic
+/// The loss (p_n - p_{n-1}) (q_n + q_{n-1}) / 2 is never less than nothing, and W with the kinetic
 /// energy is positive below the stable step of k: a link that yields does not move that step. Where
 /// two components yield together, on a circle |q| <= Q (radial return), all of this holds as well.
 /// Of a sliding bearing Q follows its normal force; then the loss of a step may miss that by the
@@ -86,8 +86,8 @@ class PendulumLaw : public YieldLaw {
   double given(double before, double now, Memory memory) const override {
     return (memory[3] - memory[2]) * before * now / 2;
   }
-  /// That of YieldLaw; s of the end of the last step, and of the step that is being made; 1 once S
-  /// has cut it.
+  /// Memory of YieldLaw; s of the end of the last step, and of the step that is being made; 1 once
+  /// S has cut it.
   std::size_t memory_size() const override { return YieldLaw::memory_size() + 3; }
   void remember(double before, double now, double after, double share,
                 std::span<double> memory) const override {

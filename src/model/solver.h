@@ -79,7 +79,7 @@ class Solver {
     std::span<const double> impulses;  ///< [N s]
     std::span<const double> works;     ///< [J]
   };
-  /// Those of hard contact, of crushing and of stops that give way; on the root of the contacts.
+  /// Rows of hard contact, of crushing and of stops that give way; on the root of the contacts.
   RowActions row_actions();
   /// This rank holds the gaps and impulses of that step.
   bool interface_known() const { return unilateral_ != nullptr && unilateral_->interface_known(); }

@@ -19,7 +19,7 @@ struct Model;
 /// The fastest motion that a structure is asked to resolve: spectra end at `last` [Hz].
 ResolvedMotion resolved_motion_of(const Building& building, double last);
 
-/// That of a reduced structure with these squared frequencies.
+/// The motion that a step resolves of a reduced structure with these squared frequencies.
 ResolvedMotion resolved_motion_of(const Structure& structure, const ModalBasis& basis, double last);
 
 /// Limits of all structures and fillers of a model together.

@@ -51,7 +51,7 @@ class UnilateralRows {
   /// initial gap.
   void add_links(std::size_t structure, const LinearSystem& system,
                  std::vector<interactions::Constraint>& constraints);
-  /// Those of the contact points and of all links.
+  /// Constraints of the contact points and of all links.
   std::vector<interactions::Constraint> all_constraints(
       std::span<const interactions::Constraint> contacts, std::span<const LinearSystem> systems);
 

@@ -110,6 +110,37 @@ std::optional<Elimination> eliminate(std::vector<std::set<int>> neighbours, std:
   return result;
 }
 
+namespace {
+
+/// Blocks of a matrix by column and row.
+using Columns = std::vector<std::map<std::size_t, NodeBlock>>;
+
+/// M + S, columns and rows by their places in an order of the nodes, lower triangle.
+Columns lower_triangle(std::span<const double> lumped_mass, const NodeBlocks& added,
+                       std::span<const std::size_t> order) {
+  const std::size_t count = added.nodes.size();
+  Columns columns(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    NodeBlock& diagonal = columns[order[n]][order[n]];
+    diagonal = {};
+    for (std::size_t i = 0; i < width; ++i) {
+      const auto dof = static_cast<std::size_t>(added.nodes[n].begin) + i;
+      diagonal[i * width + i] =
+          i < static_cast<std::size_t>(added.nodes[n].count) ? lumped_mass[dof] : 1;
+    }
+  }
+  for (const auto& [pair, block] : added.blocks) {
+    const std::size_t row = order[pair[0]];
+    const std::size_t column = order[pair[1]];
+    NodeBlock& entry = columns[std::min(row, column)][std::max(row, column)];
+    const NodeBlock values = row >= column ? block : transposed(block);
+    for (std::size_t i = 0; i < values.size(); ++i) entry[i] += values[i];
+  }
+  return columns;
+}
+
+}  // namespace
+
 BlockFactorisation::BlockFactorisation(std::span<const double> lumped_mass,
                                        const NodeBlocks& added) {
   const std::size_t count = added.nodes.size();
@@ -124,25 +155,8 @@ BlockFactorisation::BlockFactorisation(std::span<const double> lumped_mass,
       *eliminate(std::move(neighbours), std::numeric_limits<std::size_t>::max());
   order_.resize(count);
   for (std::size_t k = 0; k < count; ++k) order_[elimination.order[k]] = k;
-  // Remainder of M + S, columns and rows by their places, lower triangle.
-  std::vector<std::map<std::size_t, NodeBlock>> columns(count);
-  for (std::size_t n = 0; n < count; ++n) {
-    NodeBlock& diagonal = columns[order_[n]][order_[n]];
-    diagonal = {};
-    for (std::size_t i = 0; i < width; ++i) {
-      const auto dof = static_cast<std::size_t>(added.nodes[n].begin) + i;
-      diagonal[i * width + i] =
-          i < static_cast<std::size_t>(added.nodes[n].count) ? lumped_mass[dof] : 1;
-    }
-  }
-  for (const auto& [pair, block] : added.blocks) {
-    const std::size_t row = order_[pair[0]];
-    const std::size_t column = order_[pair[1]];
-    NodeBlock& entry = columns[std::min(row, column)][std::max(row, column)];
-    const NodeBlock values = row >= column ? block : transposed(block);
-    for (std::size_t i = 0; i < values.size(); ++i) entry[i] += values[i];
-  }
-  std::vector<std::map<std::size_t, NodeBlock>> rows(count);  // of L
+  Columns columns = lower_triangle(lumped_mass, added, order_);
+  Columns rows(count);  // of L
   for (std::size_t k = 0; k < count; ++k) {
     const NodeBlock root = inverse_cholesky(columns[k].at(k));
     const NodeBlock root_transposed = transposed(root);

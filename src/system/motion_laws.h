@@ -14,8 +14,8 @@ namespace pounding {
 /// A motion of the nodes of an element, and the law in one dimension that it follows.
 struct LawMotion {
   std::vector<double> shape;  ///< its elongation is shape . u, in the units of `law`
-  /// That of many elements may be one. Its first slope times `measure` is the stiffness that K has
-  /// for the motion.
+  /// Law of the motion, which many elements may share. The first slope times `measure` is the
+  /// stiffness that K has for the motion.
   std::shared_ptr<const interactions::HystereticLaw> law;
   double measure = 1;     ///< force and energy of the element over those of the law: a volume, say
   bool weakened = false;  ///< by the axial force

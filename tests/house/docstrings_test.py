@@ -9,7 +9,7 @@ import unittest
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 SOURCE = os.path.join(ROOT, "src")
 HANGING = re.compile(r"(Of|The same|To|What|Who|Whom|Whose|Likewise|As|And|Or|But|Then|Else|With|Without|By|"
-                     r"From|In|At|On|For)\b")
+                     r"From|In|At|On|For|That of|Those of|Its|Same)\b")
 COLUMNS = 100
 LIKEWISE = re.compile(r"///?<?\s*likewise(?:\s*\[[^]]*\])?[.,;]?$", re.IGNORECASE)
 LITERAL = re.compile(r'"(?:[^"\\]|\\.)*"')

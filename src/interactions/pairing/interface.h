@@ -74,7 +74,7 @@ struct FillerPart {
 
   /// The row is no hard contact, however far it is pressed.
   bool is_spring() const { return area > 0 && thickness == 0; }
-  /// Its force is that of a strike of the contact.
+  /// The force is that of a strike of the contact.
   bool strikes() const { return is_spring() || depth > 0; }
 };
 
