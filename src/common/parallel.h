@@ -70,9 +70,11 @@ void broadcast_array(MPI_Comm comm, std::vector<Value, Allocator>& values, int r
   }
 }
 
-/// Values of rank `root`, which a byte stream takes, on every rank. Collective.
+/// Values of rank `root`, which a byte stream takes, on every rank; where no rank is the root, each
+/// keeps those that it has. Collective.
 template <typename... Values>
 void broadcast_values(MPI_Comm comm, int root, Values&... values) {
+  if (root < 0 || root >= size_of(comm)) return;
   std::vector<char> bytes;
   const WriteBytes take = [&](std::span<const char> next) {
     bytes.insert(bytes.end(), next.begin(), next.end());

@@ -113,13 +113,13 @@ std::optional<Elimination> eliminate(std::vector<std::set<int>> neighbours, std:
 namespace {
 
 /// Blocks of a matrix by column and row.
-using Columns = std::vector<std::map<std::size_t, NodeBlock>>;
+using BlockColumns = std::vector<std::map<std::size_t, NodeBlock>>;
 
 /// M + S, columns and rows by their places in an order of the nodes, lower triangle.
-Columns lower_triangle(std::span<const double> lumped_mass, const NodeBlocks& added,
-                       std::span<const std::size_t> order) {
+BlockColumns lower_triangle(std::span<const double> lumped_mass, const NodeBlocks& added,
+                            std::span<const std::size_t> order) {
   const std::size_t count = added.nodes.size();
-  Columns columns(count);
+  BlockColumns columns(count);
   for (std::size_t n = 0; n < count; ++n) {
     NodeBlock& diagonal = columns[order[n]][order[n]];
     diagonal = {};
@@ -155,8 +155,8 @@ BlockFactorisation::BlockFactorisation(std::span<const double> lumped_mass,
       *eliminate(std::move(neighbours), std::numeric_limits<std::size_t>::max());
   order_.resize(count);
   for (std::size_t k = 0; k < count; ++k) order_[elimination.order[k]] = k;
-  Columns columns = lower_triangle(lumped_mass, added, order_);
-  Columns rows(count);  // of L
+  BlockColumns columns = lower_triangle(lumped_mass, added, order_);
+  BlockColumns rows(count);  // of L
   for (std::size_t k = 0; k < count; ++k) {
     const NodeBlock root = inverse_cholesky(columns[k].at(k));
     const NodeBlock root_transposed = transposed(root);
