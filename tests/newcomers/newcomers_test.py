@@ -69,7 +69,7 @@ class Built(unittest.TestCase):
     def test_option(self):
         refused = self.run_with("option", ["-top_factor", 0])
         self.assertEqual(refused.returncode, 1)
-        self.assertIn("-top_factor 0: expected a number > 0", refused.stderr)
+        self.assertIn("-top_factor 0: out of range; expected a number > 0", refused.stderr)
 
     def test_ledger_row(self):
         with tempfile.TemporaryDirectory() as folder:
