@@ -301,8 +301,9 @@ class Actions {
   }
   /// Impulse on dofs whose mass is coupled, M (v_free - v-) if it were not.
   template <typename Count>
-  [[gnu::always_inline]] Value impulse(std::size_t i, Count count, const StepTerms<Value>& terms, const Value& before,
-                const Value& q, const Value& f, const Value& mass, const Value& ground_step) const {
+  [[gnu::always_inline]] Value impulse(std::size_t i, Count count, const StepTerms<Value>& terms,
+                                       const Value& before, const Value& q, const Value& f,
+                                       const Value& mass, const Value& ground_step) const {
     const bool filters = parts_.filters != nullptr;
     Value impulse =
         -(mass * (terms.drag * before + ground_step)) - terms.duration * (filters ? f : q);
