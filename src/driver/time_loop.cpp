@@ -106,7 +106,7 @@ void TimeLoop::fill(RunStatistics& statistics) const {
   }
   if (solver_.fillers() != nullptr) {
     statistics.fillers = solver_.fillers()->totals();
-    broadcast_array(comm_, statistics.fillers, solver_.fillers()->pairs().rows().root());
+    broadcast_values(comm_, solver_.fillers()->pairs().rows().root(), statistics.fillers);
   }
   for (std::size_t s = 0; s < model_.systems.size(); ++s) {
     const interactions::StructureLinks* const links = solver_.links(s);

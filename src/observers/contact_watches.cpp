@@ -430,7 +430,7 @@ void ContactHistory::load(const SavedState& saved) {
 void ContactHistory::report(RunStatistics& statistics) {
   if (run_.contact_root() < 0) return;
   statistics.closings = closings_;
-  broadcast_array(run_.comm, statistics.closings, run_.contact_root());
+  broadcast_values(run_.comm, run_.contact_root(), statistics.closings);
 }
 
 OutputKind contact_history_output() {
