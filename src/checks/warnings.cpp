@@ -200,8 +200,9 @@ std::vector<std::string> damping_warnings(const Structure& structure, const Moda
     doubt_rayleigh(owner, structure.damping, frequencies, warnings);
   }
   for (const Region& region : structure.regions) {
-    if (!region.damping || by_mode) continue;
-    doubt_rayleigh(owner + ", group " + region.group, *region.damping, frequencies, warnings);
+    if (by_mode || (!region.damping && region.damping_factor == 1)) continue;
+    doubt_rayleigh(owner + ", group " + region.group, structure.damping_of(region), frequencies,
+                   warnings);
   }
   return warnings;
 }

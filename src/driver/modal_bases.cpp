@@ -15,6 +15,7 @@
 #include "io/new_file.h"
 #include "modal/modal_basis_file.h"
 #include "modal/shifted_solver.h"
+#include "scene/stiffness_factor.h"
 #include "statics/assembled_statics.h"
 #include "system/finite_element_system.h"
 #include "system/links.h"
@@ -256,6 +257,20 @@ void prepare(MPI_Comm comm, const GlobalMesh& whole, int owner, const Model& mod
   reduction.mesh = mesh_of_workers(comm, whole, model.meshes[reduction.s], reduction);
 }
 
+/// The structure with (1 + d) / 2 of the stiffness of each region whose damping has a factor d;
+/// nothing where none has. Collective over the workers.
+std::optional<LinearSystem> with_damping_factors(const Model& model, const Reduction& reduction) {
+  Structure structure = reduction.structure;
+  bool given = false;
+  for (Region& region : structure.regions) {
+    given = given || region.damping_factor != 1;
+    scale_stiffness((1 + region.damping_factor) / 2, region);
+  }
+  if (!given) return std::nullopt;
+  return assemble_structure(model, reduction.s, structure, reduction.mesh,
+                            StiffnessMethod::assembled, false);
+}
+
 /// The structure at full order, with the axial forces that its columns have under its weight and
 /// loads alone, without contacts; then its basis. Collective over the workers.
 void compute(const Model& model, Profile& profile, Reduction& reduction) {
@@ -280,6 +295,8 @@ void compute(const Model& model, Profile& profile, Reduction& reduction) {
   const ScopedTimer timer(profile, Phase::modes);
   require_stable(structure, mesh, system, compression);
   follow_supports(model, structure, mesh, SolverChoice::automatic, system);
+  const std::optional<LinearSystem> damping = with_damping_factors(model, reduction);
+  if (damping) reduction.request.damping = &*damping;
   reduction.basis = compute_modal_basis(system, mesh, reduction.request);
 }
 

@@ -8,7 +8,7 @@
 #include "modal/reduced_system.h"
 #include "model/rest.h"
 #include "model/time_step.h"
-#include "scene/option_reader.h"
+#include "scene/stiffness_factor.h"
 #include "stability/stable_time_step.h"
 #include "system/load_shapes.h"
 
@@ -31,6 +31,18 @@ void require_lasting_pairs(const Contact& contact) {
   if (contact.sliding == 0) return;
   refuse("the pairs of contact " + contact.name + " are found anew",
          "leave -" + contact.name + "_sliding out");
+}
+
+/// Modes that a factor on the stiffness of the elements would turn are not those of all members.
+void require_shared_modes(const Scene& scene, const MemberTable& table) {
+  for (const Structure& structure : scene.structures) {
+    const std::string column = structure.name + "_stiffness_factor";
+    if (structure.scales_as_a_whole() || std::ranges::count(table.columns, column) == 0) continue;
+    throw UserError("column " + column + ": the modes of structure " + structure.name +
+                    " hold its " + (structure.soil ? "soil" : "forces at rest (p_delta)") +
+                    " as well; make an ensemble for each factor, which its scene gives, or single "
+                    "runs");
+  }
 }
 
 /// Part of a member's model without motion: systems and limits of its structures, gaps.
@@ -98,6 +110,7 @@ MemberScene read_member(const OptionsDatabase& scene, const MemberTable& table,
                         std::size_t member) {
   try {
     ReadScene read = read_scene(member_options(scene, table, member));
+    require_shared_modes(read.scene, table);
     for (std::size_t s = 0; s < read.stiffness_factors.size(); ++s) {
       scale_stiffness(read.stiffness_factors[s], read.scene.structures[s]);
     }

@@ -20,6 +20,7 @@ struct Mode {
                                   ///< the centre of mass [kg m2]
   std::string direction;          ///< "x" ... "rz": where most of the mass moves
   double direction_fraction = 0;  ///< of the mass (rotary inertia) in that direction
+  double damping_weight = 1;      ///< see ModalBasis::damping_weights
   double scaled_part = 0;         ///< scaled mass, and lent one, in phi^T (M + S) phi = 1 [-]
   RegionShare region;             ///< with most of its kinetic energy; none of a reduced structure
   std::string location;           ///< where it moves most, of modes near zero only

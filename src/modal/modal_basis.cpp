@@ -39,6 +39,9 @@ class BasisMaker {
         mesh_(mesh),
         request_(request),
         matrix_(mass_scaled(system, system.stiffest_matrix())),
+        damping_(request.damping == nullptr
+                     ? MatHandle()
+                     : mass_scaled(system, request.damping->stiffest_matrix())),
         dofs_(system.lumped_mass.size()),
         independent_(static_cast<std::size_t>(system.independent_dofs())),
         space_(system.comm, dofs_) {
@@ -135,13 +138,13 @@ class BasisMaker {
   }
 
   /// A x; motions that rigid bodies do not admit have eigenvalues beyond all others.
-  void multiply(const double* x, double* product) const {
+  void multiply(const MatHandle& matrix, const double* x, double* product) const {
     std::vector<double> from(x, x + dofs_);
     admit(from);
     std::vector<double> to(dofs_);
     const VecHandle argument = wrap_vector(system_, from);
     const VecHandle result = wrap_vector(system_, to);
-    POUNDING_PETSC(MatMult(matrix_.get(), argument.get(), result.get()));
+    POUNDING_PETSC(MatMult(matrix.get(), argument.get(), result.get()));
     admit(to);
     for (std::size_t i = 0; admissible_ && i < dofs_; ++i) to[i] += idle_ * (x[i] - from[i]);
     std::copy(to.begin(), to.end(), product);
@@ -158,7 +161,7 @@ class BasisMaker {
     for (std::size_t j = 0; j < size; ++j) {
       const std::size_t own = j - static_cast<std::size_t>(first);
       if (own < dofs_) unit[own] = 1;
-      multiply(unit.data(), whole.column(j) + first);
+      multiply(matrix_, unit.data(), whole.column(j) + first);
       if (own < dofs_) unit[own] = 0;
     }
     add_over_ranks(system_.comm, whole.values);
@@ -263,10 +266,11 @@ class BasisMaker {
 
   /// Rayleigh-Ritz: the basis is W S with W the space and S^T (W^T A W) S diagonal.
   void rotate(ModalBasis& basis) const {
-    DenseMatrix rotation = projected_matrix();
+    DenseMatrix rotation = projected_matrix(matrix_);
     describe_residual_vectors(rotation, basis);
     basis.squared_frequency = symmetric_eigenvalues(rotation);
     for (double& value : basis.squared_frequency) value = std::max(value, 0.0);
+    if (damping_.get() != nullptr) add_damping_weights(rotation, basis);
     find_modes_in(rotation, basis);
     add_participation(rotation, basis);
     add_rows(rotation, basis);
@@ -293,18 +297,30 @@ class BasisMaker {
     basis.largest_without_residual = symmetric_eigenvalues(part).back();
   }
 
-  /// W^T A W.
-  DenseMatrix projected_matrix() const {
+  /// W^T A W of A or another matrix.
+  DenseMatrix projected_matrix(const MatHandle& matrix) const {
     constexpr std::size_t portion = 32;  // columns at a time
     DenseMatrix projected(space_.size(), 0);
     for (std::size_t first = 0; first < space_.size(); first += portion) {
       DenseMatrix product(dofs_, std::min(portion, space_.size() - first));
       for (std::size_t j = 0; j < product.columns; ++j) {
-        multiply(space_.column(first + j), product.column(j));
+        multiply(matrix, space_.column(first + j), product.column(j));
       }
       projected.append_columns(space_.parts(product));
     }
     return projected;
+  }
+
+  void add_damping_weights(const DenseMatrix& rotation, ModalBasis& basis) const {
+    const DenseMatrix rotated = transposed_product(projected_matrix(damping_), rotation);
+    for (std::size_t i = 0; i < basis.size(); ++i) {
+      double energy = 0;
+      for (std::size_t j = 0; j < basis.size(); ++j) {
+        energy += rotation.column(i)[j] * rotated.column(i)[j];
+      }
+      const double whole = basis.squared_frequency[i];
+      basis.damping_weights.push_back(whole > 0 ? 2 * energy / whole - 1 : 1);
+    }
   }
 
   /// Modes are vectors of A whatever the others are: they come out of the rotation as they went in,
@@ -375,6 +391,7 @@ class BasisMaker {
   const Mesh& mesh_;
   const ModalRequest& request_;
   MatHandle matrix_;
+  MatHandle damping_;  ///< see ModalRequest::damping
   std::size_t dofs_;
   std::size_t independent_;                      ///< see LinearSystem::independent_dofs
   std::optional<AdmissibleMotions> admissible_;  ///< of rigid bodies

@@ -41,6 +41,10 @@ struct ModalBasis {
   /// alike.
   std::vector<double> start_parts;
 
+  /// Factors on the damping of elements in the mean by strain energy, shape (k): composite modal
+  /// damping, sum_e d_e phi^T K_e phi / omega^2; empty: all are 1.
+  std::vector<double> damping_weights;
+
   std::size_t size() const { return squared_frequency.size(); }
 
   /// Shape of an array in a file: columns of its rows, 0 of a plain vector, `each_coordinate` k;
@@ -73,6 +77,7 @@ struct ModalBasis {
     member("start_parts", self.start_parts, {each_coordinate, true});
     member("support_participation", self.support_participation, {each_coordinate, true});
     member("support_rows", self.support_rows, {0, true});
+    member("damping_weights", self.damping_weights, {0, true});
   }
 
   static void members(auto& self, auto& stream) {

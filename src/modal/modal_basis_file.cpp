@@ -278,6 +278,11 @@ BasisKey basis_key(const Structure& structure, const GlobalMesh& mesh,
     vectors.add("patches");
     vectors.add(static_cast<double>(request.patches));
   }
+  for (const Region& region : structure.regions) {
+    if (region.damping_factor == 1) continue;
+    vectors.add(region.group);
+    vectors.add(region.damping_factor);
+  }
   if (!request.yielding_points.empty()) vectors.add(hash_of(request.yielding_points));
   std::vector<TracePoint> places = request.other_points;
   places.insert(places.end(), request.shown_points.begin(), request.shown_points.end());

@@ -31,9 +31,11 @@ std::vector<double> damping_rates(const Structure& structure, const ModalBasis& 
   std::vector<double> rates;
   for (std::size_t i = 0; i < basis.size(); ++i) {
     const double square = basis.squared_frequency[i];
-    rates.push_back(ratios.empty()
-                        ? structure.damping.alpha + structure.damping.beta * square
-                        : 2 * damping_ratio_of(ratios, basis.mode_numbers[i]) * std::sqrt(square));
+    const double weight = basis.damping_weights.empty() ? 1 : basis.damping_weights[i];
+    rates.push_back(
+        weight * (ratios.empty()
+                      ? structure.damping.alpha + structure.damping.beta * square
+                      : 2 * damping_ratio_of(ratios, basis.mode_numbers[i]) * std::sqrt(square)));
   }
   return rates;
 }
@@ -136,7 +138,7 @@ LinearSystem build_reduced_system(MPI_Comm comm, int owner, const Structure& str
   };
   system.stiffness = share(basis.squared_frequency);
   system.stiffness_method = "modal, K = diag(omega^2)";
-  if (structure.modal->damping_ratios.empty()) {
+  if (structure.modal->damping_ratios.empty() && basis.damping_weights.empty()) {
     system.damping = structure.damping;
     system.uniform_damping = uniform_damping_of(structure, basis);
   } else {
@@ -170,6 +172,9 @@ ModalResult modes_of_basis(const ModalBasis& basis, int count) {
       participation[k] = basis.participation[k * basis.size() + i];
     }
     result.modes.push_back(describe_mode(basis.squared_frequency[i], participation, basis.inertia));
+    if (!basis.damping_weights.empty()) {
+      result.modes.back().damping_weight = basis.damping_weights[i];
+    }
   }
   return result;
 }

@@ -29,6 +29,9 @@ struct ModalRequest {
   NodalStart start;                         ///< of nodes that start differently
   Vector3 start_displacement{0, 0, 0};      ///< of the others [m]
   Vector3 start_velocity{0, 0, 0};          ///< of the others [m/s]
+  /// The structure with (1 + d) / 2 of each element's stiffness, d the factor on its damping; null:
+  /// all are 1.
+  const LinearSystem* damping = nullptr;
 };
 
 /// Owned dof of a point, -1 if it is clamped, does not exist or is another rank's. Local.

@@ -23,6 +23,7 @@ struct Swing {
 
 Swing swing_of(const Building& building, std::size_t mode) {
   const double frequency = building.modal.modes[mode].frequency;
+  const double weight = building.modal.modes[mode].damping_weight;
   if (building.system->uniform_damping) {
     const UniformDamping& uniform = *building.system->uniform_damping;
     const double moved = uniform.moved(frequency);
@@ -31,9 +32,9 @@ Swing swing_of(const Building& building, std::size_t mode) {
   const Structure& structure = *building.structure;
   if (structure.modal && !structure.modal->damping_ratios.empty()) {
     const std::vector<double>& ratios = structure.modal->damping_ratios;
-    return {frequency, ratios[std::min(mode, ratios.size() - 1)]};
+    return {frequency, weight * ratios[std::min(mode, ratios.size() - 1)]};
   }
-  return {frequency, damping_ratio(structure.damping, 2 * std::numbers::pi * frequency)};
+  return {frequency, weight * damping_ratio(structure.damping, 2 * std::numbers::pi * frequency)};
 }
 
 /// Peaks of the generalised coordinate of each mode [m kg^1/2], per direction of the ground, with

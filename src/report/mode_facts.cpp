@@ -175,6 +175,9 @@ Facts mode_facts(const Mode& mode, const Building& building, int number) {
               {mode.frequency > 0 ? moved / mode.frequency - 1 : 0,
                uniform->ratio_at(2 * std::numbers::pi * moved)});
   }
+  if (mode.damping_weight != 1) {
+    facts.add("damping_weight", mode.damping_weight, ", damping times {damping_weight:.3f}");
+  }
   if (mode.region.region >= 0) {
     const auto region = static_cast<std::size_t>(mode.region.region);
     facts.add("group", building.full_order().regions[region].group);
@@ -288,10 +291,11 @@ Facts damping_facts(const Building& building) {
     facts.say("  damping ratio at 1, 10, 100, 400 Hz:{}", {told_ratios(structure.damping)});
   }
   for (const Region& region : structure.regions) {
-    if (!region.damping) continue;
-    facts.values["region_damping"][region.group] = rayleigh_values(*region.damping);
+    if (!region.damping && region.damping_factor == 1) continue;
+    const Rayleigh damping = structure.damping_of(region);
+    facts.values["region_damping"][region.group] = rayleigh_values(damping);
     if (uniform || by_mode) continue;
-    facts.say("    of {}:{}", {region.group, told_ratios(*region.damping)});
+    facts.say("    of {}:{}", {region.group, told_ratios(damping)});
   }
   return facts;
 }

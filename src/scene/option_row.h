@@ -194,6 +194,8 @@ inline constexpr Families for_beams_and_bars{Family::beam, Family::bar};
 inline constexpr Families for_beams_and_shells{Family::beam, Family::shell};
 inline constexpr Families for_bars_and_springs{Family::bar, Family::grounded_spring,
                                                Family::spring};
+inline constexpr Families for_stiff{Family::solid, Family::shell,           Family::beam,
+                                    Family::bar,   Family::grounded_spring, Family::spring};
 inline constexpr Families for_extents{Family::solid, Family::shell, Family::beam, Family::bar};
 inline constexpr Families for_yielding{Family::shell, Family::beam, Family::bar,
                                        Family::grounded_spring, Family::spring};

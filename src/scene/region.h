@@ -95,6 +95,8 @@ struct Region {
   /// structures, see yields_by_links.
   bool inelastic = false;
   std::optional<Rayleigh> damping;  ///< in place of the structure's
+  double stiffness_factor = 1;      ///< which its numbers have already, see scale_stiffness
+  double damping_factor = 1;        ///< on its Rayleigh damping, or its part of that of a mode
   /// Displacement [m] and velocity [m/s] of its nodes at t = 0, in place of the structure's.
   std::optional<Vector3> initial_displacement;
   std::optional<Vector3> initial_velocity;
@@ -167,6 +169,8 @@ struct Region {
     option("<structure>_<group>_damping_beta", real("s", absent("left out: that of the structure"), not_negative), "Rayleigh damping of its elements, stiffness term");
     option("<structure>_<group>_damping_ratio", real("-", absent("optional"), damping_ratio), "instead of alpha and beta: damping ratio at two frequencies");
     option("<structure>_<group>_damping_frequencies", reals("Hz", absent("required with the ratio"), "two numbers f1,f2", positive), "the two frequencies of the damping ratio");
+    option(&Region::stiffness_factor, "<structure>_<group>_stiffness_factor", real("-", "1", positive), "factor on its stiffness, as of cracked walls; its strengths stay", for_stiff);
+    option(&Region::damping_factor, "<structure>_<group>_damping_factor", real("-", "1", not_negative), "factor on its damping: on alpha and beta; in modes on its part of their damping, by strain energy");
     option(&Region::initial_displacement, "<structure>_<group>_initial_displacement", reals("m", absent("left out: that of the structure"), "three numbers x,y,z"), "of every free node of the group at t = 0");
     option(&Region::initial_velocity, "<structure>_<group>_initial_velocity", reals("m/s", absent("left out: that of the structure"), "three numbers x,y,z"), "of every free node of the group at t = 0");
     // clang-format on

@@ -9,6 +9,7 @@
 #include "scene/option_values.h"
 #include "scene/spring_reader.h"
 #include "scene/standard_parts.h"
+#include "scene/stiffness_factor.h"
 
 namespace pounding {
 namespace {
@@ -158,6 +159,7 @@ Region read_region(OptionReader& options, const Names& names, const Rayleigh& in
                    "points have no lines or surfaces over which its springs could be spread");
   }
   region.damping = read_region_damping(options, names, region, inherited);
+  scale_stiffness(region.stiffness_factor, region);
   return region;
 }
 

@@ -18,6 +18,7 @@
 #include "scene/option_values.h"
 #include "scene/resolved_options.h"
 #include "scene/standard_parts.h"
+#include "scene/stiffness_factor.h"
 #include "scene/structure_reader.h"
 #include "scene/support_reader.h"
 #include "scene/unknown_options.h"

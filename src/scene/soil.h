@@ -34,7 +34,8 @@ struct Soil {
   std::optional<std::array<double, 2>> sides;  ///< full, along x and y [m]; empty: the group's own
   double embedment = 0;                        ///< [m]
   bool frequency_dependence = true;
-  std::string table;                 ///< file; empty: a half-space
+  double factor = 1;  ///< on the ground's shear modulus, which its numbers have already
+  std::string table;  ///< file; empty: a half-space
   std::optional<FittedSoil> fitted;  ///< once the file is read; see read_soil_file
 
   static constexpr std::string_view no_half_space =
@@ -55,6 +56,7 @@ struct Soil {
     option("<structure>_soil_size", reals("m", absent("left out: that of the group"), "two sides along x and y, or a diameter", positive), "soil: size of the mat's underside");
     option(&Soil::embedment, "<structure>_soil_embedment", real("m", "0", not_negative), "soil: depth of the underside of a rectangle below the surface", half_space);
     option(&Soil::frequency_dependence, "<structure>_soil_frequency_dependence", flag(true), "soil: internal masses; without them static springs, and dashpots of a0 = 1", half_space);
+    option(&Soil::factor, "<structure>_soil_factor", real("-", "1", positive), "soil: factor on its shear modulus at one density: its springs times the factor, dashpots times its root, masses as they are");
     // clang-format on
   }
 };

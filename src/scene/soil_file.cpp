@@ -290,11 +290,25 @@ class Reader {
   std::size_t next_ = 0;
 };
 
+/// Soil of a ground with another shear modulus and the same density, Poisson's ratio, damping and
+/// layers: K(omega; f G) = f K(omega / sqrt(f); G).
+void scale_soil(double factor, FittedSoil& soil) {
+  const double root = std::sqrt(factor);
+  for (DirectedImpedance& part : soil.parts) {
+    part.impedance.stiffness *= factor;
+    part.impedance.inner_stiffness *= factor;
+    part.impedance.dashpot *= root;
+    part.impedance.inner_dashpot *= root;
+  }
+  for (FitMisfit& misfit : soil.misfits) misfit.largest_at *= root;
+}
+
 }  // namespace
 
 void read_soil_file(Structure& structure) {
   if (!structure.soil || structure.soil->table.empty()) return;
   structure.soil->fitted = Reader(structure).read();
+  scale_soil(structure.soil->factor, *structure.soil->fitted);
 }
 
 std::vector<std::string> fit_doubts(const Structure& structure) {

@@ -1,6 +1,7 @@
 #include "scene/soil_reader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 namespace pounding {
@@ -37,6 +38,7 @@ std::optional<Soil> read_soil(OptionReader& options, const Structure& structure)
   }
   Soil soil;
   options.read(soil, names);
+  soil.ground.shear_velocity *= std::sqrt(soil.factor);
   if (!soil.is_half_space()) {
     options.forbid("<structure>_soil_size", names, option_name(Soil::no_half_space, names));
     return soil;

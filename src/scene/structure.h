@@ -166,7 +166,13 @@ struct Structure {
     return std::ranges::any_of(absorbing, &AbsorbingFace::is_base);
   }
   /// The damping of a region's elements.
-  Rayleigh damping_of(const Region& region) const { return region.damping.value_or(damping); }
+  Rayleigh damping_of(const Region& region) const {
+    const Rayleigh own = region.damping.value_or(damping);
+    return {region.damping_factor * own.alpha, region.damping_factor * own.beta};
+  }
+  /// A factor on the stiffness of its elements is one on its whole K: neither soil nor the forces
+  /// at rest that turn with its columns have a part in it.
+  bool scales_as_a_whole() const { return !soil && !p_delta; }
 
   static void describe(auto& option) {
     using namespace option_words;

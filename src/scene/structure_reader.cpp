@@ -169,9 +169,13 @@ void forbid_rigid_groups(const OptionReader& options, const Structure& structure
   }
 }
 
-/// Matrices do not know which of their rows buckle, lift off or yield.
+/// Matrices do not know which of their rows buckle, lift off or yield, nor which are of a group.
 void forbid_laws(const OptionReader& options, const Structure& structure) {
   for (const Region& region : structure.regions) {
+    if (!structure.matrices.empty() && region.stiffness_factor != 1) {
+      options.refuse("<structure>_<group>_stiffness_factor", {structure.name, region.group},
+                     "not with -" + structure.name + "_matrices");
+    }
     if (!structure.matrices.empty() && is_nonlinear(region)) {
       options.refuse(law_option(region), {structure.name, region.group},
                      "not with -" + structure.name + "_matrices");
@@ -182,7 +186,7 @@ void forbid_laws(const OptionReader& options, const Structure& structure) {
 /// The filters follow the forces of all elements together.
 void forbid_damping_beside_uniform(const OptionReader& options, const Structure& structure) {
   for (const Region& region : structure.regions) {
-    for (const char* option : {"alpha", "beta", "ratio", "frequencies"}) {
+    for (const char* option : {"alpha", "beta", "ratio", "frequencies", "factor"}) {
       options.forbid(std::string("<structure>_<group>_damping_") + option,
                      {structure.name, region.group},
                      "not in a structure with -" + structure.name +
@@ -207,7 +211,7 @@ void forbid_damping_of_regions(const OptionReader& options, const Structure& str
     const Rayleigh own = structure.damping_of(region);
     if (own.alpha != structure.damping.alpha || own.beta != structure.damping.beta) {
       const std::string here = remedy + "give the structure's own here, or nothing";
-      for (const char* option : {"alpha", "beta", "ratio"}) {
+      for (const char* option : {"alpha", "beta", "ratio", "factor"}) {
         options.forbid(std::string("<structure>_<group>_damping_") + option, names, here);
       }
     }

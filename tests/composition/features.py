@@ -162,6 +162,8 @@ FEATURES = [
     Feature("assembled matrix", "model", {"stiffness": "assembled"}, physics=False),
     Feature("stiffness factor", "model", {"@_stiffness_factor": 1.3},
             spared={"all modes": "the basis keeps the rotary inertia of beams, which follows the stiffness at full order"}),
+    Feature("cracked columns", "model", {"@_column_stiffness_factor": .5, "@_column_damping_factor": 1.75},
+            spared={"all modes": "composite damping of modes leaves out the coupling between them"}),
 
     Feature("initial velocity", "start", {"@_initial_velocity": vector((.3, .1, -.05))}),
     Feature("initial displacement", "start", {"@_initial_displacement": vector((2e-4, 1e-4, 0))}),

@@ -198,5 +198,24 @@ TEST(Impedance, AtRestIsTheSpring) {
   }
 }
 
+TEST(Impedance, OfAStifferGroundIsThatOfASlowerMotion) {
+  for (const double factor : {0.5, 2.0}) {
+    HalfSpace other = third;
+    other.shear_velocity *= std::sqrt(factor);
+    for (const Footprint& footprint :
+         {Footprint{false, {20, 14}, 3}, Footprint{true, {16, 16}, 0}}) {
+      const Impedances nominal = impedances_of(third, footprint);
+      const Impedances stiffer = impedances_of(other, footprint);
+      for (std::size_t c = 0; c < 6; ++c) {
+        EXPECT_NEAR(stiffer[c].inner_mass, nominal[c].inner_mass, 1e-12 * nominal[c].inner_mass);
+        for (const double omega : {0.0, 5.0, 40.0}) {
+          const auto expected = factor * nominal[c].at(omega / std::sqrt(factor));
+          EXPECT_LT(std::abs(stiffer[c].at(omega) - expected), 1e-12 * std::abs(expected));
+        }
+      }
+    }
+  }
+}
+
 }  // namespace impedance_test
 }  // namespace pounding
