@@ -14,11 +14,6 @@ install(DIRECTORY meshes octave petsc-options python DESTINATION ${POUNDING_SHAR
 install(PROGRAMS run/compare run/fragility run/import run/law run/new run/plant run/plot run/seal run/section run/shake run/soil run/sweep run/tradeoff
   DESTINATION ${POUNDING_SHARE}/run)
 install(FILES run/environment DESTINATION ${POUNDING_SHARE}/run)
-install(DIRECTORY run/parts DESTINATION ${POUNDING_SHARE}/run
-  PATTERN __pycache__ EXCLUDE
-  PATTERN campaign EXCLUDE
-  PATTERN mutants EXCLUDE
-  PATTERN verification EXCLUDE)
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 # Man pages and completion are made of what the programs say when asked for help; none where these do not run here.

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "run"))
-from parts.soil import fit, impedances, soil_file  # noqa: E402
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
+from pounding.soil import fit, impedances, soil_file  # noqa: E402
 
 MOTIONS = ("x", "y", "z", "rx", "ry", "rz")
 FREQUENCIES = numpy.arange(0.25, 20.01, 0.25)

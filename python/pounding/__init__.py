@@ -9,10 +9,18 @@ python/examples/gaps.py is a whole script. `pip install ./python` of the reposit
 PYTHONPATH.
 """
 
-from .ensembles import Ensemble, load_ensemble
-from .results import Missing, Modes, Result, ResultError, load, load_modes
-from .runs import RunError, program, run
-from .scenes import SceneError, flatten, read_scene, write_scene
+from importlib import import_module
 
-__all__ = ["Ensemble", "Missing", "Modes", "Result", "ResultError", "RunError", "SceneError", "flatten", "load",
-           "load_ensemble", "load_modes", "program", "read_scene", "run", "write_scene"]
+_PLACES = {"Ensemble": "ensembles", "Missing": "results", "Modes": "results", "Result": "results", "ResultError": "results",
+           "RunError": "runs", "SceneError": "scenes", "flatten": "scenes", "load": "results", "load_ensemble": "ensembles",
+           "load_modes": "results", "program": "runs", "read_scene": "scenes", "run": "runs", "write_scene": "scenes"}
+__all__ = list(_PLACES)
+
+
+def __getattr__(name: str):
+    """A name of the package, or a module of these, when it is first asked for: commands that need no arrays start at once."""
+    if name in _PLACES.values():
+        return import_module(f"{__name__}.{name}")
+    if name not in _PLACES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_PLACES[name]}"), name)

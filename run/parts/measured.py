@@ -10,7 +10,7 @@ from pathlib import Path
 from parts.benchmark.machine import description
 from parts.benchmark.workers import MeasuringError
 from parts.campaign import paper_tables
-from parts.tables import markdown
+from pounding.tables import markdown
 
 SOURCE = Path(__file__).resolve().parents[2]
 MARKED = re.compile(r"(<!-- table (\w+) -->\n)(.*?)(^<!-- end -->)", re.DOTALL | re.MULTILINE)

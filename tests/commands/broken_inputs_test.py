@@ -16,13 +16,13 @@ import numpy as np
 import program
 import two_buildings
 
-sys.path.insert(0, os.path.join(program.SOURCE, "run"))
+sys.path.insert(0, os.path.join(program.SOURCE, "python"))
 sys.dont_write_bytecode = True
-from parts.compare import page, runs, tables  # noqa: E402
-from parts.fragility import study  # noqa: E402
-from parts.sweep import members, table  # noqa: E402
-from parts.tradeoff.runs import Outcome  # noqa: E402
-from parts.study import understood  # noqa: E402
+from pounding.compare import page, runs, tables  # noqa: E402
+from pounding.fragility import study  # noqa: E402
+from pounding.sweep import members, table  # noqa: E402
+from pounding.tradeoff.runs import Outcome  # noqa: E402
+from pounding.study import understood  # noqa: E402
 from pounding import results  # noqa: E402
 
 WRONG = (None, 5, -1, "x", [], {}, [1, 2], {"a": 1}, True)

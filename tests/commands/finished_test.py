@@ -13,10 +13,10 @@ import program
 import two_buildings
 from two_buildings import pounding
 
-sys.path.insert(0, os.path.join(program.SOURCE, "run"))
-from parts import finished  # noqa: E402
-from parts.fragility import design, study  # noqa: E402
-from parts.fragility import runs as members  # noqa: E402
+sys.path.insert(0, os.path.join(program.SOURCE, "python"))
+from pounding import finished  # noqa: E402
+from pounding.fragility import design, study  # noqa: E402
+from pounding.fragility import runs as members  # noqa: E402
 
 PROCESSORS = 2  # it starts runs
 

@@ -12,9 +12,9 @@ import program
 from scipy import stats
 
 sys.path.insert(0, os.path.join(program.SOURCE, "python"))
-sys.path.insert(0, os.path.join(program.SOURCE, "run"))
+sys.path.insert(0, os.path.join(program.SOURCE, "python"))
 sys.dont_write_bytecode = True
-from parts.fragility import figures, report, study  # noqa: E402
+from pounding.fragility import figures, report, study  # noqa: E402
 from pounding import fragility  # noqa: E402
 
 LEVELS = np.array([1.0, 1.5, 2.0, 3.0, 4.0, 6.0])

@@ -12,9 +12,9 @@ from pathlib import Path
 import program
 import two_buildings
 
-sys.path.insert(0, os.path.join(program.SOURCE, "run"))
+sys.path.insert(0, os.path.join(program.SOURCE, "python"))
 sys.dont_write_bytecode = True
-from parts import study  # noqa: E402
+from pounding import study  # noqa: E402
 
 PROCESSORS = 2  # killed runs
 
@@ -24,7 +24,7 @@ SLEEPER = """
 import os, sys
 sys.path[:0] = [sys.argv[1]]
 from pathlib import Path
-from parts import begin, stop_when_terminated
+from pounding.commands.process import begin, stop_when_terminated
 begin("run/sleeper")
 from pounding import runs
 runs.command = lambda words, ranks: ["sleep", sys.argv[2]]
@@ -119,7 +119,7 @@ class Tied(unittest.TestCase):
         seconds = str(60 + os.getpid() / 1e7)  # tells this sleeper from others
         for number in (signal.SIGKILL, signal.SIGTERM, signal.SIGHUP, signal.SIGINT):
             with self.subTest(number), tempfile.TemporaryDirectory() as place:
-                job = subprocess.Popen([sys.executable, "-B", "-c", SLEEPER, os.path.join(program.SOURCE, "run"),
+                job = subprocess.Popen([sys.executable, "-B", "-c", SLEEPER, os.path.join(program.SOURCE, "python"),
                                         seconds, place], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                        stderr=subprocess.PIPE, text=True)
                 child = int(job.stdout.readline())

@@ -14,11 +14,10 @@ import h5py
 import numpy as np
 
 PLOT = Path(__file__).resolve().parents[2] / "run" / "plot"
-sys.path.insert(0, str(PLOT.parent))
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(PLOT.parents[1] / "python"))
-from parts.plot import contact_figures, report, style  # noqa: E402
-from parts.plot.style import envelope  # noqa: E402
+from pounding.plot import contact_figures, report, style  # noqa: E402
+from pounding.plot.style import envelope  # noqa: E402
 from pounding import results  # noqa: E402
 
 PROBES = {"s1_floor1": ("s1", 2.72), "s1_floor2": ("s1", 5.22), "s2_floor1": ("s2", 2.72),

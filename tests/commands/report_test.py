@@ -22,8 +22,8 @@ import program
 import two_buildings
 from two_buildings import pounding
 
-sys.path.insert(0, os.path.join(program.SOURCE, "run"))
-from parts.plot import answer, design_spectra, force_figures, markup, model_tables, twin  # noqa: E402
+sys.path.insert(0, os.path.join(program.SOURCE, "python"))
+from pounding.plot import answer, design_spectra, force_figures, markup, model_tables, twin  # noqa: E402
 
 MORE = {"modes": 4, "spectra_damping": "0.02,0.05", "forces": "base,corner", "base_structure": "left",
         "base_kind": "reactions", "corner_structure": "left", "corner_kind": "members", "corner_group": "columns",

@@ -15,10 +15,10 @@ import program
 import two_buildings
 from two_buildings import pounding
 
-sys.path.insert(0, os.path.join(program.SOURCE, "run"))
+sys.path.insert(0, os.path.join(program.SOURCE, "python"))
 sys.dont_write_bytecode = True
-from parts import tables  # noqa: E402
-from parts.plot import markup, style  # noqa: E402
+from pounding import tables  # noqa: E402
+from pounding.plot import markup, style  # noqa: E402
 from pounding import files, runs, scenes  # noqa: E402
 
 

@@ -12,8 +12,8 @@ import program
 import two_buildings
 from two_buildings import pounding
 
-sys.path.insert(0, os.path.join(program.SOURCE, "run"))
-from parts import shaking  # noqa: E402
+sys.path.insert(0, os.path.join(program.SOURCE, "python"))
+from pounding import shaking  # noqa: E402
 
 
 def floor(acceleration, step):

@@ -11,7 +11,7 @@ import numpy
 import program
 from soil_tables import MOTIONS, cell, coupled, write_table
 
-from parts.soil import fit, impedances  # soil_tables puts it on the path
+from pounding.soil import fit, impedances  # soil_tables puts it on the path
 
 DIAGONALS = [f"k{motion}{motion}_{part}" for motion in MOTIONS for part in ("re", "im")]
 NAMES = ["frequency", *DIAGONALS]

@@ -9,10 +9,10 @@ from unittest import mock
 
 import program
 
-sys.path.insert(0, os.path.join(program.SOURCE, "run"))
+sys.path.insert(0, os.path.join(program.SOURCE, "python"))
 sys.dont_write_bytecode = True
-from parts import stop_when_terminated  # noqa: E402
-from parts.study import run_side_by_side  # noqa: E402
+from pounding.commands.process import stop_when_terminated  # noqa: E402
+from pounding.study import run_side_by_side  # noqa: E402
 from pounding import runs  # noqa: E402
 
 PROCESSORS = 2  # it starts runs

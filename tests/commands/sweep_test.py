@@ -13,8 +13,8 @@ import program
 import two_buildings
 from two_buildings import pounding
 
-sys.path.insert(0, os.path.join(program.SOURCE, "run"))
-from parts.sweep import members, table  # noqa: E402
+sys.path.insert(0, os.path.join(program.SOURCE, "python"))
+from pounding.sweep import members, table  # noqa: E402
 
 PROCESSORS = 2  # it starts runs
 

@@ -11,9 +11,9 @@ import numpy as np
 
 import program
 
-sys.path.insert(0, os.path.join(program.SOURCE, "run"))
+sys.path.insert(0, os.path.join(program.SOURCE, "python"))
 sys.dont_write_bytecode = True
-from parts.tradeoff import metrics  # noqa: E402
+from pounding.tradeoff import metrics  # noqa: E402
 
 FREQUENCY = np.geomspace(1, 400, 261)
 REFERENCE = 1 + FREQUENCY / 80 + 10 / (1 + (np.log(FREQUENCY / 3.7) / 0.1)**2)

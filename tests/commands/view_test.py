@@ -17,9 +17,9 @@ import numpy as np
 import browser
 import program
 
-sys.path[:0] = [os.path.join(program.SOURCE, "run"), os.path.join(program.SOURCE, "python")]
+sys.path.insert(0, os.path.join(program.SOURCE, "python"))
 sys.dont_write_bytecode = True
-from parts.plot import report, scene_mesh, view  # noqa: E402
+from pounding.plot import report, scene_mesh, view  # noqa: E402
 from pounding.results import Missing, load  # noqa: E402
 
 CASE = [*program.COARSE_PAIR, "-modes", 3, "-write_modes", "-write_model", "-s1_initial_velocity", "1.5,0,0",

@@ -87,7 +87,7 @@ class Guard(unittest.TestCase):
 
     def test_merges_of_a_study_that_double(self):
         """700 letters of YAML that are 16 million merged keys, and brackets without end."""
-        study = importlib.import_module("parts.fragility.study")
+        study = importlib.import_module("pounding.fragility.study")
         merges = "a0: &a0 {x: 1}\n" + "".join(f"a{k + 1}: &a{k + 1}\n  <<: [*a{k}, *a{k}]\n" for k in range(24))
         for text, part in ((merges, "more than 10000 merged keys"), ("[" * 100000, "recursion")):
             begun = time.monotonic()
@@ -119,7 +119,8 @@ class Guard(unittest.TestCase):
         """At any time after the first line of the command: one line, status 1."""
         path = imported.of_file("model.inp", ABAQUS)
         script = ("import os, signal, sys, time\nsys.argv = ['COMMAND', 'FILE', 'OUT', '--units', 'm,kg,s']\n"
-                  "sys.path.insert(0, os.path.dirname(sys.argv[0]))\nimport parts\n"
+                  f"sys.path.insert(0, {str(imported.PACKAGE)!r})\n"
+                  "from pounding import commands\ncommands.leave_when_interrupted('import')\n"
                   "wait = float(os.environ['WAIT'])\nif os.fork() == 0:\n    time.sleep(wait)\n"
                   "    os.kill(os.getppid(), signal.SIGINT)\n    os._exit(0)\n"
                   "import runpy\nrunpy.run_path(sys.argv[0], run_name='__main__')\n")

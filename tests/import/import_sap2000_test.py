@@ -1,7 +1,6 @@
 """SAP2000 texts become scenes whose modes are those of the same models written by hand."""
 import math
 import random
-import sys
 import time
 import unittest
 from pathlib import Path
@@ -180,8 +179,7 @@ class Sap2000(unittest.TestCase):
         rows = (Path(program.SOURCE) / "src/scene/standard_sections.csv").read_text().splitlines()
         names = [row.split(",")[0] for row in rows if row and not row.startswith("#")]
         self.assertGreater(len(names), 200)
-        sys.path.insert(0, str(imported.COMMAND.parent))
-        from parts.importing.sections import STANDARD
+        from pounding.importing.sections import STANDARD
         self.assertEqual([name for name in [*names, "HE160B", "SHS100x5", "HSS8x8x1"] if not STANDARD.fullmatch(name)], [])
 
     def test_things_given_twice(self):
@@ -204,8 +202,7 @@ class Sap2000(unittest.TestCase):
 
     def test_time_grows_with_joints(self):
         """Joints on frames are found by their places: four times as many take less than eight times as long."""
-        sys.path.insert(0, str(imported.COMMAND.parent))
-        from parts.importing.sap2000 import read
+        from pounding.importing.sap2000 import read
         taken = []
         for count in (1500, 6000):
             text = (STEEL + joints({f"J{n}": (n % 100, n // 100, 0) for n in range(count + 1)})

@@ -15,9 +15,10 @@ import scipy.spatial  # noqa: F401
 
 sys.dont_write_bytecode = True
 COMMAND = Path(program.SOURCE) / "run" / "import"
-sys.path[:0] = [str(COMMAND.parent), str(COMMAND.parents[1] / "python")]
-for module in sorted((COMMAND.parent / "parts" / "importing").glob("[a-z]*.py")):  # once, and not in each fork
-    importlib.import_module(f"parts.importing.{module.stem}")
+PACKAGE = COMMAND.parents[1] / "python"
+sys.path.insert(0, str(PACKAGE))
+for module in sorted((PACKAGE / "pounding" / "importing").glob("[a-z]*.py")):  # once, and not in each fork
+    importlib.import_module(f"pounding.importing.{module.stem}")
 TYPES = {"point": 15, "line": 1, "triangle": 2, "quadrangle": 3, "tetrahedron": 4, "brick": 5, "wedge": 6}
 DIMENSIONS = {"point": 0, "line": 1, "triangle": 2, "quadrangle": 2, "tetrahedron": 3, "brick": 3, "wedge": 3}
 
@@ -44,7 +45,6 @@ def command(path, units, *words):
                 os.dup2(err.fileno(), 2)
                 sys.stdout, sys.stderr = os.fdopen(1, "w", closefd=False), os.fdopen(2, "w", closefd=False)
                 sys.argv = list(map(str, line))
-                sys.path.insert(0, str(COMMAND.parent))
                 runpy.run_path(str(COMMAND), run_name="__main__")
                 status = 0
             except SystemExit as error:
@@ -171,10 +171,10 @@ def survives(name, texts):
     """What no reader may say of texts of a format, in a process of its own: faults other than one line with the file's
     name, and texts that take more than 10 s."""
     script = ("import json, signal, sys, traceback\nfrom pathlib import Path\nsys.dont_write_bytecode = True\n"
-              f"sys.path[:0] = [{str(COMMAND.parent)!r}, {str(COMMAND.parents[1] / 'python')!r}]\n"
-              "from parts.importing.formats import read\nfrom parts.importing.model import InputFault\n"
-              "from parts.importing.scene import Scene\n"
-              "from parts.importing.units import in_si, units_of\nfrom parts.importing.weighing import weigh\n"
+              f"sys.path.insert(0, {str(PACKAGE)!r})\n"
+              "from pounding.importing.formats import read\nfrom pounding.importing.model import InputFault\n"
+              "from pounding.importing.scene import Scene\n"
+              "from pounding.importing.units import in_si, units_of\nfrom pounding.importing.weighing import weigh\n"
               "path, texts, found = Path(sys.argv[1]), json.load(sys.stdin), []\n"
               "for text in texts:\n    path.write_text(text)\n    signal.alarm(10)\n    told = ''\n"
               "    try:\n        model = read(path, None)\n        in_si(model, units_of('mm,t,s'))\n"

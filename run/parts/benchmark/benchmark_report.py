@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from parts.tables import by_ranks, markdown, number, write_csv
+from pounding.tables import by_ranks, markdown, number, write_csv
 from pounding.files import write_text
 
 from .comparison import BYTES_PER_DOF, LABELS

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parts.tables import leave, markdown, write_rows
+from pounding.tables import leave, markdown, write_rows
 
 from .workers import run_program
 

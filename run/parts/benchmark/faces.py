@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from parts.tables import by_ranks, leave
+from pounding.tables import by_ranks, leave
 
 from .workers import run_program
 

@@ -7,7 +7,7 @@ from collections import Counter
 from pathlib import Path
 from typing import NamedTuple
 
-from parts.tables import leave, markdown
+from pounding.tables import leave, markdown
 
 from .machine import Machine
 from .shapes import SHAPES, Shape

@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from parts.tables import markdown, number, write_csv
+from pounding.tables import markdown, number, write_csv
 from pounding.files import write_text
 
 from .machine import Machine

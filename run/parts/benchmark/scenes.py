@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parts.tables import by_ranks, leave
+from pounding.tables import by_ranks, leave
 
 from .workers import MeasuringError, run_program
 

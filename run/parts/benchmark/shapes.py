@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from parts.tables import by_ranks, leave
+from pounding.tables import by_ranks, leave
 
 from .comparison import LABELS, check_agreement
 from .workers import SOURCE, Stepper, slab_cells, step_benchmark

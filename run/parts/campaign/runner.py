@@ -6,7 +6,7 @@ import sys
 import time
 from pathlib import Path
 
-from parts.study import Run, announcement, run_side_by_side
+from pounding.study import Run, announcement, run_side_by_side
 from pounding.runs import Job, complaint, ending_with_us, environment, program
 
 from . import harvest

@@ -1,0 +1,125 @@
+"""How likely it is, with error bars: run/fragility STUDY.yaml [--ranks N] [--out DIR]
+
+    run/fragility petsc-options/azalee/fragility.yaml --ranks 2
+    run/fragility study.yaml --dry-run          # the members and the motions' correlation, nothing else
+    run/fragility study.yaml --part 3/10        # one of ten jobs of an array; when all are done:
+    run/fragility study.yaml --collect
+
+Puts samples of ground motion and of what is not known exactly (gaps, stiffness, damping) to every joint and level of
+the study: moments of floor spectra, probabilities of contact and of too large spectra with their intervals, lognormal
+curves, the joint that is wide enough, how many motions were enough, an error against full order.
+docs/manual/fragility.md has the keys of the study file. What is finished is not run again; the same command goes on
+where it stopped.
+"""
+
+import argparse
+import re
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+from pounding.arguments import positive, ranks
+from pounding.fragility import design, motions, report, rules, study
+from pounding.fragility.analysis import Analysis
+from pounding.fragility.runs import Runner
+from pounding.results import ResultError
+from pounding.runs import RunError, program, require_room
+from pounding.study import alone_in
+
+from .process import called, parser_of
+
+NAME = called("run/fragility")
+FAULTS = (study.StudyError, RunError, ResultError)
+GOES_ON = True
+
+
+def part(text: str) -> tuple:
+    found = re.fullmatch(r"(\d+)/(\d+)", text)
+    if not found or not 1 <= int(found[1]) <= int(found[2]):
+        raise argparse.ArgumentTypeError(f"'{text}' is not i/n with i from 1 to n")
+    return int(found[1]), int(found[2])
+
+
+@contextmanager
+def alone(folder: Path, options: argparse.Namespace):
+    """Parts of a study share its folder; nothing else does, nor two of the same part."""
+    with alone_in(folder, NAME, shared=bool(options.part)):
+        if not options.part:
+            yield
+            return
+        with alone_in(folder / "runs" / "part-{}-of-{}".format(*options.part), f"{NAME} --part"):
+            yield
+
+
+def arguments() -> argparse.Namespace:
+    parser = parser_of(NAME, __doc__)
+    parser.add_argument("study", metavar="STUDY", type=Path, help="study file")
+    parser.add_argument("--ranks", metavar="N", type=ranks, default=1, help="of each job (default: 1)")
+    parser.add_argument("--jobs", metavar="N", type=positive(int), default=1,
+                        help="runs at a time where each member is a run of its own (default: 1)")
+    parser.add_argument("--runner", choices=("auto", "ensemble", "single"), default="auto",
+                        help="members at once, each on its own, or at once where the scene allows it (default: auto)")
+    parser.add_argument("--samples", metavar="N", type=positive(int), help="in place of those of the study")
+    parser.add_argument("--out", metavar="DIR", type=Path, help="folder of all (default: `output` of the study)")
+    only = parser.add_mutually_exclusive_group()
+    only.add_argument("--part", metavar="i/n", type=part, help="run this part of the members and stop")
+    only.add_argument("--collect", action="store_true", help="run nothing; tables, figures and page of the runs that are there")
+    only.add_argument("--dry-run", action="store_true", help="check study and motions, and stop")
+    return parser.parse_args()
+
+
+def run(options: argparse.Namespace) -> int:
+    found = study.read(options.study)
+    if options.samples:
+        found.samples = max(2, options.samples)
+    folder = options.out or found.output
+    require_room(options.ranks, options.jobs)
+    program()
+    with alone(folder, options):
+        return carry_out(found, folder, options)
+
+
+def carry_out(found: study.Study, folder: Path, options: argparse.Namespace) -> int:
+    matrix = motions.check(found, folder, options.jobs, write=not options.part)
+    plan = design.build(found)
+    closed = design.clipped(found, plan)
+    notes = [f"Doubt: {doubt}" for doubt in study.doubts(found)]
+    notes += [f"{closed} gaps would be below zero: these joints are closed."] if closed else []
+    count = len(matrix) // len(found.axes)
+    pairs = {together: [abs(matrix[i, j]) for i in range(len(matrix)) for j in range(i) if (i % count == j % count) is together]
+             for together in (True, False)}
+    told = [f"{words} {max(pairs[together]):.3f}" for together, words in ((True, "of one sample"), (False, "of different samples"))
+            if pairs[together]]
+    print(f"fragility: {len(plan.members)} members, {len(plan.repeated)} of them repeated at full order; largest "
+          f"correlation of two motions {', '.join(told) or 'none'}; results in {folder}", flush=True)
+    print("".join(f"{note}\n" for note in notes), end="", flush=True)
+    runner = Runner(found, plan, folder, options.ranks, options.jobs, options.runner, options.collect)
+    ends = [f"Doubt: {doubt}" for doubt in runner.scouted[True].doubts]
+    print("".join(f"{note}\n" for note in ends), end="", flush=True)
+    notes += ends
+    if options.dry_run:
+        return 0
+    if not options.collect:
+        began = time.monotonic()
+        how = runner.run(options.part or (1, 1))
+        print(f"fragility: runs ended after {time.monotonic() - began:.0f} s ({how})", flush=True)
+        if options.part:
+            return 0
+    gathered, missing = runner.found(plan.members)
+    if missing:
+        raise study.StudyError(f"{len(missing)} of {len(plan.members)} members are not there yet; run what is missing")
+    repeats = [plan.members[index] for index in plan.repeated]
+    full, missing = runner.found(repeats, False) if repeats else (None, [])
+    if missing:
+        raise study.StudyError(f"{len(missing)} of {len(repeats)} repeats at full order are not there yet; "
+                               "run what is missing")
+    ruled, note = rules.find(found, plan, runner.scene(True), folder, options.jobs)
+    notes += [note] if note else []
+    page, text = report.write(Analysis(found, plan, gathered, runner.equipment), full, ruled, notes, folder)
+    print("\n" + text)
+    print(f"see {page}")
+    return 0
+
+
+def main() -> int:
+    return run(arguments())

@@ -1,0 +1,246 @@
+"""Runs of the members of a study: many at once by the program's ensembles, or each on its own."""
+
+import csv
+import hashlib
+import itertools
+import json
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+from pounding import finished
+from pounding.commands import called
+from pounding.study import alone_in, announcement, run_side_by_side, understood
+from pounding.tables import write_rows
+from pounding.files import write_text
+from pounding.results import ResultError, load
+from pounding.runs import LOG, Job, clear, environment, finish
+from pounding.scenes import write_scene
+
+from . import equipment, outcomes
+from .design import Design
+from .study import Study, StudyError, check_names
+
+SCOUTED = "scouted.json"
+
+
+def scene_options(study: Study, reduced: bool, folder: Path) -> dict:
+    """Options of all members in a file of their own, which includes the scene; bases are kept in the folder."""
+    found = {"include": str(study.scene), **study.options}
+    for axis, one in study.axes.items():
+        kind = {"target": one.target} if one.target else {"record": one.records[0]}
+        found |= {f"motion_{axis}_{key}": value for key, value in {**kind, **one.understood}.items()}
+    for name, joint in study.joints.items():
+        if joint.field:
+            found |= {f"{name}_gap_deviation": str(joint.field[0]), f"{name}_gap_length": str(joint.field[1])}
+    if reduced:
+        found |= study.reduction
+        for structure in [name.removesuffix("_model") for name, value in found.items()
+                          if name.endswith("_model") and value == "modal"]:
+            found.setdefault(f"{structure}_modal_basis", str((folder / f"{structure}.basis").absolute()))
+    else:
+        found |= study.full_options
+    found |= {"spectra_frequencies": ",".join(f"{f:.9g}" for f in study.frequencies),
+              "spectra_damping": ",".join(f"{ratio:g}" for ratio in study.dampings)}
+    return found
+
+
+def key_of(study: Study, options: dict, design: Design) -> str:
+    """Hash of what the results depend on but the members' values and the files of the scene: options, names of columns,
+    motions."""
+    told = {name: value for name, value in options.items() if not name.endswith(finished.BASIS)}
+    files = sorted({file for one in study.axes.values() for file in (*one.records, one.target) if file})
+    return hashlib.sha256(json.dumps([told, [[file, finished.digest(Path(file))] for file in files],
+                                      design.columns]).encode()).hexdigest()[:12]
+
+
+def _digest(values) -> str:
+    return hashlib.sha256(str(values).encode()).hexdigest()
+
+
+@dataclass(frozen=True)
+class Scouted:
+    """What the first member, run for two steps, tells of all of them."""
+
+    inputs: dict  # path -> hash
+    probes: list
+    contacts: list
+    equipment: list = field(default_factory=list)  # see equipment.of_run
+    doubts: list = field(default_factory=list)  # that spectra go beyond modes or mesh
+
+
+class Runner:
+    """Runs what is missing of the members, in a folder; `ranks` of each job, `jobs` at a time where each member is a
+    run of its own. `kind`: ensemble, single, or auto: ensembles where the program takes the scene. Results of scenes
+    whose files have changed since stay where they are, and are not these. Throws StudyError."""
+
+    def __init__(self, study: Study, design: Design, folder: Path, ranks: int, jobs: int, kind: str,
+                 only_look: bool = False):
+        """`only_look`: what nothing has been run of yet is refused."""
+        self.study, self.design, self.folder = study, design, folder
+        self.ranks, self.jobs, self.kind = ranks, jobs, kind
+        self.variables = environment()
+        self.bases, self.scouted = {}, {}
+        for reduced in (True, False) if design.repeated else (True,):
+            options = scene_options(study, reduced, folder / "runs")
+            with alone_in(folder / "runs", called("run/fragility"), wait=True):  # parts of a study look once
+                self._find_base(reduced, options, key_of(study, options, design), only_look)
+        check_names(study, self.scouted[True].probes, self.scouted[True].contacts)
+
+    def _find_base(self, reduced: bool, options: dict, key: str, only_look: bool) -> None:
+        """The folder of the members whose scene's files are those of today; a new one where there is none."""
+        for number in itertools.count(1):
+            base = self.folder / "runs" / (key if number == 1 else f"{key}-{number}")
+            self.bases[reduced] = base
+            if not (base / SCOUTED).exists() and not any(base.glob(f"*/{outcomes.FILE}")) \
+                    and not (base / "single").exists():
+                break
+            if not (base / SCOUTED).exists():  # of whatever files these runs are
+                continue
+            try:
+                found = Scouted(**json.loads((base / SCOUTED).read_text(encoding="utf-8")))
+            except (OSError, ValueError, TypeError) as error:
+                raise StudyError(f"{base / SCOUTED} cannot be read ({error}); remove the folder, whose runs are then "
+                                 "repeated") from error
+            if finished.are_current(found.inputs, Path.cwd()):
+                self.scouted[reduced] = found
+                return
+        if only_look:
+            raise StudyError(f"{self.folder}: of this study and its files as they are now nothing is there yet; run what "
+                             "is missing")
+        base.mkdir(parents=True, exist_ok=True)
+        write_scene(self.scene(reduced), options)
+        self.scouted[reduced] = self._scout(reduced, base)
+        write_text(base / SCOUTED, json.dumps(asdict(self.scouted[reduced]), indent=1))
+
+    def _scout(self, reduced: bool, base: Path) -> Scouted:
+        """Two steps of the first member: what the program refuses, it refuses here."""
+        place = base / "scout"
+        words = [*self._words(self.design.members[0], reduced), "-end_time", "1e-4", "-modes", "0"]
+        failure = finish(lambda: Job(words, place.absolute(), 1, Path.cwd(), self.variables))
+        if failure:
+            raise StudyError(f"{self.study.path}: {failure}")
+        found = load(place)
+        summary, items = found.summary, equipment.of_run(found)
+        clear(place)
+        own = str(self.scene(reduced).absolute())
+        inputs = {path: found for path, found in finished.inputs_of(summary).items() if path != own}
+        doubts = [line for line in summary["warnings"] if "its modes end at" in line or "its mesh carries waves" in line]
+        return Scouted(inputs, list(summary.get("probes", {})), list(summary.get("contacts", {})), items, doubts)
+
+    def _words(self, member, reduced: bool) -> list:
+        words = ["-options_file", str(self.scene(reduced).absolute())]
+        for column, value in zip(self.design.columns, member.values):
+            words += [f"-{column}", value]
+        return words
+
+    @property
+    def equipment(self) -> list:
+        return equipment.items(self.scouted[True].equipment)
+
+    def scene(self, reduced: bool) -> Path:
+        return self.bases[reduced] / "scene.yaml"
+
+    def files(self, reduced: bool) -> list:
+        return sorted(self.bases[reduced].glob(f"*/{outcomes.FILE}"))
+
+    def found(self, members: list, reduced: bool = True) -> tuple:
+        """(Outcomes, indices of those that are missing)."""
+        return outcomes.collect(self.files(reduced), members, self.design.columns)
+
+    def run(self, part: tuple) -> str:
+        """Runs part i of n of the members, and of the repeats at full order; returns how members were run. Throws
+        StudyError."""
+        share = self.design.members[part[0] - 1::part[1]]
+        repeats = [self.design.members[index] for index in self.design.repeated][part[0] - 1::part[1]]
+        name = f"{part[0]}-of-{part[1]}"
+        kind = self.kind
+        _, missing = self.found(share)
+        if missing and kind != "single":
+            refusal = self._ensemble(share, name)
+            if refusal and kind == "auto" and "ensemble" in refusal:
+                print(f"note: no ensemble, each member is a run of its own: {refusal}", flush=True)
+            elif refusal:
+                raise StudyError(refusal)
+            _, missing = self.found(share)
+        if missing:
+            self._singles([share[index] for index in missing], True, name)
+            kind = "single"
+        missing = self.found(repeats, False)[1] if repeats else []
+        if missing:
+            self._singles([repeats[index] for index in missing], False, name)
+        return kind
+
+    def _ensemble(self, share: list, name: str) -> str:
+        """Goes on with ensembles of this part that were stopped, then starts one of what is missing: '' if all members
+        came to their end, else the program's line."""
+        base = self.bases[True]
+        for place in sorted(base.glob(f"ensemble-{name}-*")):
+            _, missing = self.found(share)
+            try:
+                with open(place / "members.csv", newline="", encoding="utf-8") as file:
+                    rows = {tuple(row) for row in csv.reader(file)}
+            except (OSError, ValueError, csv.Error):  # stopped before its table was there, or damaged
+                rows = set()
+            failure = self._at_once(place) if any(share[index].values in rows for index in missing) else ""
+            if failure:
+                return failure
+        _, missing = self.found(share)
+        if not missing:
+            return ""
+        values = [share[index].values for index in missing]
+        place = base / f"ensemble-{name}-{_digest(values)[:6]}"
+        place.mkdir(parents=True, exist_ok=True)
+        write_rows(place / "members.csv", self.design.columns, values, exact=True)
+        return self._at_once(place)
+
+    def _at_once(self, place: Path) -> str:
+        ranks = f"{self.ranks} rank{'s' if self.ranks > 1 else ''}"
+        print(f"fragility: ensemble {place.name} on {ranks}; progress in {place / LOG}", flush=True)
+        words = ["-options_file", str(self.scene(True).absolute()), "-equipment", "none", "-ensemble",
+                 str((place / "members.csv").absolute())]
+        return finish(lambda: Job(words, place.absolute(), self.ranks, Path.cwd(), self.variables))
+
+    def _singles(self, members: list, reduced: bool, name: str) -> None:
+        """Each member a run of its own; what is finished is kept and not repeated. Throws StudyError at the first that
+        fails, when those beside it have ended."""
+        base = self.bases[reduced]
+        columns, failures, ended_count = self.design.columns, [], 0
+        places = {one: base / "single" / _digest(one.values)[:16] for one in members}
+        todo = [one for one in members if outcomes.restore(places[one].with_suffix(".npz")) is None]
+        what = "" if reduced else " at full order"
+        print(f"fragility: {announcement(len(members), len(todo), self.jobs, self.ranks, what)}", flush=True)
+
+        def start(member) -> Job:
+            return Job(self._words(member, reduced), places[member].absolute(), self.ranks, Path.cwd(), self.variables)
+
+        def ended(member, job: Job, waiting: list, _running: list) -> None:
+            nonlocal ended_count
+            failure = job.outcome()
+            if not failure:
+                try:
+                    with understood(job.output):
+                        outcomes.save(places[member].with_suffix(".npz"), outcomes.of_run(load(job.output)))
+                except ResultError as error:
+                    failure = str(error)
+            if failure:
+                failures.append(failure)
+                waiting.clear()
+                return
+            clear(job.output)
+            ended_count += 1
+            if ended_count % max(1, len(todo) // 10) == 0:
+                print(f"  {ended_count}/{len(todo)} runs{what}; the last took {job.wall_time:.1f} s", flush=True)
+
+        # The first one makes the bases that the others find.
+        for some in (todo[:1], todo[1:]):
+            if not failures:
+                run_side_by_side(some, self.jobs, start, ended)
+        if failures:
+            raise StudyError(failures[0])
+        place = base / f"single-{name}"
+        place.mkdir(exist_ok=True)
+        previous = outcomes.read_rows(place / outcomes.FILE)[1] if (place / outcomes.FILE).is_file() else {}
+        kept = {row: outcomes.restore(base / "single" / f"{_digest(row)[:16]}.npz")
+                for row in dict.fromkeys([*previous, *(one.values for one in members)])}
+        kept = {row: one for row, one in kept.items() if one is not None}
+        outcomes.write(place / outcomes.FILE, columns, list(kept), list(kept.values()))
