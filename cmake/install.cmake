@@ -1,6 +1,6 @@
 # What `cmake --install` puts under a prefix, and the Debian package that `run/package` makes of it.
 #   bin                 the programs, and pounding-tools, which starts the tools below
-#   share/pounding      scenes and meshes as in the repository, tools (run), the Python package (python)
+#   share/pounding      scenes and meshes as in the repository, how ranks are started (run), the Python package with the tools (python)
 #   share/doc/pounding  the pages
 #   share/man           man pages of the programs
 #   share/bash-completion/completions  completion of their options
@@ -11,8 +11,6 @@ install(TARGETS pounding pounding-mesh pounding-spectra RUNTIME DESTINATION ${CM
 install(PROGRAMS cmake/pounding-tools DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY meshes octave petsc-options python DESTINATION ${POUNDING_SHARE}
   PATTERN __pycache__ EXCLUDE)
-install(PROGRAMS run/compare run/fragility run/import run/law run/new run/plant run/plot run/seal run/section run/shake run/soil run/sweep run/tradeoff
-  DESTINATION ${POUNDING_SHARE}/run)
 install(FILES run/environment DESTINATION ${POUNDING_SHARE}/run)
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})

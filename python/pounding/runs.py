@@ -2,6 +2,7 @@
 
 import ctypes
 import os
+import shlex
 import shutil
 import signal
 import subprocess
@@ -46,16 +47,27 @@ def program(name: str = "pounding") -> Path:
     return path
 
 
-def environment() -> dict:
-    """The variables that run/environment sets: that of these sources, or the one that was installed, or built, with the
-    program that a package of pip finds."""
+def shipped(name: str) -> Path | None:
+    """A file of the sources that is installed too, run/environment or a scene: that of these sources, or the one that was
+    installed, or built, with the program that a package of pip finds."""
     beside = folder_of_programs().resolve().parent
-    file = next((file for top in (SOURCE, beside / "share" / "pounding", beside)
-                 if (file := top / "run" / "environment").is_file()), None)
+    return next((file for top in (SOURCE, beside / "share" / "pounding", beside) if (file := top / name).is_file()), None)
+
+
+def environment() -> dict:
+    """The variables that run/environment sets."""
+    file = shipped("run/environment")
     if file is None:
         return {**os.environ, "OMP_NUM_THREADS": "1"}
     text = subprocess.run(["bash", "-c", 'source "$0" && env -0', file], capture_output=True, text=True, check=True).stdout
     return dict(item.split("=", 1) for item in text.split("\0") if "=" in item)
+
+
+def next_steps(scene: Path) -> str:
+    """The commands that look at a new scene, to paste."""
+    file = shipped("run/environment")
+    line = shlex.join(["mpirun", "-n", "2", str(folder_of_programs() / "pounding"), "-options_file", str(scene), "-dry_run"])
+    return "next: " + (f"source {shlex.quote(str(file))}\n      " if file else "") + line
 
 
 def words_of(scene: Path | str | None, options: dict) -> list:

@@ -2,6 +2,7 @@
 import importlib.util
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -55,28 +56,62 @@ class Scenes(unittest.TestCase):
 
 class Installed(unittest.TestCase):
     @unittest.skipUnless(importlib.util.find_spec("pip") and importlib.util.find_spec("setuptools"), "no pip or setuptools here")
-    def test_pip_installs_the_package_with_its_needs(self):
-        place = Path(tempfile.mkdtemp(prefix="pounding-"))
-        self.addCleanup(shutil.rmtree, place)
-        shutil.copytree(Path(program.SOURCE, "python"), place / "python", ignore=shutil.ignore_patterns("build", "*.egg-info"))
-        done = subprocess.run([sys.executable, "-m", "pip", "install", "-q", "--no-build-isolation", "--no-deps", "--no-index",
-                               "--target", place / "site", place / "python"], capture_output=True, text=True, timeout=300, check=False)
-        self.assertEqual(done.returncode, 0, done.stderr)
+    @classmethod
+    def setUpClass(cls):
+        cls.place = place = Path(tempfile.mkdtemp(prefix="pounding-"))
+        cls.addClassCleanup(shutil.rmtree, place)
+        shutil.copytree(Path(program.SOURCE, "python"), place / "python",
+                        ignore=shutil.ignore_patterns("build", "*.egg-info", "__pycache__"))
+        subprocess.run([sys.executable, "-m", "pip", "install", "-q", "--no-build-isolation", "--no-deps", "--no-index",
+                        "--target", place / "site", place / "python"], stdout=subprocess.DEVNULL, timeout=300, check=True)
+        cls.variables = {name: value for name, value in os.environ.items() if name not in ("POUNDING_BUILD", "PYTHONPATH")
+                         and not name.startswith(("OMP", "PMIX", "PRTE"))} | {"PYTHONPATH": str(place / "site")}
+
+    def call(self, name, *words, **more):
+        return subprocess.run([self.place / "site" / "bin" / name, *words], cwd=self.place, env={**self.variables, **more},
+                              capture_output=True, text=True, timeout=300, check=False)
+
+    def test_each_command_of_users_is_a_script_that_helps(self):
+        scripts = sorted(path.name for path in (self.place / "site" / "bin").iterdir())
+        commands = sorted(path.stem for path in Path(program.SOURCE, "python/pounding/commands").glob("[a-z]*.py"))
+        self.assertEqual(scripts, sorted(f"pounding-{name}" for name in {*commands, "report"} - {"process"}))
+        for name in scripts:
+            with self.subTest(name):
+                done = self.call(name, "--help")
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                self.assertIn(f"usage: {name.replace('report', 'plot')} ", done.stdout)
+                self.assertNotRegex(done.stdout, r"\brun/[a-z]")
+
+    def test_commands_have_their_data(self):
+        self.assertIn("pounding-new two-buildings DIR", self.call("pounding-new").stdout)
+        done = self.call("pounding-new", "two-buildings", "mine")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual({path.name: path.read_bytes() for path in (self.place / "mine").iterdir()},
+                         {path.name: path.read_bytes() for path in two_buildings.FOLDER.iterdir()})
+        folder = self.place / "mine" / "out"
+        two_buildings.launched(folder, gap=0.01, end_time=0.05, write_model=True)
+        done = self.call("pounding-report", folder)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("<script", (folder / "report.html").read_text())
+        done = self.call("pounding-plant", "--size", "small", POUNDING_BUILD=str(self.place))
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1))
+        self.assertIn("pounding-plant: petsc-options/plant/small.yaml: neither in ", done.stderr)
+
+    def test_it_is_installed_with_its_needs(self):
+        place = self.place
         told = (place / "site" / "pounding-0.2.0.dist-info" / "METADATA").read_text()
-        self.assertIn("Requires-Dist: h5py\nRequires-Dist: numpy\n", told)
+        self.assertEqual(re.findall(r"Requires-Dist: (\w+)$", told, re.MULTILINE), ["h5py", "matplotlib", "numpy", "pyyaml", "scipy"])
         self.assertIn("VERSION 0.2.0 ", Path(program.SOURCE, "CMakeLists.txt").read_text())
         bin_folder = place / "bin"
         bin_folder.mkdir()
         (bin_folder / "pounding").write_text("#!/bin/sh\n")
         (bin_folder / "pounding").chmod(0o755)
-        variables = {name: value for name, value in os.environ.items() if name not in ("POUNDING_BUILD", "PYTHONPATH")}
-        variables = {name: value for name, value in variables.items() if not name.startswith(("OMP", "PMIX", "PRTE"))}
         code = ("import pounding; from pounding import runs; print(pounding.__file__); print(pounding.program()); "
                 "print(*sorted(name for name in runs.environment() if name.startswith(('OMP', 'PMIX', 'PRTE'))))")
 
         def said():
             return subprocess.run([sys.executable, "-c", code], cwd=place, capture_output=True, text=True, timeout=60, check=True,
-                                  env={**variables, "PYTHONPATH": str(place / "site"), "PATH": f"{bin_folder}:{os.environ['PATH']}"}
+                                  env={**self.variables, "PATH": f"{bin_folder}:{os.environ['PATH']}"}
                                   ).stdout.splitlines()
 
         places = [str(place / "site" / "pounding" / "__init__.py"), str(bin_folder / "pounding")]

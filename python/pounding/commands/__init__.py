@@ -47,6 +47,12 @@ def start(name: str) -> None:
     end(told, command.main, *getattr(command, "FAULTS", ()), goes_on=getattr(command, "GOES_ON", False))
 
 
+def words_of_command(name: str, *words) -> list:
+    """What starts a command in a process of its own."""
+    return [sys.executable, "-B", "-P", os.path.join(os.path.dirname(__file__), "__main__.py"), name, *map(str, words)]
+
+
 def installed() -> None:
-    """The command that the script of pip is called after."""
-    start(os.path.basename(sys.argv[0]).removeprefix("pounding-"))
+    """The command that the script of pip is called after; `pounding-report` is what run/plot draws."""
+    name = os.path.basename(sys.argv[0]).removeprefix("pounding-")
+    start("plot" if name == "report" else name)

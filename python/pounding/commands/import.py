@@ -11,7 +11,6 @@ refused and why.
 
 import argparse
 import os
-import shlex
 import sys
 from pathlib import Path
 
@@ -26,7 +25,7 @@ from pounding.importing.told import cards_told, model_told, modes_told
 from pounding.importing.trying import try_folder
 from pounding.importing.units import in_si, units_of
 from pounding.importing.weighing import weigh
-from pounding.runs import SOURCE, RunError, folder_of_programs
+from pounding.runs import RunError, next_steps
 from pounding.scenes import SceneError, write_scene
 
 from .process import called, line_of, parser_of
@@ -195,7 +194,5 @@ def main() -> int:
             if fault:
                 return refuse(f"{paths[0]} is written, and the program refuses it: {fault}")
             tell(lines)
-    command = shlex.quote(str(folder_of_programs() / "pounding"))
-    print(f"next: source {shlex.quote(str(SOURCE / 'run' / 'environment'))}")
-    print(f"      mpirun -n 2 {command} -options_file {shlex.quote(str(paths[0]))} -dry_run")
+    print(next_steps(paths[0]))
     return 0

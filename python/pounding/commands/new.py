@@ -5,15 +5,14 @@ nothing that is there is written over. Without arguments it lists what there is.
 """
 
 import os
-import shlex
 from pathlib import Path
 
-from pounding.runs import SOURCE, folder_of_programs
+from pounding.runs import next_steps
 
 from .process import called, parser_of
 
 NAME = called("run/new")
-SCENES = SOURCE / "petsc-options" / "new"
+SCENES = Path(__file__).parent / "scenes"
 
 
 def known() -> dict:
@@ -64,9 +63,6 @@ def main() -> int:
     if not options.folder:
         parser.error(f"say where to: {NAME} two-buildings DIR")
     files = write(options.scene, options.folder)
-    scene = shlex.quote(str(options.folder / f"{options.scene}.yaml"))
-    program = shlex.quote(str(folder_of_programs() / "pounding"))
     print("wrote " + ", ".join(map(str, files)))
-    print(f"next: source {shlex.quote(str(SOURCE / 'run' / 'environment'))}")
-    print(f"      mpirun -n 2 {program} -options_file {scene} -dry_run")
+    print(next_steps(options.folder / f"{options.scene}.yaml"))
     return 0

@@ -6,14 +6,14 @@ import time
 from html import escape
 from pathlib import Path
 
-from pounding.commands import called
+from pounding.commands import called, words_of_command
 from pounding.compare import page
 from pounding.compare.runs import Runs
 from pounding.plot import answer
 from pounding.plot.markup import html_table, write_page
 from pounding.sweep.members import Member
 from pounding.tables import markdown
-from pounding.runs import SOURCE, ending_with_us, environment, finish, program
+from pounding.runs import SOURCE, ending_with_us, environment, finish, folder_of_programs, program, shipped
 
 SIZES = ("small", "medium", "large")
 FIDELITIES = ("full", "modal")
@@ -31,7 +31,11 @@ class StudyError(Exception):
 
 
 def scene_of(size: str) -> Path:
-    return SOURCE / "petsc-options" / "plant" / f"{size}.yaml"
+    """Throws StudyError where the scenes are not with the program."""
+    name = f"petsc-options/plant/{size}.yaml"
+    if scene := shipped(name):
+        return scene
+    raise StudyError(f"{name}: neither in {SOURCE} nor beside the program, {folder_of_programs()}")
 
 
 def options_of(fidelity: str, modes: int, folder: Path) -> dict:
@@ -71,7 +75,7 @@ def run_all(wanted: list, size: str, more: list, ranks: int, folder: Path) -> No
     folder.mkdir(parents=True, exist_ok=True)
     scene, variables = scene_of(size), environment()
     for member in wanted:
-        run = member.run(scene, more, folder / member.name, SOURCE)
+        run = member.run(scene, more, folder / member.name, scene.parents[2])
         if run.is_finished():
             print(f"  {member.name}: finished before", flush=True)
             continue
@@ -102,8 +106,7 @@ def text(runs: Runs) -> str:
 
 def draw(folder: Path) -> str:
     """Figures and page of one run by run/plot: '' or why there are none."""
-    done = subprocess.run([str(SOURCE / "run" / "plot"), str(folder)], capture_output=True, text=True,
-                          preexec_fn=ending_with_us())
+    done = subprocess.run(words_of_command("plot", folder), capture_output=True, text=True, preexec_fn=ending_with_us())
     return "" if done.returncode == 0 else (done.stderr.strip().splitlines() or [f"{called('run/plot')} failed"])[-1]
 
 
