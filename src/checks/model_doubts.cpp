@@ -231,9 +231,8 @@ std::vector<std::string> place_doubts(const Scene& scene, std::span<const Global
   return doubts;
 }
 
-std::vector<std::string> frequency_doubts(const Scene& scene, std::span<const ResolvedProbe> probes,
-                                          const Building& building) {
-  std::vector<std::string> doubts;
+void add_frequency_doubts(const Scene& scene, std::span<const ResolvedProbe> probes,
+                          const Building& building, std::vector<std::string>& doubts) {
   const std::string& structure = building.structure->name;
   const MeshWaves& waves = building.findings.waves;
   const double asked = scene.spectra.frequencies.back();
@@ -268,7 +267,6 @@ std::vector<std::string> frequency_doubts(const Scene& scene, std::span<const Re
                  "much",
                  {structure, carried, waves.element_size, waves.group, of, asked}));
   }
-  return doubts;
 }
 
 double highest_mode(const ModalBasis& basis) {
@@ -279,8 +277,7 @@ double highest_mode(const ModalBasis& basis) {
   return std::sqrt(square) / (2 * std::numbers::pi);
 }
 
-std::vector<std::string> mass_doubts(MPI_Comm comm, const Building& building) {
-  std::vector<std::string> doubts;
+void add_mass_doubts(MPI_Comm comm, const Building& building, std::vector<std::string>& doubts) {
   const Structure& structure = *building.structure;
   const double total = building.system->total_mass;
   for (const Region& region : structure.regions) {
@@ -290,7 +287,7 @@ std::vector<std::string> mass_doubts(MPI_Comm comm, const Building& building) {
                  "{:.4g} kg; is it in t?",
                  {structure.name, region.group, region.mass, total}));
   }
-  if (structure.matrices.empty()) return doubts;
+  if (structure.matrices.empty()) return;
   const Vector3 sides = bounding_box(comm, *building.mesh).sides();
   const double longest = std::ranges::max(sides);
   const double volume = sides[0] * sides[1] * sides[2];
@@ -307,7 +304,6 @@ std::vector<std::string> mass_doubts(MPI_Comm comm, const Building& building) {
                  "{:.4g} m3; is it in kg (not t)?",
                  {structure.name, structure.matrices, total, volume}));
   }
-  return doubts;
 }
 
 }  // namespace pounding

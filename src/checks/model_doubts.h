@@ -19,14 +19,14 @@ std::vector<std::string> place_doubts(const Scene& scene, std::span<const Global
 
 /// Doubts about a structure whose modes, if it is reduced and their error is not estimated, or
 /// whose mesh (mesh/mesh_waves.h) end below the spectra of its probes. Of the mesh on rank 0 only.
-std::vector<std::string> frequency_doubts(const Scene& scene, std::span<const ResolvedProbe> probes,
-                                          const Building& building);
+void add_frequency_doubts(const Scene& scene, std::span<const ResolvedProbe> probes,
+                          const Building& building, std::vector<std::string>& doubts);
 
 /// Frequency of the highest mode in a basis [Hz].
 double highest_mode(const ModalBasis& basis);
 
 /// Doubts about masses and frequencies of a structure that is built: point masses that are nothing
 /// beside the rest, matrices in other units. Collective.
-std::vector<std::string> mass_doubts(MPI_Comm comm, const Building& building);
+void add_mass_doubts(MPI_Comm comm, const Building& building, std::vector<std::string>& doubts);
 
 }  // namespace pounding

@@ -6,7 +6,10 @@
 #include <set>
 #include <utility>
 
+#include "checks/model_doubts.h"
 #include "common/facts.h"
+#include "common/parallel.h"
+#include "model/rest.h"
 #include "model/time_step.h"
 #include "scene/option_table.h"
 #include "scene/option_values.h"
@@ -168,18 +171,110 @@ void add_high_spectra(const Scene& scene, const Model& model, std::vector<std::s
       ": beyond, only motion between the samples shows (-resampling)");
 }
 
-}  // namespace
+/// Part of the model's size that a settlement may be.
+constexpr double small_settlement = 0.01;
 
-std::vector<std::string> sliver_warnings(const LinearSystem& system) {
-  std::vector<std::string> warnings;
+constexpr double small_imbalance = 1e-8;
+constexpr double small_residual = 1e-8;
+
+double length_of(const Vector3& v) {
+  return std::hypot(v[0], v[1], v[2]);
+}
+
+bool is_weightless(const StructureRest& rest) {
+  return length_of(rest.weight) == 0 && rest.forces == 0;
+}
+
+void doubt_slivers(const LinearSystem& system, std::vector<std::string>& doubts) {
   for (const Sliver& sliver : system.slivers) {
-    warnings.push_back(sentence(
+    doubts.push_back(sentence(
         "structure {}: sliver: {} allows by itself {:.4g} s, the median of its group {:.4g} s ({} "
         "such elements in it); mend the mesh",
         {system.name, sliver.element, sliver.time_step, sliver.median, sliver.count}));
   }
-  return warnings;
 }
+
+void doubt_shifts(const LinearSystem& system, const ModalResult& modal,
+                  std::vector<std::string>& doubts) {
+  constexpr double highest = 33;  // Hz
+  double worst = 0.1;
+  if (!system.uniform_damping) return;
+  const UniformDamping& uniform = *system.uniform_damping;
+  std::string text;
+  for (const Mode& mode : modal.modes) {
+    if (!mode.location.empty() || !(mode.frequency > 0) || mode.frequency > highest) continue;
+    const double moved = uniform.moved(mode.frequency);
+    const double shift = moved / mode.frequency - 1;
+    if (!(std::abs(shift) > worst)) continue;
+    worst = std::abs(shift);
+    text = sentence(
+        "structure {}: uniform damping of {:.3g %} moves its mode of {:.3g} Hz by {:.3g %} to "
+        "{:.3g} Hz, since modes keep their place at {:.3g} Hz; give -{}_damping_reference where it "
+        "matters most",
+        {system.name, uniform.ratio, mode.frequency, shift, moved, uniform.reference, system.name});
+  }
+  if (!text.empty()) doubts.push_back(text);
+}
+
+void doubt_mechanisms(const Scene& scene, const Model& model, std::vector<std::string>& doubts) {
+  const auto has_no_stiffness = [](const Mode& mode) { return !mode.location.empty(); };
+  for (std::size_t s = 0; s < model.buildings.size(); ++s) {
+    const std::vector<Mode>& modes = model.buildings[s].modal.modes;
+    const auto count = std::ranges::count_if(modes, has_no_stiffness);
+    const Connectivity& connectivity = model.buildings[s].findings.connectivity;
+    if (count == 0 || !connectivity.wholly_held() || scene.structures[s].allow_loose) continue;
+    doubts.push_back(sentence(
+        "structure {}: {} of its lowest modes have no stiffness (0 Hz), the first moves most at "
+        "{}; look for hinges, missing elements and supports",
+        {scene.structures[s].name, count,
+         std::ranges::find_if(modes, has_no_stiffness)->location}));
+  }
+}
+
+void doubt_rest(const Model& model, std::vector<std::string>& doubts) {
+  if (model.equilibrium && std::ranges::all_of(model.equilibrium->structures, is_weightless)) {
+    doubts.emplace_back(
+        "-preload static, and no structure has a weight or a load at rest: the run starts "
+        "undeformed; give -gravity 9.81");
+  }
+  for (std::size_t s = 0; model.equilibrium && s < model.systems.size(); ++s) {
+    const StructureRest& rest = model.equilibrium->structures[s];
+    const double settlement = std::max(rest.largest_displacement, length_of(rest.settlement));
+    const std::string& name = model.systems[s].name;
+    if (settlement > small_settlement * model.interface.model_size) {
+      doubts.push_back(
+          sentence("structure {} settles by {} m under its weight and loads: displacements are "
+                   "taken for small; are its stiffness and its density in SI units?",
+                   {name, settlement}));
+    } else if (rest.imbalance > small_imbalance) {
+      doubts.push_back(sentence("structure {}: the forces that hold it miss its weight by {} of it",
+                                {name, rest.imbalance}));
+    }
+  }
+  if (model.equilibrium && model.equilibrium->residual > small_residual) {
+    doubts.push_back(sentence(
+        "the static equilibrium is found to {} of the weight only, by energy: round-off of very "
+        "stiff elements; the run starts as far from rest",
+        {model.equilibrium->residual}));
+  }
+}
+
+void doubt_rest_gaps(const Scene& scene, const Model& model, std::vector<std::string>& doubts) {
+  for (std::size_t c = 0; model.equilibrium && c < model.joint_gaps.size(); ++c) {
+    const JointGaps& gaps = model.joint_gaps[c];
+    const double overlap = -gaps.unloaded[0];
+    if (!scene.contacts[c].gap_at_rest || !(gaps.at_rest[0] > 0)) continue;
+    if (overlap <= none_below * model.interface.model_size) continue;
+    const std::string& name = scene.contacts[c].name;
+    doubts.push_back(sentence(
+        "contact {}: the weight opens the joint by more than the {:.4g mm} that it has at rest; "
+        "without it the faces would overlap by {:.4g mm}; is the gap that of the rest "
+        "(-{}_gap_at)?",
+        {name, gaps.at_rest[0], overlap, name}));
+  }
+}
+
+}  // namespace
 
 std::vector<std::string> damping_warnings(const Structure& structure, const ModalResult& modal) {
   constexpr double highest = 50;  // Hz
@@ -207,136 +302,26 @@ std::vector<std::string> damping_warnings(const Structure& structure, const Moda
   return warnings;
 }
 
-std::vector<std::string> shift_warnings(const LinearSystem& system, const ModalResult& modal) {
-  constexpr double highest = 33;  // Hz
-  double worst = 0.1;
-  if (!system.uniform_damping) return {};
-  const UniformDamping& uniform = *system.uniform_damping;
-  std::vector<std::string> warnings;
-  for (const Mode& mode : modal.modes) {
-    if (!mode.location.empty() || !(mode.frequency > 0) || mode.frequency > highest) continue;
-    const double moved = uniform.moved(mode.frequency);
-    const double shift = moved / mode.frequency - 1;
-    if (!(std::abs(shift) > worst)) continue;
-    worst = std::abs(shift);
-    warnings = {sentence(
-        "structure {}: uniform damping of {:.3g %} moves its mode of {:.3g} Hz by {:.3g %} to "
-        "{:.3g} Hz, since modes keep their place at {:.3g} Hz; give -{}_damping_reference where it "
-        "matters most",
-        {system.name, uniform.ratio, mode.frequency, shift, moved, uniform.reference,
-         system.name})};
+void add_model_doubts(MPI_Comm comm, const Scene& scene, Model& model) {
+  std::vector<std::string>& doubts = model.warnings;
+  append(model.motion->doubts(), doubts);
+  if (model.supports) append(model.supports->doubts(), doubts);
+  if (model.load_histories) {
+    append(model.load_histories->doubts(scene.loads, model.motion->origin(), scene.end_time),
+           doubts);
   }
-  return warnings;
-}
-
-std::vector<std::string> mechanism_warnings(const Scene& scene, const Model& model) {
-  std::vector<std::string> warnings;
-  const auto has_no_stiffness = [](const Mode& mode) { return !mode.location.empty(); };
-  for (std::size_t s = 0; s < model.buildings.size(); ++s) {
-    const std::vector<Mode>& modes = model.buildings[s].modal.modes;
-    const auto count = std::ranges::count_if(modes, has_no_stiffness);
-    const Connectivity& connectivity = model.buildings[s].findings.connectivity;
-    if (count == 0 || !connectivity.wholly_held() || scene.structures[s].allow_loose) continue;
-    warnings.push_back(sentence(
-        "structure {}: {} of its lowest modes have no stiffness (0 Hz), the first moves most at "
-        "{}; look for hinges, missing elements and supports",
-        {scene.structures[s].name, count,
-         std::ranges::find_if(modes, has_no_stiffness)->location}));
+  for (const LinearSystem& system : model.systems) doubt_slivers(system, doubts);
+  append(model.interface.warnings, doubts);
+  for (const Building& building : model.buildings) {
+    append(damping_warnings(*building.structure, building.modal), doubts);
+    append(wave_doubts(*building.structure, building.beams, building.modal.modes), doubts);
+    add_mass_doubts(comm, building, doubts);
+    add_frequency_doubts(scene, model.probes, building, doubts);
+    doubt_shifts(*building.system, building.modal, doubts);
   }
-  return warnings;
-}
-
-std::vector<std::string> displacement_warnings(double largest, double model_size) {
-  constexpr double small = 0.05;                                      // of the model
-  if (!(largest > small * model_size) || model_size == 0) return {};  // 0: a point
-  return {
-      sentence("displacements reach {:.3g} m in a model of {:.3g} m; the theory is one of small "
-               "displacements",
-               {largest, model_size})};
-}
-
-std::vector<std::string> contact_warnings(double residual) {
-  constexpr double solved = 1e-8;
-  if (!(residual > solved)) return {};
-  return {sentence(
-      "the contact problem of some step was not solved to the end: complementarity residual "
-      "{:.3g} of the largest closing velocity (below {:.3g} is as good as exact); look at contacts "
-      "that hold the same place twice, and at friction of bodies wedged between each other",
-      {residual, solved})};
-}
-
-std::vector<std::string> slide_warnings(const Scene& scene, const RunStatistics& statistics) {
-  std::vector<std::string> warnings;
-  for (std::size_t c = 0; c < statistics.slides.size(); ++c) {
-    const Slide& slide = statistics.slides[c];
-    if (slide.since < 0) continue;
-    const std::string& name = scene.contacts[c].name;
-    const double sliding = scene.contacts[c].sliding;
-    const std::string limit =
-        sliding > 0
-            ? sentence(
-                  "-{}_sliding {:.4g} m, from t = {:.4g} s on; parts farther off are not "
-                  "looked for: give more",
-                  {name, sliding, slide.since})
-            : sentence(
-                  "half of the facet there ({:.4g} m), from t = {:.4g} s on; nodes stay with "
-                  "the facets that they face at the start, so that impacts after that may "
-                  "hit what has moved away, or miss; -{}_sliding finds pairs anew",
-                  {slide.facet_size, slide.since, name});
-    warnings.push_back(
-        sentence("contact {}: its faces slid along each other by up to {:.4g} m, more than {}",
-                 {name, slide.distance, limit}));
-  }
-  return warnings;
-}
-
-std::vector<std::string> pass_warnings(const Scene& scene, std::span<const OtherPass> passes) {
-  std::vector<std::string> warnings;
-  for (std::size_t c = 0; c < passes.size(); ++c) {
-    const OtherPass& other = passes[c];
-    if (!(other.depth > std::min(OtherPass::deep, OtherPass::deep_part * other.facet_size))) {
-      continue;
-    }
-    const std::string& name = scene.contacts[c].name;
-    warnings.push_back(sentence(
-        "contact {}: in one pass nodes of its primary went up to {:.3g mm} into facets of the "
-        "secondary of {:.3g} m, at ({:.4g}, {:.4g}) m, t = {:.4g} s: impacts are missed or late "
-        "there; give -{}_passes 2",
-        {name, other.depth, other.facet_size, other.place[0], other.place[1], other.time, name}));
-  }
-  return warnings;
-}
-
-std::string scaled_by_closing(const Scene& scene) {
-  const bool loads = std::ranges::any_of(scene.loads, [&](const Load& load) {
-    return !scene.preload || load.function.kind != LoadFunction::Kind::constant;
-  });
-  const bool weight = std::ranges::any_of(scene.structures, [&](const Structure& structure) {
-    return !scene.preload && structure.gravity != Vector3{};
-  });
-  return std::string("motion") + (loads ? " and loads" : "") + (weight ? " and weight" : "");
-}
-
-std::vector<std::string> closing_warnings(const Scene& scene, const RunStatistics& statistics) {
-  const std::string scaled = scaled_by_closing(scene);
-  const bool closes = std::ranges::any_of(
-      statistics.closings, [](const JointClosing& joint) { return std::isfinite(joint.factor); });
-  if (scaled == "motion" || statistics.all_impacts.episodes > 0 || !closes) return {};
-  return {sentence(
-      "closing factors are of {} together, since one run cannot part them: "
-      "the motion alone closes a joint sooner where the others hold it open, later where they "
-      "close it{}; -motion_level shows",
-      {scaled, scene.preload ? "" : "; -preload static takes constant ones out"})};
-}
-
-std::vector<std::string> pendulum_warnings(const RunStatistics& statistics) {
-  std::vector<std::string> warnings;
-  for (const std::string& structure : statistics.overpressed) {
-    warnings.push_back("structure " + structure +
-                       ": more pressed on a friction pendulum than hardening times stiffness times "
-                       "its radius, and its slope was cut there; give a larger hardening");
-  }
-  return warnings;
+  if (rank_of(comm) == 0) doubt_mechanisms(scene, model, doubts);
+  doubt_rest(model, doubts);
+  doubt_rest_gaps(scene, model, doubts);
 }
 
 void add_long_step(const std::string& of, double sample, double step,

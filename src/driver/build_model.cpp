@@ -238,27 +238,6 @@ void turn_weight_with_columns(MPI_Comm comm, const Scene& scene, Profile& profil
   }
 }
 
-void add_warnings(MPI_Comm comm, const Scene& scene, Model& model) {
-  append(model.motion->doubts(), model.warnings);
-  if (model.supports) append(model.supports->doubts(), model.warnings);
-  if (model.load_histories) {
-    append(model.load_histories->doubts(scene.loads, model.motion->origin(), scene.end_time),
-           model.warnings);
-  }
-  for (const LinearSystem& system : model.systems) append(sliver_warnings(system), model.warnings);
-  append(model.interface.warnings, model.warnings);
-  for (const Building& building : model.buildings) {
-    append(damping_warnings(*building.structure, building.modal), model.warnings);
-    append(wave_doubts(*building.structure, building.beams, building.modal.modes), model.warnings);
-    append(mass_doubts(comm, building), model.warnings);
-    append(frequency_doubts(scene, model.probes, building), model.warnings);
-    append(shift_warnings(*building.system, building.modal), model.warnings);
-  }
-  if (rank_of(comm) == 0) append(mechanism_warnings(scene, model), model.warnings);
-  append(rest_warnings(model), model.warnings);
-  append(rest_gap_warnings(scene, model), model.warnings);
-}
-
 /// Builds systems, modes, equilibrium and time step on meshes that are there. Collective.
 void build_structures(MPI_Comm comm, Scene& scene, Profile& profile, Model& model) {
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
@@ -283,7 +262,7 @@ void build_structures(MPI_Comm comm, Scene& scene, Profile& profile, Model& mode
   put_at_rest(comm, scene, model.meshes, profile, model);
   find_start_gaps(scene, model);
   on_rank0(comm, [&] { model.separations = find_separations(scene, model); });
-  add_warnings(comm, scene, model);
+  add_model_doubts(comm, scene, model);
   model.filler_time_step = filler_limit(comm, scene, model, model.meshes);
   choose_time_step(scene, step_limits(scene, model), model);
   append(run_warnings(scene, model), model.warnings);

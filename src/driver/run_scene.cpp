@@ -4,6 +4,7 @@
 #include <iterator>
 #include <optional>
 
+#include "checks/run_doubts.h"
 #include "checks/warnings.h"
 #include "common/error.h"
 #include "common/memory.h"
@@ -17,7 +18,7 @@
 #include "observers/field_plan.h"
 #include "observers/floor_spectra.h"
 #include "observers/kinds.h"
-#include "observers/loops.h"
+#include "observers/law_cycles.h"
 #include "observers/model_file.h"
 #include "output/result_folder.h"
 #include "report/provenance.h"
@@ -61,6 +62,57 @@ std::optional<SavedState> read_restart(MPI_Comm comm, const Scene& scene, const 
   return saved;
 }
 
+/// Tries the folders of a run before the work, and takes that of its results if it has any. Rank 0.
+void take_folders(Scene& scene, const std::string& resolved, bool runs,
+                  std::optional<ResultFolder>& folder) {
+  if (runs || scene.write_modes || scene.write_model) try_folder("output", scene.output);
+  if (!scene.export_matrices.empty()) try_folder("export_matrices", scene.export_matrices);
+  if (!runs) return;
+  folder.emplace(scene.output);
+  append(replaced_results(scene, resolved), scene.warnings);
+}
+
+/// Capacities of equipment, on rank 0; their corners become frequencies of the spectra. Collective.
+std::vector<TargetSpectrum> take_capacities(MPI_Comm comm, Scene& scene) {
+  std::vector<TargetSpectrum> capacities;
+  on_rank0(comm, [&] {
+    capacities = read_capacities(scene);
+    scene.spectra.frequencies = with_capacities(scene.spectra.frequencies, capacities);
+  });
+  broadcast_array(comm, scene.spectra.frequencies);
+  return capacities;
+}
+
+/// The last words of a dry run. Collective.
+void end_dry_run(MPI_Comm comm, const Scene& scene, const Model& model, Profile& profile) {
+  profile.note_memory(Phase::step);
+  const PhaseReport phases = report_phases(comm, profile, model.dofs());
+  if (rank_of(comm) != 0) return;
+  print(phase_facts(phases));
+  print("\n" + doubts_again({scene.warnings, model.warnings}));
+}
+
+/// Spectra, doubts and peaks of a run at its end; report and summary. `begun` [s]. Collective.
+void end_run(MPI_Comm comm, const Scene& scene, const std::string& resolved,
+             const Provenance& provenance, const Model& model, const TimeLoop& loop,
+             const std::vector<TargetSpectrum>& capacities, double begun,
+             RunStatistics& statistics) {
+  const Recorder& recorder = loop.recorder();
+  std::vector<ProbeSpectrum> spectra = compute_floor_spectra(comm, scene, recorder);
+  on_rank0(comm, [&] {
+    std::ranges::move(cabinet_spectra(scene, recorder, spectra), std::back_inserter(spectra));
+    std::ranges::move(compute_ground_spectra(scene, *model.motion), std::back_inserter(spectra));
+    write_floor_spectra(scene, spectra);
+    statistics.peaks = stated_peaks(scene, recorder);
+    statistics.warnings = run_doubts(scene, model, statistics, recorder, capacities);
+    statistics.wall_time = MPI_Wtime() - begun;
+    const FinishedRun finished{provenance,     scene,    resolved, model,      statistics,
+                               loop.impacts(), recorder, spectra,  capacities, size_of(comm)};
+    write_summary(scene.output + "/summary.json", finished);
+    print_results(finished);
+  });
+}
+
 }  // namespace
 
 RunOutcome run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
@@ -73,22 +125,9 @@ RunOutcome run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
   const bool root = rank_of(comm) == 0;
   Profile profile;
   const bool runs = !scene.dry_run && scene.law_cycles.empty() && scene.write_mesh_pieces == 0;
-  const bool writes = runs || scene.write_modes || scene.write_model;
   std::optional<ResultFolder> folder;  // of rank 0
-  on_rank0(comm, [&] {
-    if (writes) try_folder("output", scene.output);
-    if (!scene.export_matrices.empty()) try_folder("export_matrices", scene.export_matrices);
-    if (runs) {
-      folder.emplace(scene.output);
-      std::ranges::copy(replaced_results(scene, resolved), std::back_inserter(scene.warnings));
-    }
-  });
-  std::vector<TargetSpectrum> capacities;  // of equipment, on rank 0
-  on_rank0(comm, [&] {
-    capacities = read_capacities(scene);
-    scene.spectra.frequencies = with_capacities(scene.spectra.frequencies, capacities);
-  });
-  broadcast_array(comm, scene.spectra.frequencies);
+  on_rank0(comm, [&] { take_folders(scene, resolved, runs, folder); });
+  const std::vector<TargetSpectrum> capacities = take_capacities(comm, scene);
   if (root) print_title(scene, overrides_text(origin), size_of(comm));
   if (!scene.law_cycles.empty()) {
     write_law_loops(comm, scene);
@@ -127,16 +166,11 @@ RunOutcome run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
     print_model(scene, model);
   }
   if (root) print_time_step(scene, model, seconds);
-  RunStatistics statistics;
   if (scene.dry_run) {
-    profile.note_memory(Phase::step);
-    const PhaseReport phases = report_phases(comm, profile, model.dofs());
-    if (root) {
-      print(phase_facts(phases));
-      print("\n" + doubts_again({scene.warnings, model.warnings}));
-    }
+    end_dry_run(comm, scene, model, profile);
     return {};
   }
+  RunStatistics statistics;
   const double step_start = MPI_Wtime();
   const int signal = loop.run(identity, restart ? &*restart : nullptr);
   statistics.step_time = MPI_Wtime() - step_start;
@@ -145,33 +179,7 @@ RunOutcome run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
   if (estimator) {
     statistics.fidelity = estimator(scene, model, loop.impacts(), loop.recorder());
   }
-  std::vector<ProbeSpectrum> spectra = compute_floor_spectra(comm, scene, loop.recorder());
-  on_rank0(comm, [&] {
-    std::ranges::move(cabinet_spectra(scene, loop.recorder(), spectra),
-                      std::back_inserter(spectra));
-    std::ranges::move(compute_ground_spectra(scene, *model.motion), std::back_inserter(spectra));
-    write_floor_spectra(scene, spectra);
-    statistics.warnings =
-        displacement_warnings(loop.recorder().largest_displacement(), model.interface.model_size);
-    append(contact_warnings(statistics.complementarity_residual), statistics.warnings);
-    append(slide_warnings(scene, statistics), statistics.warnings);
-    append(pass_warnings(scene, statistics.other_passes), statistics.warnings);
-    append(coarse_spectra_warnings(scene, capacities), statistics.warnings);
-    append(closing_warnings(scene, statistics), statistics.warnings);
-    append(pendulum_warnings(statistics), statistics.warnings);
-    statistics.peaks = stated_peaks(scene, loop.recorder());
-    append(lowered_peak_warnings(scene, loop.recorder().interval(), model.time_step),
-           statistics.warnings);
-    if (statistics.all_impacts.episodes > 0) {
-      append(peak_warnings(scene, statistics.peaks, loop.recorder()), statistics.warnings);
-    }
-    statistics.wall_time = MPI_Wtime() - start;
-    const FinishedRun finished{provenance, scene,          resolved,        model,
-                               statistics, loop.impacts(), loop.recorder(), spectra,
-                               capacities, size_of(comm)};
-    write_summary(scene.output + "/summary.json", finished);
-    print_results(finished);
-  });
+  end_run(comm, scene, resolved, provenance, model, loop, capacities, start, statistics);
   RunOutcome outcome{MPI_Wtime() - start, 0, statistics.fidelity};
   MPI_Bcast(&outcome.wall_time, 1, MPI_DOUBLE, 0, comm);
   for (const Mesh& mesh : model.meshes) {

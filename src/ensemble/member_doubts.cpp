@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "checks/run_doubts.h"
 #include "checks/warnings.h"
 #include "common/error.h"
 #include "common/parallel.h"

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "checks/run_doubts.h"
 #include "checks/warnings.h"
 #include "common/error.h"
 #include "common/memory.h"

@@ -12,23 +12,6 @@
 namespace pounding {
 namespace {
 
-/// Part of the model's size that a settlement may be.
-constexpr double small_settlement = 0.01;
-
-constexpr double small_imbalance = 1e-8;
-constexpr double small_residual = 1e-8;
-
-double length(const Vector3& v) {
-  return std::hypot(v[0], v[1], v[2]);
-}
-
-bool is_weightless(const StructureRest& rest) {
-  return length(rest.weight) == 0 && rest.forces == 0;
-}
-
-/// Overlap that round-off may make of a joint that is just closed, over the model's longest side.
-constexpr double none_below = 1e-9;
-
 /// Whether a row faces something at the start.
 bool is_paired(const interactions::Constraint& row) {
   return row.geometric_gap != interactions::open_gap;
@@ -86,37 +69,6 @@ void put_at_rest(MPI_Comm comm, const Scene& scene, std::span<const Mesh> meshes
   model.equilibrium->law_force.clear();
 }
 
-std::vector<std::string> rest_warnings(const Model& model) {
-  std::vector<std::string> warnings;
-  if (model.equilibrium && std::ranges::all_of(model.equilibrium->structures, is_weightless)) {
-    warnings.emplace_back(
-        "-preload static, and no structure has a weight or a load at rest: the run starts "
-        "undeformed; give -gravity 9.81");
-  }
-  for (std::size_t s = 0; model.equilibrium && s < model.systems.size(); ++s) {
-    const StructureRest& rest = model.equilibrium->structures[s];
-    const double settlement = std::max(rest.largest_displacement, length(rest.settlement));
-    const std::string& name = model.systems[s].name;
-    if (settlement > small_settlement * model.interface.model_size) {
-      warnings.push_back(
-          sentence("structure {} settles by {} m under its weight and loads: displacements are "
-                   "taken for small; are its stiffness and its density in SI units?",
-                   {name, settlement}));
-    } else if (rest.imbalance > small_imbalance) {
-      warnings.push_back(
-          sentence("structure {}: the forces that hold it miss its weight by {} of it",
-                   {name, rest.imbalance}));
-    }
-  }
-  if (model.equilibrium && model.equilibrium->residual > small_residual) {
-    warnings.push_back(sentence(
-        "the static equilibrium is found to {} of the weight only, by energy: round-off of very "
-        "stiff elements; the run starts as far from rest",
-        {model.equilibrium->residual}));
-  }
-  return warnings;
-}
-
 std::vector<char> rows_open_at_rest(const Scene& scene, const interactions::Interface& interface) {
   std::vector<char> open;
   for (const interactions::Constraint& row : interface.constraints) {
@@ -160,23 +112,6 @@ void find_start_gaps(const Scene& scene, Model& model) {
   if (model.equilibrium) {
     shift_sliding_rows(model.equilibrium->opening, at_rest, rows, model.interface.sliding);
   }
-}
-
-std::vector<std::string> rest_gap_warnings(const Scene& scene, const Model& model) {
-  std::vector<std::string> warnings;
-  for (std::size_t c = 0; model.equilibrium && c < model.joint_gaps.size(); ++c) {
-    const JointGaps& gaps = model.joint_gaps[c];
-    const double overlap = -gaps.unloaded[0];
-    if (!scene.contacts[c].gap_at_rest || !(gaps.at_rest[0] > 0)) continue;
-    if (overlap <= none_below * model.interface.model_size) continue;
-    const std::string& name = scene.contacts[c].name;
-    warnings.push_back(sentence(
-        "contact {}: the weight opens the joint by more than the {:.4g mm} that it has at rest; "
-        "without it the faces would overlap by {:.4g mm}; is the gap that of the rest "
-        "(-{}_gap_at)?",
-        {name, gaps.at_rest[0], overlap, name}));
-  }
-  return warnings;
 }
 
 }  // namespace pounding

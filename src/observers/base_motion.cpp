@@ -1,7 +1,5 @@
 #include "observers/base_motion.h"
 
-#include "system/trace.h"
-
 namespace pounding {
 
 BaseMotion::BaseMotion(std::span<const ResolvedProbe> bases, std::span<const LinearSystem> systems,
@@ -30,6 +28,21 @@ BaseMotion::BaseMotion(std::span<const ResolvedProbe> bases, std::span<const Lin
       }
     }
   }
+}
+
+std::vector<double> probe_rows(const Trace& trace, std::span<const std::size_t> nodes) {
+  const std::size_t width = trace.dofs().size();
+  std::vector<double> rows(3 * nodes.size() * width, 0.0);
+  std::size_t place = 0;
+  for (std::size_t p = 0; p < nodes.size(); ++p) {
+    for (std::size_t k = 0; k < 3 * nodes[p]; ++k, ++place) {
+      double* const mean = &rows[(3 * p + k % 3) * width];
+      for (std::size_t i = 0; i < width; ++i) {
+        mean[i] += trace.row(place)[i] / static_cast<double>(nodes[p]);
+      }
+    }
+  }
+  return rows;
 }
 
 void BaseMotion::put(const State& state, double* out) const {

@@ -7,6 +7,7 @@
 #include "mesh/mesh.h"
 #include "mesh/probe_set.h"
 #include "system/linear_system.h"
+#include "system/trace.h"
 
 namespace pounding {
 
@@ -34,5 +35,10 @@ class BaseMotion {
   };
   std::vector<Row> rows_;
 };
+
+/// Means of places over probes of a structure in generalised coordinates: three rows per probe, for
+/// x, y, z, over its coordinates, shape (3 probes, coordinates). `trace`: three components of every
+/// node, probe after probe; `nodes`: number of nodes of each probe.
+std::vector<double> probe_rows(const Trace& trace, std::span<const std::size_t> nodes);
 
 }  // namespace pounding

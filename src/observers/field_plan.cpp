@@ -128,10 +128,12 @@ void print_fields(MPI_Comm comm, const Scene& scene, const Model& model) {
   if (!steps) return;
   const double bytes = fields_size(scene, model, *steps);
   if (rank_of(comm) != 0) return;
-  std::printf("fields for ParaView: %lld frames every %.4g s from t = %.4g s, up to %.3g MB\n",
-              static_cast<long long>(steps->count),
-              static_cast<double>(steps->stride) * model.time_step,
-              static_cast<double>(steps->first) * model.time_step, bytes / 1e6);
+  const auto time = [&](std::int64_t count) {
+    return static_cast<double>(count) * model.time_step;
+  };
+  print(
+      sentence("fields for ParaView: {} frames every {:.4g} s from t = {:.4g} s, up to {:.3g} MB\n",
+               {steps->count, time(steps->stride), time(steps->first), bytes / 1e6}));
 }
 
 }  // namespace pounding

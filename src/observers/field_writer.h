@@ -130,6 +130,4 @@ class FieldWriter final : public Observer {
   std::string text_;                     ///< of the frames so far
 };
 
-OutputKind fields_output();
-
 }  // namespace pounding

@@ -93,20 +93,6 @@ ProbeSpectrum in_cabinet(const Scene& scene, const Equipment& item, const Record
   return spectrum;
 }
 
-/// A sampled peak above so many times the stated one is that of an impulse within a sample.
-constexpr double doubtful_ratio = 2;
-
-/// How many times the largest sampled peak of a probe exceeds its largest stated one.
-double excess(const StatedPeaks& peaks, const Recorder& recorder, std::size_t probe) {
-  double sampled = 0;
-  double stated = 0;
-  for (std::size_t channel = 3 * probe; channel < 3 * probe + 3; ++channel) {
-    sampled = std::max(sampled, recorder.peaks()[channel].acceleration);
-    stated = std::max(stated, peaks.acceleration[channel]);
-  }
-  return stated > 0 ? sampled / stated : 1;
-}
-
 }  // namespace
 
 std::vector<ProbeSpectrum> compute_floor_spectra(MPI_Comm comm, const Scene& scene,
@@ -211,32 +197,6 @@ std::vector<double> with_capacities(std::vector<double> frequencies,
   return frequencies;
 }
 
-std::vector<std::string> coarse_spectra_warnings(const Scene& scene,
-                                                 std::span<const TargetSpectrum> capacities) {
-  constexpr double widest = 1.1 * (1 + 1e-6);  // as Regulatory Guide 1.122 has it
-  std::vector<std::string> warnings;
-  for (std::size_t i = 0; i < capacities.size(); ++i) {
-    const Equipment& item = scene.equipment[i];
-    std::array<double, 2> worst{1, 1};
-    double before = 0;
-    for (const double frequency : scene.spectra.frequencies) {
-      if (frequency < capacities[i].frequency.front() ||
-          frequency > capacities[i].frequency.back() || !within(item.band, frequency)) {
-        continue;
-      }
-      if (before > 0 && frequency / before > worst[1] / worst[0]) worst = {before, frequency};
-      before = frequency;
-    }
-    if (worst[1] / worst[0] <= widest) continue;
-    warnings.push_back(sentence(
-        "equipment {}: its floor's spectrum has no frequency between {:.4g} and {:.4g} Hz "
-        "(-spectra_frequencies), where a peak that turns its verdict is not seen; give them 10 % "
-        "apart or closer",
-        {item.name, worst[0], worst[1]}));
-  }
-  return warnings;
-}
-
 std::vector<ProbeSpectrum> cabinet_spectra(const Scene& scene, const Recorder& recorder,
                                            std::span<const ProbeSpectrum> floors) {
   std::vector<ProbeSpectrum> spectra;
@@ -301,44 +261,6 @@ StatedPeaks stated_peaks(const Scene& scene, const Recorder& recorder) {
         stated_peak(recorder.acceleration(channel), recorder.interval(), peaks.frequency, first));
   }
   return peaks;
-}
-
-std::vector<std::string> lowered_peak_warnings(const Scene& scene, double interval,
-                                               double time_step) {
-  const double frequency = stated_frequency(scene, interval);
-  const double needed = low_pass_limit / scene.spectra.peak_frequency;
-  if (scene.probes.empty() || !(frequency < scene.spectra.peak_frequency * (1 - 1e-9))) return {};
-  return {sentence(
-      "peak accelerations are those below {:.4g} Hz, not {:.4g} Hz: samples every {:.4g} s hold no "
-      "more; give {}-output_interval {:.4g} or less, or a lower -peak_frequency",
-      {frequency, scene.spectra.peak_frequency, interval,
-       time_step > needed ? "-time_step and " : "", needed})};
-}
-
-std::vector<std::string> peak_warnings(const Scene& scene, const StatedPeaks& peaks,
-                                       const Recorder& recorder) {
-  constexpr std::size_t named = 3;
-  std::vector<std::string> names;
-  double most = 1;
-  bool reduced = false;
-  for (std::size_t p = 0; p < recorder.probes().size(); ++p) {
-    const double times = excess(peaks, recorder, p);
-    if (!(times > doubtful_ratio)) continue;
-    names.push_back(recorder.probes()[p].name);
-    most = std::max(most, times);
-    reduced = reduced || scene.structures[recorder.probes()[p].structure].modal.has_value();
-  }
-  if (names.empty()) return {};
-  std::string text = names.size() == 1 ? "probe " : "probes ";
-  for (std::size_t i = 0; i < std::min(named, names.size()); ++i) {
-    text += (i > 0 ? ", " : "") + names[i];
-  }
-  if (names.size() > named) text += sentence(" and {} more", {names.size() - named});
-  return {text +
-          sentence(": sampled accelerations reach {:.4g} times the peak below {:.4g} Hz; that "
-                   "sampled value goes with 1/output_interval where an impulse acts beside the "
-                   "probe{}, so take the other",
-                   {most, peaks.frequency, reduced ? " or its structure is reduced" : ""})};
 }
 
 }  // namespace pounding

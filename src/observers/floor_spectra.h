@@ -40,8 +40,6 @@ std::vector<ProbeSpectrum> compute_ground_spectra(const Scene& scene, const Grou
 /// `spectra.csv`, in the columns of `spectrum_columns` (io/csv_file.h). Throws UserError if it
 /// cannot be written.
 void write_floor_spectra(const Scene& scene, std::span<const ProbeSpectrum> spectra);
-OutputKind spectra_output();
-
 /// Capacities of the scene's equipment, in its order [m/s2]. Throws UserError: a file that is no
 /// spectrum, a band that the capacity or the floor spectra do not have. Serial.
 std::vector<TargetSpectrum> read_capacities(const Scene& scene);
@@ -50,11 +48,6 @@ std::vector<TargetSpectrum> read_capacities(const Scene& scene);
 /// and the last of them: a capacity has its corners there.
 std::vector<double> with_capacities(std::vector<double> frequencies,
                                     std::span<const TargetSpectrum> capacities);
-
-/// Doubts about frequencies of floor spectra more than 10 % apart where an item's capacity counts:
-/// a peak of the floor between two of them is not seen.
-std::vector<std::string> coarse_spectra_warnings(const Scene& scene,
-                                                 std::span<const TargetSpectrum> capacities);
 
 /// Spectra of items in a cabinet, an oscillator on the floor: those of the cabinet's absolute
 /// acceleration at the damping ratio and in the directions of the item, with `<item> cabinet` in
@@ -74,16 +67,6 @@ struct StatedPeaks {
 
 /// The peaks of the records from `spectra.start` on. Rank 0, after Recorder::finish.
 StatedPeaks stated_peaks(const Scene& scene, const Recorder& recorder);
-
-/// One line if samples at this interval [s], of steps of so long [s], cannot hold the low-pass that
-/// is asked for.
-std::vector<std::string> lowered_peak_warnings(const Scene& scene, double interval,
-                                               double time_step);
-
-/// One line that names the probes whose sampled peak goes with the output interval. Of runs with
-/// impacts: others have no impulse within a sample.
-std::vector<std::string> peak_warnings(const Scene& scene, const StatedPeaks& peaks,
-                                       const Recorder& recorder);
 
 /// The frequency [Hz] of the low-pass before stated peaks of records at this interval [s]: what was
 /// asked, or the highest that they can hold.

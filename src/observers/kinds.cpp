@@ -1,17 +1,22 @@
 #include "observers/kinds.h"
 
-#include "observers/contact_watches.h"
-#include "observers/field_writer.h"
-#include "observers/floor_spectra.h"
-#include "observers/forces.h"
-#include "observers/loops.h"
-#include "observers/model_file.h"
-#include "observers/recorder.h"
-#include "observers/run_progress.h"
-#include "observers/watchdog.h"
-#include "observers/yield_table.h"
-
 namespace pounding {
+
+// Each at the end of its file.
+OutputKind spectra_output();
+OutputKind law_loops_output();
+OutputKind model_output();
+OutputKind impact_output();
+OutputKind contact_history_output();
+OutputKind loops_output();
+OutputKind uplift_output();
+OutputKind forces_output();
+OutputKind history_output();
+OutputKind fields_output();
+OutputKind slide_output();
+OutputKind energy_output();
+OutputKind yield_output();
+OutputKind progress_output();
 
 const std::vector<OutputKind>& output_kinds() {
   static const std::vector<OutputKind> kinds{

@@ -1,5 +1,3 @@
-#include "observers/loops.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,8 +15,8 @@
 #include "common/parallel.h"
 #include "common/types.h"
 #include "io/csv_file.h"
-#include "laws/hysteretic_law.h"
 #include "model/element_middle.h"
+#include "observers/observed_run.h"
 #include "observers/run_statistics.h"
 #include "system/links.h"
 
@@ -167,6 +165,11 @@ std::string name_of(const std::string& item, const Candidate& link,
   return name + "." + component + (link.is_dashpot() ? ".dashpot" : "");
 }
 
+/// Links that the scene wants recorded: finds them, has their steps record them, and brings
+/// elongation and force of each to the history. A link is named after its item, the element's
+/// number in the mesh file, and the component ("frame:pads.17.x", a bar's "axial", a dashpot's
+/// "x.dashpot"); a pair with filler after its contact and its number among the pairs. Throws
+/// UserError for a group without links. Collective.
 class Loops final : public Observer {
  public:
   explicit Loops(const ObservedRun& run);
@@ -193,81 +196,6 @@ class Loops final : public Observer {
   std::vector<Own> own_;            ///< per link of this rank
   std::vector<double> values_;      ///< elongation and force of each of these
 };
-
-const ResultFile law_table{"laws.csv", "the laws of the scene through cycles (-law_cycles)",
-                           "law,elongation,force,stored_J,lost_J"};
-
-/// A law with the name of the part that follows it.
-struct NamedLaw {
-  std::string name;  ///< structure:group:component
-  Hysteresis law;
-};
-
-void add_springs(const Region& region, const std::string& name, std::vector<NamedLaw>& laws) {
-  const NonlinearSpring& spring = region.nonlinear;
-  constexpr const char* components[] = {"x", "y", "z", "about_x", "about_y", "about_z"};
-  for (std::size_t c = 0; c < spring.yield_force.size(); ++c) {
-    if (!(spring.yield_force[c] > 0) || spring.is_in_circle(c)) continue;
-    const bool bar = !is_spring(region.element);
-    const double stiffness = bar ? region.material.young * region.area : region.stiffness[c];
-    laws.push_back({name + ":" + (bar ? "strain" : components[c]), spring.law_of(c, stiffness, 1)});
-  }
-}
-
-void add_yielding(const Region& region, const std::string& name, std::vector<NamedLaw>& laws) {
-  for (const YieldingSection::Law& law : region.yielding.laws()) {
-    laws.push_back({name + ":" + law.name, *law.law});
-  }
-  if (region.yielding_shell.shear) {
-    laws.push_back({name + ":shear", *region.yielding_shell.shear});
-  }
-}
-
-std::vector<NamedLaw> laws_of(const Scene& scene) {
-  std::vector<NamedLaw> laws;
-  for (const Structure& structure : scene.structures) {
-    for (const Region& region : structure.regions) {
-      const std::string name = structure.name + ":" + region.group;
-      add_springs(region, name, laws);
-      add_yielding(region, name, laws);
-    }
-  }
-  return laws;
-}
-
-/// Rows of one law; its steps are a hundredth of the first corner, or of the amplitude's hundredth.
-void write_loops(const NamedLaw& named, const std::vector<double>& amplitudes, CsvFile& file) {
-  const interactions::HystereticLaw law(named.law);
-  std::vector<double> memory(law.memory_size(), 0.0);
-  const auto first = [](const Skeleton& skeleton, const Skeleton& other) {
-    return (skeleton.breaks.empty() ? other : skeleton).breaks.front().elongation;
-  };
-  const double plus = first(named.law.positive, named.law.negative);
-  const double minus = first(named.law.negative, named.law.positive);
-  double at = 0;
-  const auto write = [&] {
-    file.row(named.name, {at, law.force(memory), law.stored(memory), law.lost(memory)});
-  };
-  const auto go = [&](double end) {
-    constexpr int steps_of_first = 100;
-    const double smallest = std::min(plus, minus) / steps_of_first;
-    const int steps = static_cast<int>(std::ceil(std::abs(end - at) / smallest));
-    const double begin = at;
-    for (int i = 1; i <= steps; ++i) {
-      at = begin + (end - begin) * i / steps;
-      law.advance(at, memory);
-      write();
-    }
-  };
-  write();
-  for (const double amplitude : amplitudes) {
-    for (int cycle = 0; cycle < 2; ++cycle) {
-      go(amplitude * plus);
-      go(-amplitude * minus);
-    }
-    go(0);
-  }
-}
 
 }  // namespace
 
@@ -376,30 +304,6 @@ void Loops::report(RunStatistics& statistics) {
 
 OutputKind loops_output() {
   return output<Loops>({}, [](const ObservedRun& run) { return !run.scene.loops.empty(); });
-}
-
-OutputKind law_loops_output() {
-  return {{law_table}};
-}
-
-void write_law_loops(MPI_Comm comm, const Scene& scene) {
-  on_rank0(comm, [&] {
-    constexpr double most = 1000;  // of steps, and of numbers read
-    if (std::ranges::any_of(scene.law_cycles, [](double x) { return x > most; })) {
-      throw UserError("option -law_cycles: an amplitude above 1000 times the first corner");
-    }
-    const std::vector<NamedLaw> laws = laws_of(scene);
-    if (laws.empty()) {
-      throw UserError(
-          "option -law_cycles: nothing in the scene yields by a law in one dimension; see "
-          "-<structure>_<group>_skeleton");
-    }
-    create_output(scene.output);
-    ResultTable file(scene, law_table);
-    for (const NamedLaw& law : laws) write_loops(law, scene.law_cycles, file);
-    file.close();
-    std::printf("laws: %zu in %s/%s\n", laws.size(), scene.output.c_str(), law_table.name.c_str());
-  });
 }
 
 }  // namespace pounding

@@ -22,9 +22,6 @@ namespace pounding {
 /// alike (no space). Collective.
 void write_model(MPI_Comm comm, const Scene& scene, const Model& model);
 
-/// The two of write_model and those of write_mode_shapes.
-OutputKind model_output();
-
 /// Groups and contacts of a scene as its pictures name them. Local.
 MeshLabels mesh_labels(const Scene& scene, const interactions::Interface& interface);
 

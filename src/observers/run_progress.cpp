@@ -15,6 +15,7 @@
 #include "common/facts.h"
 #include "common/progress.h"
 #include "observers/impact_catalogue.h"
+#include "observers/observed_run.h"
 
 namespace pounding {
 namespace {

@@ -2,8 +2,6 @@
 
 #include <string>
 
-#include "observers/observed_run.h"
-
 namespace pounding {
 
 /// How far the time loop is.
@@ -40,9 +38,6 @@ class RunProgress {
   double interval_;
   double next_;  ///< elapsed time of the next line [s]
 };
-
-/// Shows how far a run is.
-OutputKind progress_output();
 
 /// Whether somebody sees the standard output as it is written. mpirun gives rank 0 a terminal of
 /// its own even where its output goes to a file or a pipe: there the output of mpirun itself

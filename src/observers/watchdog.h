@@ -49,8 +49,4 @@ ClosedLine close_line(MPI_Comm comm, const Model& model, const State& state,
 /// `contact` may be null. Collective.
 void watch_contact(MPI_Comm comm, const interactions::ContactProblem* contact, double time);
 
-/// Lines of the energy ledger: `energy.csv`. Each stops a run whose numbers cannot be trusted
-/// (watchdog.h), and the bounds of the gap rates go by it.
-OutputKind energy_output();
-
 }  // namespace pounding

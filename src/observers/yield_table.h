@@ -7,10 +7,6 @@
 
 namespace pounding {
 
-/// Ductility, lost energy, place and time of every element that yields by a law with a skeleton:
-/// yielding.csv at the end of the run, and their sums by group and storey in the report.
-OutputKind yield_output();
-
 /// Elements of a structure that this rank counts, that may yield and that were moved at all, for
 /// FieldWriter: region, number in the mesh file, largest ductility, damage and energy lost [J] of
 /// each. Local.

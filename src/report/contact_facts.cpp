@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "checks/warnings.h"
+#include "checks/run_doubts.h"
 #include "report/report.h"
 
 namespace pounding {
@@ -19,6 +19,42 @@ Facts with_stop(const Stop& stop, const interactions::InterfaceReport& report, F
     facts.say(", {stop/stiffness:.4g} N/m and {stop/dashpot:.4g} N s/m beyond it\n");
   } else {
     facts.say(", hard\n");
+  }
+  return facts;
+}
+
+/// Sentences about the gaps of faces, with the facts of their patches.
+Facts with_gaps(const Contact& contact, const interactions::InterfaceReport& report, bool at_rest,
+                Facts facts) {
+  for (std::size_t p = 0; p < report.patch_pairs.size(); ++p) {
+    const Json patch{{"gap", contact.gap.patches[p].gap}, {"pairs", report.patch_pairs[p]}};
+    facts.values["gap_patches"].push_back(patch);
+    facts.text += told("  patch {}: {pairs} pairs with a gap of {gap:.4g mm}\n", patch, {p + 1});
+  }
+  if (at_rest) {
+    facts.say("  gap at rest {initial_gap:.4g mm}, unloaded {unloaded_gap:.4g mm}\n");
+  }
+  if (contact.gap_assumed_so) {
+    facts.say(
+        "  the gap given is that at rest (earlier versions took it for that of the unloaded "
+        "meshes); -{}_gap_at rest or unloaded tells which\n",
+        {report.contact});
+  }
+  if (report.carried > 0) {
+    facts.say(
+        "  {carried_nodes} more nodes are held by those of the face that they follow in a tie\n");
+  }
+  if (report.half_thickness[0] > 0 || report.half_thickness[1] > 0) {
+    facts.say(
+        "  of the meshes {geometric_gap:.4g mm} between surfaces, half a thickness off: "
+        "{half_thickness/0:.4g [mm]} and {half_thickness/1:.4g mm}\n");
+  }
+  if (contact.crushes()) {
+    facts.say(
+        "  faces of {crushing/area:.4g} m2 are crushed by {crushing/strength:.4g} Pa, hard after "
+        "{crushing/depth:.4g mm}\n");
+  } else if (report.filler_area > 0) {
+    facts.say("  filler of {filler/area:.4g} m2, {filler/thickness:.4g mm} thick, in the gap\n");
   }
   return facts;
 }
@@ -47,6 +83,49 @@ std::string told_side(const Json& side) {
       " {structure} {peak_displacement:.4g mm}"
       "[ ({modes} modes, most at {frequency:.4g} Hz, {damping_ratio:.3g %})]",
       side);
+}
+
+/// Adds the loads of a filler, of faces that are crushed or of an elastic stop to the facts of its
+/// contact. Returns the sentence of the report.
+std::string add_loads(const Contact& contact, const interactions::FillerTotals& filler, Json& of) {
+  if (contact.is_elastic()) {
+    of["stop"].update({{"peak_force", filler.peak_force}, {"energy_lost", filler.loss}});
+    return told("  {:-12s} stop pressed by at most {peak_force:.4g kN}, took {energy_lost:.4g} J\n",
+                of["stop"], {contact.name});
+  }
+  Json& loads = of[contact.crushes() ? "crushing" : "filler"];
+  loads.update({{"peak_pressure", filler.peak_pressure}, {"peak_force", filler.peak_force}});
+  const std::string pressed =
+      told(" pressed by at most {peak_pressure:.4g kPa}, {peak_force:.4g kN} in all, crushed by ",
+           loads);
+  if (!contact.crushes()) {
+    loads.update({{"crushed_strain", filler.crushed_strain}, {"energy_lost", filler.loss}});
+    return told("  {:-12s} filler", loads, {contact.name}) + pressed +
+           told("{crushed_strain:.3g %}, took {energy_lost:.4g} J\n", loads);
+  }
+  loads.update({{"crushed_depth", filler.crushed_depth},
+                {"crushed_place", filler.crushed_place},
+                {"energy_lost", filler.loss}});
+  return told("  {:-12s} faces", loads, {contact.name}) + pressed +
+         told("{crushed_depth:.4g mm}", loads) +
+         (filler.crushed_depth > 0 ? told(" at ({crushed_place/0:.4g}, {crushed_place/1:.4g}) m, "
+                                          "took {energy_lost:.4g} J",
+                                          loads)
+                                   : "") +
+         "\n";
+}
+
+/// Adds how deep nodes went in a pass that is not taken. Returns the sentence of the report.
+std::string add_other_pass(const Contact& contact, const OtherPass& other, Json& of) {
+  if (!(other.depth > 0)) return "";
+  of["other_pass"] = {{"depth", other.depth},
+                      {"facet_size", other.facet_size},
+                      {"place", other.place},
+                      {"time", other.time}};
+  return told(
+      "  {:-12s} nodes of the primary, of which no pass is taken, went into it by at most "
+      "{depth:.3g mm}, at ({place/0:.4g}, {place/1:.4g}) m, t = {time:.4g} s\n",
+      of["other_pass"], {contact.name});
 }
 
 }  // namespace
@@ -87,37 +166,7 @@ Facts contact_facts(const Scene& scene, const Model& model, std::size_t c) {
   if (report.passes == 2) {
     facts.say("  in two passes: nodes of either side are kept out of the other\n");
   }
-  for (std::size_t p = 0; p < report.patch_pairs.size(); ++p) {
-    const Json patch{{"gap", contact.gap.patches[p].gap}, {"pairs", report.patch_pairs[p]}};
-    facts.values["gap_patches"].push_back(patch);
-    facts.text += told("  patch {}: {pairs} pairs with a gap of {gap:.4g mm}\n", patch, {p + 1});
-  }
-  if (model.equilibrium) {
-    facts.say("  gap at rest {initial_gap:.4g mm}, unloaded {unloaded_gap:.4g mm}\n");
-  }
-  if (contact.gap_assumed_so) {
-    facts.say(
-        "  the gap given is that at rest (earlier versions took it for that of the unloaded "
-        "meshes); -{}_gap_at rest or unloaded tells which\n",
-        {report.contact});
-  }
-  if (report.carried > 0) {
-    facts.say(
-        "  {carried_nodes} more nodes are held by those of the face that they follow in a tie\n");
-  }
-  if (report.half_thickness[0] > 0 || report.half_thickness[1] > 0) {
-    facts.say(
-        "  of the meshes {geometric_gap:.4g mm} between surfaces, half a thickness off: "
-        "{half_thickness/0:.4g [mm]} and {half_thickness/1:.4g mm}\n");
-  }
-  if (contact.crushes()) {
-    facts.say(
-        "  faces of {crushing/area:.4g} m2 are crushed by {crushing/strength:.4g} Pa, hard after "
-        "{crushing/depth:.4g mm}\n");
-  } else if (report.filler_area > 0) {
-    facts.say("  filler of {filler/area:.4g} m2, {filler/thickness:.4g mm} thick, in the gap\n");
-  }
-  return facts;
+  return with_gaps(contact, report, model.equilibrium.has_value(), std::move(facts));
 }
 
 Facts joint_facts(const Scene& scene, const Model& model, const RunStatistics& run) {
@@ -133,17 +182,8 @@ Facts joint_facts(const Scene& scene, const Model& model, const RunStatistics& r
                {"closing_factor", std::isfinite(factor) ? Json(factor) : Json()},
                {"largest_slide", run.slides[c].distance},
                {"slide_facet_size", run.slides[c].facet_size}});
-    if (const OtherPass& other = run.other_passes[c]; other.depth > 0) {
-      of["other_pass"] = {{"depth", other.depth},
-                          {"facet_size", other.facet_size},
-                          {"place", other.place},
-                          {"time", other.time}};
-      closings += told(
-          "  {:-12s} nodes of the primary, of which no pass is taken, went into it by at most "
-          "{depth:.3g mm}, at ({place/0:.4g}, {place/1:.4g}) m, t = {time:.4g} s\n",
-          of["other_pass"], {contact.name});
-    }
-    closings += told("  {:-12s} closed by at most {largest_closing:.4g mm} in the samples", of,
+    closings += add_other_pass(contact, run.other_passes[c], of) +
+                told("  {:-12s} closed by at most {largest_closing:.4g mm} in the samples", of,
                      {contact.name});
     if (apart) {
       closings += told(
@@ -161,40 +201,7 @@ Facts joint_facts(const Scene& scene, const Model& model, const RunStatistics& r
     }
     slides += '\n';
     if (!contact.filler && !contact.is_elastic()) continue;
-    const interactions::FillerTotals& filler = run.fillers[c];
-    if (contact.is_elastic()) {
-      of["stop"].update({{"peak_force", filler.peak_force}, {"energy_lost", filler.loss}});
-      facts.text +=
-          told("  {:-12s} stop pressed by at most {peak_force:.4g kN}, took {energy_lost:.4g} J\n",
-               of["stop"], {contact.name});
-      continue;
-    }
-    if (contact.crushes()) {
-      of["crushing"].update({{"peak_pressure", filler.peak_pressure},
-                             {"peak_force", filler.peak_force},
-                             {"crushed_depth", filler.crushed_depth},
-                             {"crushed_place", filler.crushed_place},
-                             {"energy_lost", filler.loss}});
-      facts.text += told(
-          "  {:-12s} faces pressed by at most {peak_pressure:.4g kPa}, {peak_force:.4g kN} in all, "
-          "crushed by {crushed_depth:.4g mm}",
-          of["crushing"], {contact.name});
-      if (filler.crushed_depth > 0) {
-        facts.text +=
-            told(" at ({crushed_place/0:.4g}, {crushed_place/1:.4g}) m, took {energy_lost:.4g} J",
-                 of["crushing"]);
-      }
-      facts.text += '\n';
-      continue;
-    }
-    of["filler"].update({{"peak_pressure", filler.peak_pressure},
-                         {"peak_force", filler.peak_force},
-                         {"crushed_strain", filler.crushed_strain},
-                         {"energy_lost", filler.loss}});
-    facts.text += told(
-        "  {:-12s} filler pressed by at most {peak_pressure:.4g kPa}, {peak_force:.4g kN} in all, "
-        "crushed by {crushed_strain:.3g %}, took {energy_lost:.4g} J\n",
-        of["filler"], {contact.name});
+    facts.text += add_loads(contact, run.fillers[c], of);
   }
   facts.text += closings + slides;
   return facts;

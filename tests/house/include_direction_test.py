@@ -39,7 +39,7 @@ MAY_INCLUDE = {
               "interactions/pairing", "statics", "dynamics"},
     "observers": {"common", "io", "scene", "elements", "mesh", "system", "modal", "motion", "motion/records",
                   "interactions", "laws", "interactions/pairing", "dynamics", "output", "model"},
-    "checks": {"common", "scene", "mesh", "stability", "model", "observers"},
+    "checks": {"common", "scene", "mesh", "stability", "motion", "model", "observers"},
     "report": {"common", "io", "scene", "elements", "system", "stability", "motion", "output", "model", "observers",
                "checks"},
     "driver": {"common", "io", "scene", "mesh", "system", "modal", "stability", "interactions/pairing", "statics",

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "checks/run_doubts.h"
 #include "checks/warnings.h"
 #include "common/error.h"
 
