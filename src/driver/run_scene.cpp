@@ -83,6 +83,33 @@ std::vector<TargetSpectrum> take_capacities(MPI_Comm comm, Scene& scene) {
   return capacities;
 }
 
+/// Loops of laws or pieces of meshes, in place of a run, where a scene asks for them. Collective.
+bool write_in_place_of_run(MPI_Comm comm, Scene& scene, Profile& profile) {
+  if (!scene.law_cycles.empty()) {
+    write_law_loops(comm, scene);
+  } else if (scene.write_mesh_pieces > 0) {
+    write_mesh_pieces(comm, scene, profile);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+/// Files of the model, and the beginning of the results. `folder`: of rank 0. Collective.
+void write_before_run(MPI_Comm comm, const Scene& scene, const std::string& resolved,
+                      const Provenance& provenance, const Model& model,
+                      const std::optional<ResultFolder>& folder) {
+  if (!scene.dry_run) {
+    on_rank0(comm, [&] { begin_results(scene, resolved, provenance, *folder); });
+    if (scene.write_model) write_model(comm, scene, model);
+  }
+  if (scene.write_modes) {
+    on_rank0(comm, [&] { create_output(scene.output); });
+    write_mode_shapes(comm, scene, model);
+  }
+  print_fields(comm, scene, model);
+}
+
 /// The last words of a dry run. Collective.
 void end_dry_run(MPI_Comm comm, const Scene& scene, const Model& model, Profile& profile) {
   profile.note_memory(Phase::step);
@@ -129,14 +156,7 @@ RunOutcome run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
   on_rank0(comm, [&] { take_folders(scene, resolved, runs, folder); });
   const std::vector<TargetSpectrum> capacities = take_capacities(comm, scene);
   if (root) print_title(scene, overrides_text(origin), size_of(comm));
-  if (!scene.law_cycles.empty()) {
-    write_law_loops(comm, scene);
-    return {};
-  }
-  if (scene.write_mesh_pieces > 0) {
-    write_mesh_pieces(comm, scene, profile);
-    return {};
-  }
+  if (write_in_place_of_run(comm, scene, profile)) return {};
   Provenance provenance;  // a dry run leaves no summary to tell it
   if (!scene.dry_run) provenance = note_provenance(comm, origin, resolved);
   if (!scene.restart.empty()) {
@@ -150,15 +170,7 @@ RunOutcome run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
   if (!scene.export_matrices.empty()) export_matrices(comm, scene, model);
   const RunIdentity identity = identity_of(comm, resolved, model);
   const std::optional<SavedState> restart = read_restart(comm, scene, model, identity);
-  if (!scene.dry_run) {
-    on_rank0(comm, [&] { begin_results(scene, resolved, provenance, *folder); });
-    if (scene.write_model) write_model(comm, scene, model);
-  }
-  if (scene.write_modes) {
-    on_rank0(comm, [&] { create_output(scene.output); });
-    write_mode_shapes(comm, scene, model);
-  }
-  print_fields(comm, scene, model);
+  write_before_run(comm, scene, resolved, provenance, model, folder);
   TimeLoop loop(comm, scene, model, profile);
   const double seconds = loop.measure(scene.dry_run ? 200 : 50);
   if (root && scene.dry_run) {

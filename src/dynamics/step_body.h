@@ -8,6 +8,35 @@
 
 namespace pounding {
 
+/// Calls `advance<k>` for the dofs [first, end), a vector at a time, k its place in the pattern of
+/// the masses.
+template <typename Number, typename Masses, typename Advance>
+__attribute__((always_inline)) inline void in_patterns(std::size_t first, std::size_t end,
+                                                       const Number* force, Masses& masses,
+                                                       const Advance& advance) {
+  constexpr AllLanes whole;
+  constexpr std::size_t lanes = wide_lane_count;
+  std::size_t i = first, number = 0;
+  for (; i + step_pattern <= end; i += step_pattern, force += step_pattern, ++number) {
+    masses.begin_pattern(number);
+    advance.template operator()<0>(i, force, whole);
+    advance.template operator()<1>(i + lanes, force + lanes, whole);
+    advance.template operator()<2>(i + 2 * lanes, force + 2 * lanes, whole);
+  }
+  masses.begin_pattern(number);
+  const auto advance_last = [&]<int k>() __attribute__((always_inline)) {
+    const std::size_t begin = i + k * lanes;
+    if (begin + lanes <= end) {
+      advance.template operator()<k>(begin, force + k * lanes, whole);
+    } else if (begin < end) {
+      advance.template operator()<k>(begin, force + k * lanes, end - begin);
+    }
+  };
+  advance_last.template operator()<0>();
+  advance_last.template operator()<1>();
+  advance_last.template operator()<2>();
+}
+
 /// Brings the dofs [first, end) of a structure one step on, by values: numbers or vectors, with the
 /// forces q from force[0] on. Policies give other actions, masses, and the effect of the ground.
 template <typename Number, typename Actions, typename Masses, typename Ground, typename Value>
@@ -53,29 +82,12 @@ void advance_values(StateOf<Number>& state, const StepTerms<Number>& all, std::s
     store_first(dof.displacement, count, displacement + i);
   };
   constexpr AllLanes whole;
-  constexpr std::size_t lanes = wide_lane_count;
-  std::size_t i = first, number = 0;
   if constexpr (std::is_same_v<Value, Number>) {
-    for (; i < end; ++i, ++force) advance_value.template operator()<0>(i, force, whole);
-  } else {
-    for (; i + step_pattern <= end; i += step_pattern, force += step_pattern, ++number) {
-      masses.begin_pattern(number);
+    for (std::size_t i = first; i < end; ++i, ++force) {
       advance_value.template operator()<0>(i, force, whole);
-      advance_value.template operator()<1>(i + lanes, force + lanes, whole);
-      advance_value.template operator()<2>(i + 2 * lanes, force + 2 * lanes, whole);
     }
-    masses.begin_pattern(number);
-    const auto advance_last = [&]<int k>() __attribute__((always_inline)) {
-      const std::size_t begin = i + k * lanes;
-      if (begin + lanes <= end) {
-        advance_value.template operator()<k>(begin, force + k * lanes, whole);
-      } else if (begin < end) {
-        advance_value.template operator()<k>(begin, force + k * lanes, end - begin);
-      }
-    };
-    advance_last.template operator()<0>();
-    advance_last.template operator()<1>();
-    advance_last.template operator()<2>();
+  } else {
+    in_patterns(first, end, force, masses, advance_value);
   }
   kept = {sums.stiffness_work, sums.mass_sum, sums.filtered, sums.device, sums.known_work};
 }

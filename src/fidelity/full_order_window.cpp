@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <deque>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -12,22 +10,15 @@
 #include "common/facts.h"
 #include "common/parallel.h"
 #include "driver/build_model.h"
-#include "driver/time_loop.h"
+#include "fidelity/inherited_motion.h"
 #include "fidelity/probe_means.h"
-#include "interactions/frictional_contact.h"
-#include "interactions/interface_rows.h"
+#include "fidelity/window_place.h"
 #include "model/solver.h"
 #include "motion/response_spectrum.h"
 #include "observers/observed_run.h"
 
 namespace pounding {
 namespace {
-
-/// Time over which the ground's motion sets in at full order [s].
-constexpr double fade_in = 0.1;
-
-/// Part of the window before the impact that it is made for, the fade-in being a part of that [s].
-constexpr double before_impact = 0.15;
 
 /// Part by which the ground's motion is changed at least and at most.
 constexpr double least_disturbance = 1e-3;
@@ -70,58 +61,6 @@ void set_free(Model& model) {
   }
 }
 
-/// A part of a run, by steps that make records.
-struct Window {
-  std::int64_t first = 0;  ///< the last step before it
-  std::int64_t last = 0;
-  std::string reason{};
-};
-
-/// The time that the window is about, and why.
-std::pair<double, std::string> decisive_time(const Scene& scene, const ImpactCatalogue& impacts,
-                                             const Recorder& recorder) {
-  const auto& list = impacts.impacts();
-  if (!list.empty()) {
-    const Impact& impact = *std::ranges::max_element(list, {}, &Impact::impulse);
-    return {impact.start,
-            sentence("around the largest impulse, {:.4g} N s of {} at {:.4g} s",
-                     {impact.impulse, scene.contacts[impact.contact].name, impact.start})};
-  }
-  double largest = 0;
-  double time = 0;
-  for (std::size_t channel = 0; channel < 3 * recorder.probes().size(); ++channel) {
-    const std::vector<double> values = recorder.acceleration(channel);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (std::abs(values[i]) <= largest) continue;
-      largest = std::abs(values[i]);
-      time = static_cast<double>(i) * recorder.interval();
-    }
-  }
-  return {time, "around the largest acceleration of a probe; nothing was hit"};
-}
-
-Window place_window(MPI_Comm comm, const Scene& scene, const Model& model,
-                    const ImpactCatalogue& impacts, const Recorder& recorder, double length) {
-  Window window;
-  std::vector<std::int64_t> steps(2);
-  on_rank0(comm, [&] {
-    auto [time, reason] = decisive_time(scene, impacts, recorder);
-    window.reason = std::move(reason);
-    const std::int64_t stride = record_stride(scene, model);
-    const std::int64_t end = model.steps / stride;
-    const double interval = recorder.interval();
-    const std::int64_t records = std::clamp<std::int64_t>(std::llround(length / interval),
-                                                          std::min<std::int64_t>(2, end), end);
-    const std::int64_t begin = std::llround((time - before_impact) / interval);
-    const std::int64_t first = std::clamp<std::int64_t>(begin, 0, end - records);
-    steps = {first * stride, (first + records) * stride};
-  });
-  broadcast_array(comm, steps);
-  window.first = steps[0];
-  window.last = steps[1];
-  return window;
-}
-
 /// Sum of the impulses of a run, on the root of its contacts.
 void add_impulses(MPI_Comm comm, Solver& solver, double& sum) {
   if (solver.contact() == nullptr || solver.contact()->root() != rank_of(comm)) return;
@@ -129,102 +68,8 @@ void add_impulses(MPI_Comm comm, Solver& solver, double& sum) {
   for (const double impulse : solver.row_actions().impulses) sum += impulse;
 }
 
-/// Motion of the reduced structures by themselves from the beginning of the window on.
-class Inherited {
- public:
-  Inherited(MPI_Comm comm, const Scene& scene, const Model& model, const Window& window,
-            const SavedState& state, Profile& profile)
-      : comm_(comm),
-        model_(model),
-        stride_(record_stride(scene, model)),
-        first_(window.first),
-        motion_(model.motion->part(GroundMotion::Part::leaves, start(), start() + fade_in)),
-        none_{{}, {}, {}, model.interface.extents, model.interface.model_size, {}, {}},
-        solver_(parts(scene, profile)),
-        means_(model.probes, model.systems, model.meshes),
-        rows_(comm, interactions::with_friction_rows(model.interface.constraints), model.systems,
-              model.meshes) {
-    solver_.stepper().load(state);
-    take_places(-model.time_step);
-    take_places(0);
-    record();
-  }
-
-  /// When the window begins: the next step's time [s].
-  double start() const { return static_cast<double>(first_ + 1) * model_.time_step; }
-  std::size_t dofs() const { return rows_.dofs(); }
-  /// Displacements of the interface's places at a time after the start [m].
-  void places(double time, std::vector<double>& result) {
-    const double steps = time / model_.time_step;
-    const auto whole = static_cast<std::int64_t>(std::floor(steps));
-    while (front_ + static_cast<std::int64_t>(places_.size()) < whole + 3) step();
-    for (; front_ < whole - 1; ++front_) places_.pop_front();
-    // Cubic through the two steps before and the two after.
-    const double s = steps - static_cast<double>(whole);
-    const double weights[] = {-s * (s - 1) * (s - 2) / 6, (s + 1) * (s - 1) * (s - 2) / 2,
-                              -(s + 1) * s * (s - 2) / 2, (s + 1) * s * (s - 1) / 6};
-    std::ranges::fill(result, 0.0);
-    for (std::size_t k = 0; k < 4; ++k) {
-      for (std::size_t i = 0; i < result.size(); ++i) result[i] += weights[k] * places_[k][i];
-    }
-  }
-  /// Makes the records until step `last` of the run.
-  void finish(std::int64_t last) {
-    while (solver_.stepper().state().step <= last) step();
-  }
-  /// Velocities of the channels in every record from the window's first step on, this rank's part.
-  const std::vector<double>& records() const { return records_; }
-
- private:
-  Solver::Parts parts(const Scene& scene, Profile& profile) const {
-    Solver::Parts parts = solver_parts(comm_, scene, model_, model_.meshes, profile);
-    parts.interface = &none_;
-    parts.motion = &motion_;
-    return parts;
-  }
-  void step() {
-    CdLagrange& stepper = solver_.stepper();
-    stepper.step(false, false);
-    if ((stepper.state().step - 1) % stride_ == 0) record();
-    take_places(0);
-  }
-  /// The places of the state, and how its velocity moves them for a while [s].
-  void take_places(double duration) {
-    std::vector<double> values(rows_.dofs());
-    if (rows_.member()) {
-      for (std::size_t s = 0; s < model_.systems.size(); ++s) {
-        const StructureState& state = solver_.stepper().state().structures[s];
-        std::vector<double> owned = state.displacement;
-        for (std::size_t i = 0; i < owned.size(); ++i) owned[i] += duration * state.velocity[i];
-        rows_.set(s, 0, 1, owned.data(), {});
-      }
-      rows_.gather(1, values);
-    }
-    if (rows_.dofs() > 0) broadcast_array(comm_, values, rows_.root());
-    places_.push_back(std::move(values));
-  }
-  void record() {
-    const std::size_t before = records_.size();
-    records_.resize(before + means_.channels());
-    means_.velocities(solver_.stepper().state(), {records_.data() + before, means_.channels()});
-  }
-
-  MPI_Comm comm_;
-  const Model& model_;
-  int stride_;
-  std::int64_t first_;
-  GroundMotion motion_;
-  interactions::Interface none_;
-  Solver solver_;
-  ProbeMeans means_;
-  interactions::InterfaceRows rows_;
-  std::deque<std::vector<double>> places_;
-  std::int64_t front_ = -1;  ///< step after the start of the first of `places_`
-  std::vector<double> records_;
-};
-
 /// Velocities of the channels at full order at the times of the records, this rank's part.
-std::vector<double> run_window(const Window& window, Inherited& inherited, int stride,
+std::vector<double> run_window(const Window& window, InheritedMotion& inherited, int stride,
                                double reduced_step, double step, ProbeMeans& means, Solver& solver,
                                const std::function<void()>& after_step) {
   const std::size_t channels = means.channels();
@@ -370,7 +215,7 @@ std::vector<double> run_full_window(MPI_Comm comm, const Scene& scene, const Mod
                                     const Window& window, const SavedState& state,
                                     FidelityEstimate& estimate) {
   Profile profile;
-  Inherited inherited(comm, scene, model, window, state, profile);
+  InheritedMotion inherited(comm, scene, model, window.first, state, profile);
   Scene full_scene = at_full_order(scene, model);
   const std::vector<double> ones(scene.structures.size(), 1.0);
   Model full = build_model(comm, full_scene, ones, profile);

@@ -6,13 +6,12 @@
 
 #include "common/dense_matrix.h"
 #include "common/magnitude.h"
+#include "solvers/friction_point.h"
 #include "solvers/sparse_rows.h"
 
 namespace pounding::interactions {
 namespace {
 
-/// Coupling of a point's normal and tangents below which it is round-off.
-constexpr double no_coupling = 1e-14;
 /// Residual that is wanted, and how far above the round-off of v it may end.
 constexpr double wanted_residual = 1e-14;
 constexpr double above_noise = 4;
@@ -53,60 +52,12 @@ constexpr std::size_t most_newton_points = 256;
 /// Share of H_nn, h_t that keeps Newton's matrix regular where H is not.
 constexpr double regular_share = 1e-10;
 
-using Pair = std::array<double, 2>;
-
-double size(double x, double y) {
-  return std::sqrt(x * x + y * y);
-}
-
-/// The nearest point of a disk.
-Pair onto_disk(double x, double y, double radius) {
-  const double length = size(x, y);
-  if (length <= radius) return {x, y};
-  return {x * (radius / length), y * (radius / length)};
-}
-
-/// Numbers of one point within the problem.
-struct Point {
-  Point(const FrictionProblem& problem, std::size_t i) : first(3 * i) {
-    for (std::size_t d = 0; d < 3; ++d) {
-      const std::span<const int> columns = problem.delassus.columns(first + d);
-      const auto own = std::ranges::lower_bound(columns, static_cast<int>(first));
-      std::copy_n(&problem.delassus.values(first + d)[own - columns.begin()], 3, &block[3 * d]);
-    }
-  }
-  double h(std::size_t a, std::size_t b) const { return block[3 * a + b]; }
-  double normal() const { return h(0, 0); }
-  double tangential() const { return (h(1, 1) + h(2, 2)) / 2; }
-  bool isotropic() const {
-    const double small = no_coupling * tangential();
-    return std::abs(h(1, 2)) <= small && std::abs(h(1, 1) - h(2, 2)) <= small;
-  }
-  bool uncoupled() const {
-    const double small = no_coupling * std::sqrt(normal() * tangential());
-    return std::abs(h(0, 1)) <= small && std::abs(h(0, 2)) <= small;
-  }
-
-  std::size_t first;
-  std::array<double, 9> block{};
-};
-
-/// Tangential impulse of a point whose rate without it is c.
-Pair slide(const Point& point, const Pair& c, double radius) {
-  const double h = point.tangential();
-  if (!(h > 0) || !(radius > 0)) return {0, 0};
-  if (point.isotropic()) return onto_disk(-c[0] / h, -c[1] / h, radius);
-  double impulse[2];
-  solve_on_disk({point.h(1, 1), (point.h(1, 2) + point.h(2, 1)) / 2, point.h(2, 2)}, {c[0], c[1]},
-                radius, impulse);
-  return {impulse[0], impulse[1]};
-}
-
 /// One point alone without coupling of its normal and tangents.
-void solve_alone(const FrictionProblem& problem, const Point& point, std::span<double> impulse) {
+void solve_alone(const FrictionProblem& problem, const FrictionPoint& point,
+                 std::span<double> impulse) {
   const std::span<const double> b = problem.free_rate;
   impulse[0] = point.normal() > 0 ? std::max(0.0, -b[0]) / point.normal() : 0;
-  const Pair tangential = slide(point, {b[1], b[2]}, problem.coefficient[0] * impulse[0]);
+  const Tangents tangential = point.slide({b[1], b[2]}, problem.coefficient[0] * impulse[0]);
   impulse[1] = tangential[0];
   impulse[2] = tangential[1];
 }
@@ -129,72 +80,22 @@ Real row_rate(const FrictionProblem& problem, std::size_t row, std::span<const d
   return rate;
 }
 
-/// Natural map of one point [m/s] from its rates and impulses.
-double natural_map(const Point& point, double coefficient, const double* v, const double* lambda) {
-  double worst = 0;
-  const double h = point.normal();
-  if (h > 0) {
-    worst = std::abs(std::min(lambda[0] * h, v[0]));
-  }
-  const double t = point.tangential();
-  const double radius = coefficient * std::max(0.0, lambda[0]);
-  if (t > 0) {
-    const Pair on = onto_disk(lambda[1] - v[1] / t, lambda[2] - v[2] / t, radius);
-    worst = std::max(worst, t * size(lambda[1] - on[0], lambda[2] - on[1]));
-  }
-  return worst;
-}
-
 }  // namespace
 
 double friction_residual(const FrictionProblem& problem, std::span<const double> impulse) {
   double worst = 0;
   for (std::size_t i = 0; 3 * i < impulse.size(); ++i) {
-    const Point point(problem, i);
+    const FrictionPoint point(problem.delassus, i);
     std::array<double, 3> rate{};
     for (std::size_t d = 0; d < 3; ++d) {
       rate[d] = static_cast<double>(row_rate<long double>(problem, 3 * i + d, impulse));
     }
-    const double map = natural_map(point, problem.coefficient[i], rate.data(), &impulse[3 * i]);
+    const double map = point.natural_map(problem.coefficient[i], rate.data(), &impulse[3 * i]);
     if (!std::isfinite(map)) return infinity;
     worst = std::max(worst, map);
   }
   const double scale = largest_magnitude(problem.free_rate);
   return worst > 0 ? worst / scale : 0;
-}
-
-void solve_on_disk(const double (&matrix)[3], const double (&rate)[2], double radius,
-                   double (&impulse)[2]) {
-  // Principal axes of A.
-  const double mean = (matrix[0] + matrix[2]) / 2;
-  const double half = (matrix[0] - matrix[2]) / 2;
-  const double spread = size(half, matrix[1]);
-  const double angle = std::atan2(matrix[1], half) / 2;
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  const Pair stiffness{mean + spread, mean - spread};
-  const Pair turned{c * rate[0] + s * rate[1], c * rate[1] - s * rate[0]};
-  const double least = 8 * epsilon * stiffness[0];
-  Pair x{0, 0};
-  const auto at = [&](double shift) {
-    for (std::size_t d = 0; d < 2; ++d) {
-      x[d] = stiffness[d] > least ? -turned[d] / (stiffness[d] + shift) : 0;
-    }
-    return size(x[0], x[1]);
-  };
-  double length = at(0);
-  double shift = 0;
-  for (int i = 0; i < 60 && length > radius * (1 + 2 * epsilon); ++i) {
-    double slope = 0;
-    for (std::size_t d = 0; d < 2; ++d) {
-      if (stiffness[d] > least) slope += x[d] * x[d] / (stiffness[d] + shift);
-    }
-    shift += (length * length / slope) * ((length - radius) / radius);
-    length = at(shift);
-  }
-  if (length > radius) x = onto_disk(x[0], x[1], radius);
-  impulse[0] = c * x[0] - s * x[1];
-  impulse[1] = s * x[0] + c * x[1];
 }
 
 FrictionSolver::FrictionSolver(std::size_t max_points)
@@ -224,8 +125,8 @@ double FrictionSolver::measure(const FrictionProblem& problem, std::span<const d
     noise_ = std::max(noise_, epsilon * terms / largest_free_rate_);
   }
   for (std::size_t i = 0; 3 * i < n; ++i) {
-    const double map =
-        natural_map(Point(problem, i), problem.coefficient[i], &rate_[3 * i], &impulse[3 * i]);
+    const double map = FrictionPoint(problem.delassus, i)
+                           .natural_map(problem.coefficient[i], &rate_[3 * i], &impulse[3 * i]);
     worst = std::max(worst, map);
   }
   return worst / largest_free_rate_;
@@ -235,7 +136,7 @@ double FrictionSolver::sweep(const FrictionProblem& problem, double relaxation,
                              std::span<double> impulse) {
   double change = 0;
   for (std::size_t i = 0; 3 * i < impulse.size(); ++i) {
-    const Point point(problem, i);
+    const FrictionPoint point(problem.delassus, i);
     double* const lambda = &impulse[point.first];
     const std::array<double, 3> before{lambda[0], lambda[1], lambda[2]};
     const double h = point.normal();
@@ -243,12 +144,12 @@ double FrictionSolver::sweep(const FrictionProblem& problem, double relaxation,
       const double rate = row_rate<double>(problem, point.first, impulse);
       lambda[0] = std::max(0.0, lambda[0] - rate / h);
     }
-    Pair free{};
+    Tangents free{};
     for (std::size_t a = 0; a < 2; ++a) {
       free[a] = row_rate<double>(problem, point.first + 1 + a, impulse) -
                 point.h(1 + a, 1) * lambda[1] - point.h(1 + a, 2) * lambda[2];
     }
-    const Pair tangential = slide(point, free, problem.coefficient[i] * lambda[0]);
+    const Tangents tangential = point.slide(free, problem.coefficient[i] * lambda[0]);
     lambda[1] = tangential[0];
     lambda[2] = tangential[1];
     for (std::size_t d = 0; d < 3; ++d) {
@@ -263,7 +164,7 @@ double FrictionSolver::sweep(const FrictionProblem& problem, double relaxation,
 void FrictionSolver::linearise(const FrictionProblem& problem, std::span<const double> impulse,
                                std::size_t number) {
   const std::size_t n = impulse.size();
-  const Point point(problem, number);
+  const FrictionPoint point(problem.delassus, number);
   const double* const lambda = &impulse[point.first];
   const double* const v = &rate_[point.first];
   const auto row = [&](std::size_t d) { return jacobian_.data() + (point.first + d) * n; };
@@ -294,7 +195,7 @@ void FrictionSolver::linearise(const FrictionProblem& problem, std::span<const d
     return;
   }
   wants_rate(0, h);
-  const Pair d{lambda[1] - v[1] / t, lambda[2] - v[2] / t};
+  const Tangents d{lambda[1] - v[1] / t, lambda[2] - v[2] / t};
   const double length = size(d[0], d[1]);
   if (length <= radius) {
     wants_rate(1, t);
@@ -302,7 +203,7 @@ void FrictionSolver::linearise(const FrictionProblem& problem, std::span<const d
     return;
   }
   // t (lambda_t - radius e) = 0 with e = d / |d|, d = lambda_t - v_t / t.
-  const Pair e{d[0] / length, d[1] / length};
+  const Tangents e{d[0] / length, d[1] / length};
   for (std::size_t a = 0; a < 2; ++a) {
     const double across[2] = {(a == 0 ? 1.0 : 0.0) - e[a] * e[0],
                               (a == 1 ? 1.0 : 0.0) - e[a] * e[1]};
@@ -372,7 +273,7 @@ double FrictionSolver::hasten(const FrictionProblem& problem, std::optional<std:
                               double enough, std::span<double> impulse, FrictionResult& result) {
   const std::size_t n = impulse.size();
   for (std::size_t i = 0; 3 * i < n; ++i) {
-    const Point point(problem, i);
+    const FrictionPoint point(problem.delassus, i);
     for (std::size_t d = 0; d < 3; ++d) weight_[3 * i + d] = point.h(d, d);
   }
   const std::span<double> image(image_.data(), n);
@@ -480,7 +381,7 @@ FrictionResult FrictionSolver::solve(const FrictionProblem& problem, std::span<d
     std::ranges::fill(impulse, 0.0);
     return result;
   }
-  const Point first(problem, 0);
+  const FrictionPoint first(problem.delassus, 0);
   if (n == 3 && first.uncoupled()) {
     solve_alone(problem, first, impulse);
   } else {

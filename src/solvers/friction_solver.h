@@ -38,14 +38,6 @@ struct FrictionProblem {
 /// finite. Sums in extended precision, apart from the algorithm that found the impulse.
 double friction_residual(const FrictionProblem& problem, std::span<const double> impulse);
 
-/// Tangential impulse x [N s] of one point of Coulomb's law at a known normal impulse: the least of
-/// 1/2 x^T A x + c^T x on the disk |x| <= radius, A = {a11, a12, a22} symmetric semi-definite
-/// [1/kg]. Directions without mobility get no impulse. In closed form within the disk, by Newton's
-/// iteration on the secular equation on its edge (More and Sorensen, SIAM J. Sci. Stat. Comput. 4
-/// (1983) 553).
-void solve_on_disk(const double (&matrix)[3], const double (&rate)[2], double radius,
-                   double (&impulse)[2]);
-
 /// Solver of the contact problem with Coulomb's friction.
 ///
 /// A point alone whose normal and tangents do not feel each other is solved in closed form. Others:

@@ -12,10 +12,8 @@
 #include "common/dense_matrix.h"
 #include "common/error.h"
 #include "common/parallel.h"
-#include "mesh/location.h"
-#include "solvers/lcp.h"
 #include "statics/assembled_statics.h"
-#include "statics/unilateral_rows.h"
+#include "statics/tried_rows.h"
 #include "system/admissible_motions.h"
 #include "system/inelastic_laws.h"
 #include "system/load_shapes.h"
@@ -39,15 +37,6 @@ constexpr double small_residual = 1e-8;
 constexpr std::size_t most_trials = 12;
 /// Added to the diagonal of their products, over the largest.
 constexpr double of_products = 1e-14;
-/// Negative opening of a row that counts as violated, relative to the largest opening.
-constexpr double violation = 1e-13;
-
-using Fields = std::vector<std::vector<double>>;  // per structure, owned dofs
-
-double largest_size(const Vector3& v) {
-  return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
-}
-
 class Search {
  public:
   Search(MPI_Comm comm, std::span<const LinearSystem> systems, std::span<const Mesh> meshes,
@@ -59,8 +48,7 @@ class Search {
         interface_(interface),
         any_open_at_rest_(std::ranges::any_of(open_rows, [](char open) { return open != 0; })),
         rows_(comm, interface.constraints, open_rows, systems, meshes),
-        force_(rows_.size(), 0.0),
-        is_tried_(rows_.size(), false) {
+        tried_(rows_, systems, stiffness_) {
     for (std::size_t s = 0; s < systems.size(); ++s) {
       stiffness_.push_back(make_static_stiffness(systems[s], meshes[s], proximal_shift, solver));
       const std::size_t dofs = systems[s].lumped_mass.size();
@@ -97,7 +85,7 @@ class Search {
       last = left;
       if (from_yielded && yielded_) {
         from_yielded->displacement = displacement_;
-        from_yielded->force = force_;
+        from_yielded->force = tried_.forces();
         accelerate(std::move(*from_yielded));
       }
       best = std::min(best, left);
@@ -134,9 +122,9 @@ class Search {
   void iterate() {
     Fields trial = correction_;
     for (std::size_t s = 0; s < trial.size(); ++s) add(displacement_[s], trial[s]);
-    const std::vector<double> change = solve_rows(rows_.openings(trial));
+    const std::vector<double> change = tried_.solve(rows_.openings(trial));
     if (std::ranges::any_of(change, [](double value) { return value != 0; })) {
-      Fields more = zeros();
+      Fields more = zeros(systems_);
       for (int i = 0; i < rows_.size(); ++i) rows_.add_force(i, change[i], more);
       for (std::size_t s = 0; s < trial.size(); ++s) {
         stiffness_[s]->solve(more[s]);
@@ -184,9 +172,9 @@ class Search {
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     if (!(sum > 0)) return;
     const double plain = relative_residual();
-    const Fields end = std::exchange(displacement_, zeros());
-    const std::vector<double> forces = force_;
-    std::ranges::fill(force_, 0.0);
+    const Fields end = std::exchange(displacement_, zeros(systems_));
+    const std::vector<double> forces =
+        std::exchange(tried_.forces(), std::vector<double>(tried_.forces().size(), 0.0));
     for (std::size_t k = 0; k < n; ++k) {
       const double part = weights[k] / sum;
       for (std::size_t s = 0; s < systems_.size(); ++s) {
@@ -194,81 +182,20 @@ class Search {
           displacement_[s][i] += part * trials_[k].displacement[s][i];
         }
       }
-      for (std::size_t i = 0; i < force_.size(); ++i) force_[i] += part * trials_[k].force[i];
+      for (std::size_t i = 0; i < forces.size(); ++i) {
+        tried_.forces()[i] += part * trials_[k].force[i];
+      }
     }
     update_residual();
     if (relative_residual() <= plain) return;
     displacement_ = end;
-    force_ = forces;
+    tried_.forces() = forces;
     trials_.clear();
     update_residual();
   }
 
-  /// Brings the forces to where rows are fulfilled whose openings are given with the forces in
-  /// force; returns their change.
-  std::vector<double> solve_rows(std::vector<double> opening) {
-    const std::vector<double> before = force_;
-    double scale = 0;
-    for (int i = 0; i < rows_.size(); ++i) {
-      opening[i] += rows_.compliance(i) * force_[i];
-      if (rows_.open(i)) continue;
-      scale = std::max(scale, std::abs(opening[i]));
-    }
-    std::vector<double> change(rows_.size(), 0.0);
-    do {
-      if (!tried_.empty()) solve_tried(opening, before);
-      for (int i = 0; i < rows_.size(); ++i) change[i] = force_[i] - before[i];
-    } while (try_violated(opening, change, -violation * scale));
-    return change;
-  }
-
-  /// Rows join the complementarity problem when they are violated; false if none was.
-  bool try_violated(std::vector<double> opening, const std::vector<double>& change, double limit) {
-    for (std::size_t j = 0; j < tried_.size(); ++j) {
-      for (int i = 0; i < rows_.size(); ++i) opening[i] += response_[j][i] * change[tried_[j]];
-    }
-    bool any = false;
-    for (int i = 0; i < rows_.size(); ++i) {
-      if (!is_tried_[i] && !rows_.open(i) && opening[i] < limit) {
-        try_row(i);
-        any = true;
-      }
-    }
-    return any;
-  }
-
-  void try_row(int row) {
-    Fields field = zeros();
-    rows_.add_force(row, 1, field);
-    for (std::size_t s = 0; s < field.size(); ++s) stiffness_[s]->solve(field[s]);
-    is_tried_[row] = true;
-    tried_.push_back(row);
-    response_.push_back(rows_.responses(field));
-    response_.back()[row] += rows_.compliance(row);
-  }
-
-  /// 0 <= f _|_ H f + opening - H before >= 0 on the rows tried.
-  void solve_tried(const std::vector<double>& opening, const std::vector<double>& before) {
-    const std::size_t n = tried_.size();
-    std::vector<double> matrix(n * n);
-    std::vector<double> free(n);
-    std::vector<double> force(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = 0; j < n; ++j) {
-        matrix[i * n + j] = (response_[j][tried_[i]] + response_[i][tried_[j]]) / 2;
-      }
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      free[i] = opening[tried_[i]];
-      for (std::size_t j = 0; j < n; ++j) free[i] -= matrix[i * n + j] * before[tried_[j]];
-      force[i] = force_[tried_[i]];
-    }
-    interactions::LcpSolver(static_cast<int>(n)).solve(matrix, free, force);
-    for (std::size_t i = 0; i < n; ++i) force_[tried_[i]] = force[i];
-  }
-
   void update_residual() {
-    const Fields forces = row_forces(0, rows_.size());
+    const Fields forces = tried_.on_dofs(0, rows_.size());
     std::vector<double> product;
     int yielded = 0;
     for (std::size_t s = 0; s < systems_.size(); ++s) {
@@ -293,15 +220,6 @@ class Search {
     for (std::size_t s = 0; s < correction_.size(); ++s) stiffness_[s]->solve(correction_[s]);
   }
 
-  /// Forces of rows [first, end) on the dofs.
-  Fields row_forces(int first, int end) const {
-    Fields forces = zeros();
-    for (int i = first; i < end; ++i) {
-      if (force_[i] != 0) rows_.add_force(i, force_[i], forces);
-    }
-    return forces;
-  }
-
   /// r^T (K + sigma M)^-1 r of the residual per structure, the same on all ranks.
   std::vector<double> squares_of_residual() const {
     std::vector<double> squares;
@@ -322,17 +240,6 @@ class Search {
 
   double relative_residual() const {
     return weight_size_ > 0 ? size_of_residual() / weight_size_ : 0;
-  }
-
-  /// iota_d^T of a force on the dofs of a structure, all ranks together.
-  Vector3 total(std::size_t s, const std::vector<double>& force) const {
-    Vector3 sum{0, 0, 0};
-    for (std::size_t d = 0; d < 3; ++d) {
-      const std::vector<double> iota = systems_[s].influence(static_cast<int>(d));
-      sum[d] = std::inner_product(force.begin(), force.end(), iota.begin(), 0.0);
-    }
-    MPI_Allreduce(MPI_IN_PLACE, sum.data(), 3, MPI_DOUBLE, MPI_SUM, comm_);
-    return sum;
   }
 
   [[noreturn]] void refuse(double left) const {
@@ -357,14 +264,17 @@ class Search {
     Equilibrium result;
     result.iterations = iterations_;
     result.residual = relative_residual();
-    result.rows_tried = static_cast<int>(tried_.size());
+    result.rows_tried = tried_.count();
     result.displacement = displacement_;
     const std::vector<double> openings = rows_.responses(displacement_);
     result.opening.assign(openings.begin(), openings.begin() + rows_.contacts());
-    result.contact_force.assign(force_.begin(), force_.begin() + rows_.contacts());
+    const std::vector<double>& forces = tried_.forces();
+    result.contact_force.assign(forces.begin(), forces.begin() + rows_.contacts());
     for (int i = rows_.contacts(); i < rows_.size(); ++i) {
-      ++(force_[i] > 0 ? result.acting_links : result.idle_links);
+      ++(forces[i] > 0 ? result.acting_links : result.idle_links);
     }
+    const Fields of_contacts = tried_.on_dofs(0, rows_.contacts());
+    const Fields of_links = tried_.on_dofs(rows_.contacts(), rows_.size());
     for (std::size_t s = 0; s < systems_.size(); ++s) {
       result.law_force.emplace_back();
       if (yielded_ && !systems_[s].laws.empty()) {
@@ -372,82 +282,24 @@ class Search {
       }
       result.gravity_potential -=
           std::inner_product(weight_[s].begin(), weight_[s].end(), displacement_[s].begin(), 0.0);
-      result.structures.push_back(describe_structure(s));
+      result.structures.push_back(describe_rest(
+          comm_, systems_[s], meshes_[s], *stiffness_[s],
+          {displacement_[s], weight_[s], law_force_[s], of_contacts[s], of_links[s], pushed(s)}));
     }
     MPI_Allreduce(MPI_IN_PLACE, &result.gravity_potential, 1, MPI_DOUBLE, MPI_SUM, comm_);
     return result;
   }
 
-  StructureRest describe_structure(std::size_t s) const {
-    const LinearSystem& system = systems_[s];
-    StructureRest rest;
-    rest.method = stiffness_[s]->method();
+  /// Sum of the contact forces on a structure [N].
+  Vector3 pushed(std::size_t s) const {
+    Vector3 sum{0, 0, 0};
     for (std::size_t k = 0; k < interface_.constraints.size(); ++k) {
       for (const interactions::ConstraintTerm& term : interface_.constraints[k].terms) {
         if (term.structure != static_cast<int>(s)) continue;
-        rest.contact[term.component] += term.coefficient * force_[k];
+        sum[term.component] += term.coefficient * tried_.forces()[k];
       }
     }
-    std::vector<double> momentum(displacement_[s]);
-    for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] *= system.lumped_mass[i];
-    rest.settlement = total(s, momentum);
-    if (system.loads) rest.load = system.loads->total_at_rest();
-    for (const double force : weight_[s]) rest.forces += std::abs(force);
-    MPI_Allreduce(MPI_IN_PLACE, &rest.forces, 1, MPI_DOUBLE, MPI_SUM, comm_);
-    for (std::size_t d = 0; d < 3; ++d) {
-      rest.weight[d] = system.total_mass * system.gravity[d];
-      rest.settlement[d] /= system.total_mass;
-      rest.support[d] = -rest.weight[d] - rest.load[d] - rest.contact[d];
-    }
-    if (!system.generalised) {
-      find_support(s, rest);
-      find_largest(s, rest);
-    }
-    return rest;
-  }
-
-  /// Forces of the supports, summed up from those of the elements and bars.
-  void find_support(std::size_t s, StructureRest& rest) const {
-    std::vector<double> force;
-    stiffness_[s]->apply(displacement_[s], force);
-    const Fields bars = row_forces(rows_.contacts(), rows_.size());
-    for (std::size_t i = 0; i < force.size(); ++i) {
-      force[i] = bars[s][i] - force[i] - law_force_[s][i];
-    }
-    const std::vector<double> contact = row_forces(0, rows_.contacts())[s];
-    const Vector3 free_support = total(s, force);
-    const Vector3 free_weight = total(s, weight_[s]);
-    const Vector3 free_contact = total(s, contact);
-    for (std::size_t i = 0; i < force.size(); ++i) force[i] += weight_[s][i] + contact[i];
-    Vector3 handed = handed_to_clamps(systems_[s], force);
-    MPI_Allreduce(MPI_IN_PLACE, handed.data(), 3, MPI_DOUBLE, MPI_SUM, comm_);
-    Vector3 left{0, 0, 0};
-    for (std::size_t d = 0; d < 3; ++d) {
-      // Held nodes hand their own part on to the supports.
-      const double given = rest.weight[d] + rest.load[d];
-      rest.support[d] = free_support[d] - (given - free_weight[d]) -
-                        (rest.contact[d] - free_contact[d]) - handed[d];
-      left[d] = given + rest.contact[d] + rest.support[d];
-    }
-    const double scale = std::max({rest.forces, largest_size(rest.weight), largest_size(rest.load),
-                                   largest_size(rest.contact), largest_size(rest.support)});
-    rest.imbalance = scale > 0 ? largest_size(left) / scale : 0;
-  }
-
-  void find_largest(std::size_t s, StructureRest& rest) const {
-    std::vector<double> values = displacement_[s];
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (systems_[s].direction[i] < 0) values[i] = 0;
-      rest.largest_displacement = std::max(rest.largest_displacement, std::abs(values[i]));
-    }
-    MPI_Allreduce(MPI_IN_PLACE, &rest.largest_displacement, 1, MPI_DOUBLE, MPI_MAX, comm_);
-    rest.place = locate_largest(meshes_[s], values);
-  }
-
-  Fields zeros() const {
-    Fields fields;
-    for (const LinearSystem& system : systems_) fields.emplace_back(system.lumped_mass.size(), 0.0);
-    return fields;
+    return sum;
   }
 
   static void add(const std::vector<double>& more, std::vector<double>& to) {
@@ -464,17 +316,14 @@ class Search {
   Fields weight_;                                            ///< and loads as they are at rest
   std::vector<RestLinks> links_;                             ///< per structure
   Fields displacement_;
-  Fields law_force_;            ///< g of `displacement_`, of elements and links that yield
-  bool yielded_ = false;        ///< any of them, on any rank
-  bool ever_yielded_ = false;   ///< in any iterate
-  std::vector<Trial> trials_;   ///< the last ones, where elements yield
-  Fields residual_;             ///< M g + p + R^T f - K u - g
-  Fields correction_;           ///< (K + sigma M)^-1 of it
-  double weight_size_ = 0;      ///< see size_of_residual, of the weight
-  std::vector<double> force_;   ///< f per row [N]
-  std::vector<int> tried_;      ///< rows of the complementarity problem, in the order they joined
-  std::vector<char> is_tried_;  ///< per row
-  std::vector<std::vector<double>> response_;  ///< per row tried: w of all rows for a unit force
+  Fields law_force_;           ///< g of `displacement_`, of elements and links that yield
+  bool yielded_ = false;       ///< any of them, on any rank
+  bool ever_yielded_ = false;  ///< in any iterate
+  std::vector<Trial> trials_;  ///< the last ones, where elements yield
+  Fields residual_;            ///< M g + p + R^T f - K u - g
+  Fields correction_;          ///< (K + sigma M)^-1 of it
+  double weight_size_ = 0;     ///< see size_of_residual, of the weight
+  TriedRows tried_;            ///< forces of the rows
   int iterations_ = 0;
 };
 

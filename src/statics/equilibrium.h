@@ -9,25 +9,10 @@
 #include "interactions/pairing/interface.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
+#include "statics/structure_rest.h"
 #include "system/linear_system.h"
 
 namespace pounding {
-
-/// Forces that hold one structure at rest, and how far it settles.
-struct StructureRest {
-  Vector3 weight{0, 0, 0};      ///< total mass x its gravity [N]
-  Vector3 load{0, 0, 0};        ///< of its loads before the run [N]
-  Vector3 contact{0, 0, 0};     ///< of contact points on it [N]
-  Vector3 support{0, 0, 0};     ///< of clamps, grounded springs and bars to the ground on it [N]
-  Vector3 settlement{0, 0, 0};  ///< mean displacement over its mass, clamped nodes included [m]
-  double largest_displacement = 0;  ///< of a component; 0 of a reduced structure [m]
-  std::string place;                ///< where that is; empty of a reduced structure
-  double forces = 0;  ///< sum of |f_i| over the dofs, of weight and loads: pairs of loads count
-  /// |weight + load + contact + support| over the largest of them and `forces`, the support summed
-  /// up from K u; 0 of a reduced structure, whose support follows from the others [-].
-  double imbalance = 0;
-  std::string method;  ///< how its stiffness was solved
-};
 
 /// The scene at rest under its gravity.
 struct Equilibrium {

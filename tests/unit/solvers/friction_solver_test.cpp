@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "solvers/friction_point.h"
 #include "support/full_rows.h"
 
 namespace pounding::interactions {
