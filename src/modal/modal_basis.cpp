@@ -13,6 +13,7 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "modal/block_krylov.h"
+#include "modal/chosen_modes.h"
 #include "modal/eigen_solver.h"
 #include "modal/modal_analysis.h"
 #include "modal/orthonormal_space.h"
@@ -193,36 +194,12 @@ class BasisMaker {
 
   /// Keeps so many of the candidates that are the space so far.
   void choose_modes(std::size_t wanted) {
-    const std::size_t candidates = space_.size();
-    std::vector<double> share(candidates, 0.0);
-    for (const auto* points : {&request_.contact_points, &request_.other_points}) {
-      for (const TracePoint& point : *points) add_shares(point, share);
-    }
-    add_over_ranks(system_.comm, share);
-    std::vector<std::size_t> order(candidates);
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto first = order.begin() + static_cast<std::ptrdiff_t>(wanted * 3 / 4);
-    std::stable_sort(first, order.end(),
-                     [&](std::size_t a, std::size_t b) { return share[a] > share[b]; });
-    order.resize(wanted);
-    std::ranges::sort(order);
+    const std::vector<std::size_t> order =
+        moving_most(system_.comm, mesh_, request_, space_, squared_frequency_, wanted);
     std::vector<int> numbers;
     for (const std::size_t j : order) numbers.push_back(mode_numbers_[j]);
     space_.choose(order);
     mode_numbers_ = std::move(numbers);
-  }
-
-  /// phi^2 / omega^2 of each mode at a point of this rank, relative to the sum of all phi^2 there.
-  void add_shares(const TracePoint& point, std::vector<double>& share) const {
-    const LocalIndex dof = owned_dof(mesh_, point);
-    double sum = 0;
-    for (std::size_t j = 0; dof >= 0 && j < share.size(); ++j) {
-      sum += std::pow(space_.column(j)[dof], 2);
-    }
-    for (std::size_t j = 0; sum > 0 && j < share.size(); ++j) {
-      const double square = std::max(squared_frequency_[j], 1e-6);  // rigid motions are all alike
-      share[j] += std::pow(space_.column(j)[dof], 2) / (square * sum);
-    }
   }
 
   void find_modes(std::size_t wanted, std::vector<double>& values, DenseMatrix& vectors) {
