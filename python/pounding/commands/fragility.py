@@ -19,7 +19,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from pounding.arguments import positive, ranks
-from pounding.fragility import design, motions, report, rules, study
+from pounding.fragility import conditions, design, envelope, motions, report, rules, study
 from pounding.fragility.analysis import Analysis
 from pounding.fragility.runs import Runner
 from pounding.results import ResultError
@@ -80,7 +80,38 @@ def run(options: argparse.Namespace) -> int:
 
 
 def carry_out(found: study.Study, folder: Path, options: argparse.Namespace) -> int:
-    matrix = motions.check(found, folder, options.jobs, write=not options.part)
+    """One study, or one in each of its conditions and their envelope."""
+    in_conditions = conditions.find(found)
+    if not in_conditions:
+        members_of(found, folder, options)
+        return 0
+    told, analyses = [], {}
+    for number, condition in enumerate(in_conditions, 1):
+        began = time.monotonic()
+        print(f"fragility: {condition.title} ({number} of {len(in_conditions)})", flush=True)
+        place = folder / "conditions" / condition.folder
+        place.mkdir(parents=True, exist_ok=True)
+        with alone(place, options):
+            same = condition.study.axes is found.axes
+            one = members_of(condition.study, place, options, folder / "motions" if same else None)
+        told.append(time.monotonic() - began)
+        left = sum(told) / len(told) * (len(in_conditions) - number)
+        if left and not options.collect:
+            print(f"fragility: {number} of {len(in_conditions)} conditions done, about {left / 60:.0f} min to go", flush=True)
+        if one:
+            analyses[condition] = one
+    if analyses:
+        page, text = envelope.write(found, analyses, folder)
+        print("\n" + text)
+        print(f"see {page}")
+    return 0
+
+
+def members_of(found: study.Study, folder: Path, options: argparse.Namespace,
+               kept: Path | None = None) -> Analysis | None:
+    """Runs what is asked for of the members of one study, and writes its tables and page where all are there; nothing of
+    a part or of a dry run. `kept`: folder of motions that other studies have as well."""
+    matrix = motions.check(found, folder, options.jobs, not options.part, kept)
     plan = design.build(found)
     closed = design.clipped(found, plan)
     notes = [f"Doubt: {doubt}" for doubt in study.doubts(found)]
@@ -98,13 +129,13 @@ def carry_out(found: study.Study, folder: Path, options: argparse.Namespace) -> 
     print("".join(f"{note}\n" for note in ends), end="", flush=True)
     notes += ends
     if options.dry_run:
-        return 0
+        return None
     if not options.collect:
         began = time.monotonic()
         how = runner.run(options.part or (1, 1))
         print(f"fragility: runs ended after {time.monotonic() - began:.0f} s ({how})", flush=True)
         if options.part:
-            return 0
+            return None
     gathered, missing = runner.found(plan.members)
     if missing:
         raise study.StudyError(f"{len(missing)} of {len(plan.members)} members are not there yet; run what is missing")
@@ -115,10 +146,11 @@ def carry_out(found: study.Study, folder: Path, options: argparse.Namespace) -> 
                                "run what is missing")
     ruled, note = rules.find(found, plan, runner.scene(True), folder, options.jobs)
     notes += [note] if note else []
-    page, text = report.write(Analysis(found, plan, gathered, runner.equipment), full, ruled, notes, folder)
+    analysis = Analysis(found, plan, gathered, runner.equipment)
+    page, text = report.write(analysis, full, ruled, notes, folder)
     print("\n" + text)
     print(f"see {page}")
-    return 0
+    return analysis
 
 
 def main() -> int:

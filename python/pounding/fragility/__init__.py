@@ -280,3 +280,20 @@ def independent(signals, limit: float, wanted: int) -> list:
         if len(taken) == wanted:
             break
     return taken
+
+
+def hclpf(medians: list, betas: list, uncertainty: float | None = None) -> dict:
+    """Capacity that has a low probability of failure (5 %) with a high confidence (95 %), from lognormal curves of one
+    event in conditions that are equally likely: A_m exp(-1.645 (beta_R + beta_U)), beta_R of what is drawn within a
+    condition, beta_U of the medians of the conditions and of what the user gives beside it. Of one condition without it the
+    curve's deviation is that of both together: A_m exp(-2.326 beta) (EPRI TR-103959)."""
+    logs, betas = np.log(medians), np.asarray(betas)
+    median, random = float(np.exp(logs.mean())), float(np.sqrt((betas**2).mean()))
+    if len(medians) == 1 and uncertainty is None:
+        return {"A_m [m/s2]": median, "beta": random, "HCLPF [m/s2]": median * float(np.exp(-2.326 * random)),
+                "HCLPF by": "1 % of the curve"}
+    between = float(np.hypot(logs.std(), uncertainty or 0.0))
+    origin = [f"{len(medians)} conditions"] if len(medians) > 1 else []
+    origin += [f"{uncertainty:g} given"] if uncertainty is not None else []
+    return {"A_m [m/s2]": median, "beta_R": random, "beta_U": between,
+            "HCLPF [m/s2]": median * float(np.exp(-1.645 * (random + between))), "HCLPF by": f"beta_U of {' and '.join(origin)}"}

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy import stats
 
-from pounding.fragility import (Fragility, FitRefused, binomial_interval, fit_paired, joint_share, members_needed,
+from pounding.fragility import (Fragility, FitRefused, binomial_interval, fit_paired, hclpf, joint_share, members_needed,
                                 moments, scatter, widened)
 
 from .design import OWN_FIELD, Design
@@ -31,6 +31,7 @@ class Analysis:
     equipment: list = field(default_factory=list)
 
     def __post_init__(self):
+        self.fitted = {}
         self.index = {(one.gap, one.level, one.sample, one.exchanged, one.factors): number
                       for number, one in enumerate(self.design.members) if not one.disturbed}
         largest = self.outcomes.spectra.max((0, 2, 3))
@@ -117,7 +118,10 @@ class Analysis:
 
     def fits(self, event) -> dict:
         """Gap -> Fragility, or the line why there is none."""
-        found = {}
+        name = name_of(event)
+        if name in self.fitted:
+            return self.fitted[name]
+        found = self.fitted[name] = {}
         for gap in self.gaps_of(event):
             try:
                 found[gap] = fit_paired(self.study.levels, self.hits(event, gap), self.study.confidence)
@@ -346,7 +350,7 @@ def quantile(values: np.ndarray, p: float, confidence: float) -> tuple:
             float(ordered[high - 1]) if high <= count else "")
 
 
-def fit_row(event, gap: float | None, fit: Fragility | str, first: np.ndarray | None) -> dict:
+def fit_row(event, gap: float | None, fit: Fragility | str, first: np.ndarray | None, uncertainty: float | None) -> dict:
     """`first`: peak ground accelerations at first contact, whose median and deviation stand beside the fit."""
     row = {"event": name_of(event), "gap [m]": gap_text(gap)}
     if isinstance(fit, str):
@@ -355,6 +359,7 @@ def fit_row(event, gap: float | None, fit: Fragility | str, first: np.ndarray | 
     else:
         row |= {"theta [m/s2]": fit.theta, "theta low": fit.theta_interval[0], "theta high": fit.theta_interval[1],
                 "beta": fit.beta, "beta low": fit.beta_interval[0], "beta high": fit.beta_interval[1], "refused": ""}
+        row |= {name: value for name, value in hclpf([fit.theta], [fit.beta], uncertainty).items() if name.startswith("HCLPF")}
     held = first is not None and (first > 0).all() and np.isfinite(first).all()
     row["theta of first contacts"] = float(np.exp(np.log(first).mean())) if held else ""
     row["beta of first contacts"] = float(np.log(first).std(ddof=1)) if held else ""

@@ -123,12 +123,14 @@ def choose_seeds(study: Study, made: Motions) -> None:
         study.axes[name] = Axis((), one.target, tuple(seeds[name]), one.ratio, one.options)
 
 
-def check(study: Study, folder: Path, jobs: int, write: bool = True) -> np.ndarray:
+def check(study: Study, folder: Path, jobs: int, write: bool = True, kept: Path | None = None) -> np.ndarray:
     """Chooses what is to be chosen, writes motions.csv and correlation.csv into the folder and returns the matrix of
     all axes one after the other. Throws StudyError with the pair that is furthest beyond the limit: of the motions that
-    act together, and where the study wants that of all. Motions of different samples never act together."""
-    made = Motions(study, folder / "motions", jobs)
-    with alone_in(folder / "motions", called("run/fragility"), wait=True):  # parts of a study make them once
+    act together, and where the study wants that of all. Motions of different samples never act together. `kept`: the folder
+    of the motions, that of several studies with the same ones."""
+    kept = kept or folder / "motions"
+    made = Motions(study, kept, jobs)
+    with alone_in(kept, called("run/fragility"), wait=True):  # parts of a study make them once
         if study.wanted:
             choose_seeds(study, made)
         pairs = [(name, motion) for name, axis in study.axes.items() for motion in axis.records or axis.seeds]

@@ -74,7 +74,8 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
     write_spectra(analysis, folder)
     fits = {event: analysis.fits(event) for event in analysis.events}
     first = analysis.first_contact()
-    fit_rows = [fit_row(event, gap, fit, first[:, study.gaps.index(gap)] if event == CONTACT else None)
+    fit_rows = [fit_row(event, gap, fit, first[:, study.gaps.index(gap)] if event == CONTACT else None,
+                        study.uncertainty)
                 for event in analysis.events for gap, fit in fits[event].items()]
     enough_rows = analysis.enough_rows()
     pages = figures.summary(analysis, folder) + figures.curves(analysis, fits, folder)

@@ -10,8 +10,11 @@ from pounding.fragility import DISTRIBUTIONS, Variable
 from pounding.results import DIRECTIONS
 from pounding.scenes import SceneError, flatten
 
+from .study_file import Reader, StudyError, beside, load
+
 KEYS = ("title", "scene", "output", "options", "reduction", "seed", "samples", "confidence", "motions", "levels",
-        "gaps", "apart", "joints", "exchange", "field_factors", "factors", "capacities", "full_order", "frequencies", "dampings", "show")
+        "gaps", "apart", "joints", "soils", "states", "uncertainty", "exchange", "field_factors", "factors", "capacities",
+        "full_order", "frequencies", "dampings", "show")
 DAMPINGS = (0.02, 0.03, 0.04, 0.05, 0.07)
 SYNTHETIC = {"duration": "25", "envelope": "2,15"}
 RECORDED = {"unit": "auto", "time_step": "0", "column": "0"}
@@ -20,10 +23,6 @@ SHALLOW, STRONG = 0.5, 30.0  # largest levels that are doubted [m/s2]
 G = 9.80665  # [m/s2]
 MOST_MEMBERS = 1000000
 FACTOR = re.compile(r"\w+_(stiffness|damping)_factor")
-
-
-class StudyError(Exception):
-    """One line for the user."""
 
 
 @dataclass(frozen=True)
@@ -99,6 +98,8 @@ class Study:
     frequencies: list = field(default_factory=list)
     dampings: list = field(default_factory=list)
     show: dict = field(default_factory=dict)
+    named: dict = field(default_factory=dict)  # `soils` and `states` as the file has them, see conditions.py
+    uncertainty: float | None = None  # beta_U of capacities, given by the user
 
     @property
     def variables(self) -> list:
@@ -110,100 +111,7 @@ def standard_frequencies() -> list:
     return [float(f"{0.1 * 10 ** (k / 100):.6g}") for k in range(361)] + [400.0]
 
 
-class _Reader:
-    """A mapping of the file whose keys are taken one by one; what is wrong is told with its place."""
-
-    def __init__(self, values, path: Path, place: str, known: tuple):
-        self.path, self.place = path, place
-        if not isinstance(values, dict):
-            raise StudyError(f"{path}: {place or 'the file'} is no list of keys and values")
-        self.values = values
-        for key in values:
-            if key not in known:
-                raise StudyError(f"{path}: {self._at(key)} is unknown; {place or 'a study'} has {', '.join(known)}")
-
-    def _at(self, key) -> str:
-        return f"{self.place}: {key}" if self.place else str(key)
-
-    def fail(self, key: str, why: str):
-        raise StudyError(f"{self.path}: {self._at(key)}: {self.values.get(key)!r} {why}")
-
-    def number(self, key: str, default=None, above: float | None = None, below: float | None = None) -> float:
-        value = self.values.get(key, default)
-        if value is None:
-            raise StudyError(f"{self.path}: {self._at(key)} is missing")
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) < float("inf"):
-            self.fail(key, "is not a number")
-        if above is not None and not value > above:
-            self.fail(key, f"is not above {above:g}")
-        if below is not None and not value < below:
-            self.fail(key, f"is not below {below:g}")
-        return float(value)
-
-    def whole(self, key: str, default: int, least: int) -> int:
-        value = self.values.get(key, default)
-        if isinstance(value, bool) or not isinstance(value, int) or value < least:
-            self.fail(key, f"is not a whole number from {least} on")
-        return value
-
-    def flag(self, key: str) -> bool:
-        value = self.values.get(key, False)
-        if not isinstance(value, bool):
-            self.fail(key, "is neither true nor false")
-        return value
-
-    def numbers(self, key: str, default=None, least: float | None = None) -> list:
-        """A list, or text of numbers between commas."""
-        value = self.values.get(key, default)
-        if value is None:
-            raise StudyError(f"{self.path}: {self._at(key)} is missing")
-        items = value.split(",") if isinstance(value, str) else value if isinstance(value, (list, tuple)) else [value]
-        try:
-            found = [float(item) for item in items]
-        except (TypeError, ValueError):
-            self.fail(key, "is not a list of numbers")
-        if not found or any(not abs(one) < float("inf") for one in found):
-            self.fail(key, "is not a list of numbers")
-        if least is not None and any(not one > least for one in found):
-            self.fail(key, f"has a number that is not above {least:g}")
-        return found
-
-    def increasing(self, key: str, default=None, least: float = 0.0) -> list:
-        found = self.numbers(key, default, least)
-        if any(b <= a for a, b in zip(found, found[1:])):
-            self.fail(key, "does not increase")
-        return found
-
-    def entries(self, key: str) -> list:
-        values = self.values.get(key)
-        if values is not None and not isinstance(values, list):
-            self.fail(key, "is no list, each entry of which begins with -")
-        return values or []
-
-    def options(self, key: str) -> dict:
-        values = self.values.get(key) or {}
-        if not isinstance(values, dict):
-            self.fail(key, "is no list of options")
-        try:
-            found = flatten(values)
-        except SceneError as error:
-            raise StudyError(f"{self.path}: {self._at(key)}: {error}") from error
-        for name in ("output", "dry_run", "restart", "ensemble", "include"):
-            if name in found:
-                raise StudyError(f"{self.path}: {self._at(key)}: {name} is the study's own")
-        return {name: beside(self.path, text) for name, text in found.items()}
-
-    def part(self, key: str, known: tuple) -> "_Reader":
-        return _Reader(self.values.get(key) or {}, self.path, self._at(key), known)
-
-
-def beside(study: Path, text: str) -> str:
-    """The absolute path of a file beside the study, where there is one; else the text."""
-    path = study.parent / text
-    return str(path.resolve()) if re.search(r"/|\.\w+$", text) and path.is_file() else text
-
-
-def _variable(reader: _Reader, name: str) -> Variable:
+def _variable(reader: Reader, name: str) -> Variable:
     kind = reader.values.get("distribution", "normal")
     if kind not in DISTRIBUTIONS:
         reader.fail("distribution", f"is none of {', '.join(DISTRIBUTIONS)}")
@@ -221,7 +129,7 @@ SPREAD = ("distribution", "median", "mean", "cov", "deviation")
 MOTION = ("records", "target", "seeds", "ratio", "options")
 
 
-def _axis(reader: _Reader, name: str) -> Axis:
+def _axis(reader: Reader, name: str) -> Axis:
     one = reader.part(name, MOTION)
     records, target = one.values.get("records"), one.values.get("target")
     if (records is None) == (target is None):
@@ -245,7 +153,7 @@ def _axis(reader: _Reader, name: str) -> Axis:
     return Axis((), path, tuple(int(seed) for seed in seeds), ratio, tuple(options.items()))
 
 
-def _motions(reader: _Reader) -> tuple:
+def read_motions(reader: Reader) -> tuple:
     """Axes, the limit of correlation, whether it holds between samples, and how many motions are to be chosen."""
     motions = reader.part("motions", ("x", "y", "z", "correlation", "between_samples", "choose"))
     axes = {name: _axis(motions, name) for name in DIRECTIONS if name in motions.values}
@@ -261,14 +169,14 @@ def _motions(reader: _Reader) -> tuple:
     return axes, motions.number("correlation", 0.16, 0.0), motions.flag("between_samples"), wanted, wanted or next(iter(counts.values()))
 
 
-def _joints(reader: _Reader) -> dict:
+def _joints(reader: Reader) -> dict:
     values = reader.values.get("joints")
     if not isinstance(values, dict) or not values:
         raise StudyError(f"{reader.path}: joints is missing: the contacts whose gaps the study sets, as "
                          "`joints: {roof: {}}`")
     found = {}
     for name in values:
-        one = _Reader(values[name] or {}, reader.path, f"joints: {name}", ("shape", "deviation", "field"))
+        one = Reader(values[name] or {}, reader.path, f"joints: {name}", ("shape", "deviation", "field"))
         shape = tuple(one.numbers("shape", [0.0]))
         if len(shape) not in (1, 2, 4):
             one.fail("shape", "has neither one value nor two or four")
@@ -277,7 +185,7 @@ def _joints(reader: _Reader) -> dict:
     return found
 
 
-def _field(reader: _Reader) -> tuple:
+def _field(reader: Reader) -> tuple:
     if not reader.values.get("field"):
         return ()
     one = reader.part("field", ("deviation", "length"))
@@ -287,10 +195,10 @@ def _field(reader: _Reader) -> tuple:
     return found
 
 
-def _field_factors(reader: _Reader, joints: dict) -> list:
+def _field_factors(reader: Reader, joints: dict) -> list:
     found = []
     for number, pair in enumerate(reader.entries("field_factors"), 1):
-        one = _Reader({"pair": pair}, reader.path, f"field_factors, number {number}", ("pair",))
+        one = Reader({"pair": pair}, reader.path, f"field_factors, number {number}", ("pair",))
         values = tuple(one.numbers("pair", None, 0.0))
         if len(values) != 2 or values == (1.0, 1.0):
             one.fail("pair", "is not two factors, on deviation and length, that change a field")
@@ -302,7 +210,7 @@ def _field_factors(reader: _Reader, joints: dict) -> list:
     return found
 
 
-def _factors(reader: _Reader) -> list:
+def _factors(reader: Reader) -> list:
     values = reader.values.get("factors") or {}
     if not isinstance(values, dict):
         reader.fail("factors", "is no list of factors")
@@ -310,14 +218,14 @@ def _factors(reader: _Reader) -> list:
         if not FACTOR.fullmatch(str(name)):
             raise StudyError(f"{reader.path}: factors: {name} is neither <structure>_stiffness_factor nor "
                              "<structure>_damping_factor")
-    return [_variable(_Reader(one or {}, reader.path, f"factors: {name}", SPREAD), name)
+    return [_variable(Reader(one or {}, reader.path, f"factors: {name}", SPREAD), name)
             for name, one in values.items()]
 
 
-def _capacities(reader: _Reader, frequencies: list, dampings: list) -> list:
+def _capacities(reader: Reader, frequencies: list, dampings: list) -> list:
     found = []
     for number, one in enumerate(reader.entries("capacities"), 1):
-        part = _Reader(one, reader.path, f"capacities, number {number}",
+        part = Reader(one, reader.path, f"capacities, number {number}",
                        ("probe", "direction", "band", "damping", "acceleration"))
         band, damping = part.increasing("band", [frequencies[0], frequencies[-1]]), part.number("damping", dampings[0])
         if len(band) != 2 or not any(band[0] <= f <= band[1] for f in frequencies):
@@ -331,42 +239,15 @@ def _capacities(reader: _Reader, frequencies: list, dampings: list) -> list:
     return found
 
 
-def _show(reader: _Reader, gaps: list, levels: list) -> dict:
-    one = reader.part("show", ("gap", "level", "channel"))
+def _show(reader: Reader, gaps: list, levels: list) -> dict:
+    one = reader.part("show", ("gap", "level", "channel", "frequencies"))
     for key, known in (("gap", gaps), ("level", levels)):
         if key in one.values and one.number(key) not in known:
             one.fail(key, f"is none of the study's {', '.join(f'{value:g}' for value in known)}")
     return one.values
 
 
-class _Loader(yaml.SafeLoader):
-    """Refuses a key that stands twice, of which YAML takes the last."""
-
-    def construct_mapping(self, node, deep=False):
-        keys = [key.value for key, _ in node.value if isinstance(key, yaml.ScalarNode)]
-        twice = next((key for place, key in enumerate(keys) if key in keys[:place] and key != "<<"), None)
-        if twice is not None:
-            raise yaml.constructor.ConstructorError(None, None, f"{twice} stands twice", node.start_mark)
-        return super().construct_mapping(node, deep)
-
-    def flatten_mapping(self, node):
-        super().flatten_mapping(node)
-        if len(node.value) > 10000:  # merges of merges, which double at each level
-            raise yaml.constructor.ConstructorError(None, None, "more than 10000 merged keys", node.start_mark)
-
-
-def _load(path: Path):
-    if path.exists() and not path.is_file():  # a pipe would be waited for
-        raise StudyError(f"{path}: no file with contents")
-    try:
-        return yaml.load(path.read_text(encoding="utf-8"), _Loader)
-    except OSError as error:
-        raise StudyError(f"{path}: {error.strerror}") from error
-    except (yaml.YAMLError, ValueError, RecursionError) as error:
-        raise StudyError(f"{path}: {' '.join(str(error).split())}") from error
-
-
-def _given(path: Path) -> dict:
+def given_options(path: Path) -> dict:
     """Option -> text of a file of options and of those that it includes; nothing of what cannot be read here."""
     try:
         found = yaml.safe_load(path.read_text(encoding="utf-8"))
@@ -374,13 +255,13 @@ def _given(path: Path) -> dict:
     except (OSError, ValueError, yaml.YAMLError, SceneError, RecursionError):
         return {}
     for name in filter(None, options.pop("include", "").split(",")):
-        options = {**(_given(path.parent / name.strip()) if (path.parent / name.strip()) != path else {}), **options}
+        options = {**(given_options(path.parent / name.strip()) if (path.parent / name.strip()) != path else {}), **options}
     return options
 
 
 def own_gap(study: Study) -> float | None:
     """The nominal gap of the study that its scene has: that of a joint whose gap the scene or the study's options give."""
-    options = {**_given(study.scene), **study.options}
+    options = {**given_options(study.scene), **study.options}
     for name, joint in study.joints.items():
         try:
             values = [float(text) for text in options[f"{name}_gap"].split(",")]
@@ -424,14 +305,14 @@ def doubts(study: Study) -> list:
 
 def read(path: Path) -> Study:
     """The study of a file. Throws StudyError."""
-    values = _load(path)
+    values = load(path)
     if isinstance(values, dict) and set(values) == {"fragility"}:
         values = values["fragility"]
-    reader = _Reader(values, path, "", KEYS)
+    reader = Reader(values, path, "", KEYS)
     scene = path.parent / str(reader.values.get("scene", ""))
     if not scene.is_file():
         raise StudyError(f"{path}: scene: {scene}: no such file")
-    axes, limit, between, wanted, motions = _motions(reader)
+    axes, limit, between, wanted, motions = read_motions(reader)
     frequencies = reader.increasing("frequencies", standard_frequencies())
     dampings = reader.increasing("dampings", DAMPINGS)
     full = reader.part("full_order", ("share", "options", "noise"))
@@ -454,4 +335,5 @@ def read(path: Path) -> Study:
         reader.number("apart", max(1.0, 20 * gaps[-1]), gaps[-1]), joints, exchange, field_factors, _factors(reader),
         _capacities(reader, frequencies, dampings), full.number("share", 0.0, -1e-12, 1.0 + 1e-12),
         full.options("options"), full.number("noise", 1e-3, 0.0), frequencies, dampings,
-        _show(reader, gaps, levels))
+        _show(reader, gaps, levels), {key: reader.values.get(key) for key in ("soils", "states")},
+        reader.number("uncertainty", None, 0.0) if "uncertainty" in reader.values else None)

@@ -1,0 +1,232 @@
+"""The answer of a study over all of its soils and states: the largest of each number, and the condition that governs it."""
+
+from html import escape
+from pathlib import Path
+
+import numpy as np
+
+from pounding.fragility import Fragility, hclpf, moments, widened
+from pounding.plot.markup import answer_box, html_figure, html_table, write_page
+from pounding.plot.style import WIDTH, WITH, WITHOUT, g_axis, log_scale, plt, save
+from pounding.tables import markdown, write_csv
+
+from . import figures
+from .analysis import CONTACT, EXCEEDED, Analysis, gap_text, name_of, quantile
+from .conditions import ALONE, Condition
+from .study import Study
+
+SHOWN = (5.0, 20.0, 100.0)  # frequencies of the sensitivities unless the study shows others [Hz]
+
+
+class Envelope:
+    """`analyses`: Condition -> Analysis of all of its members; the first condition is the one that others are seen
+    beside."""
+
+    def __init__(self, study: Study, analyses: dict):
+        self.study, self.analyses = study, analyses
+        self.conditions: list[Condition] = list(analyses)
+        self.first: Analysis = analyses[self.conditions[0]]
+        self.gap, self.level, self.channel, self.damping = figures.shown(self.first)
+
+    @property
+    def frequencies(self) -> list:
+        """Numbers of the shown frequencies among those of the study."""
+        given = self.study.show.get("frequencies", SHOWN)
+        given = [float(one) for one in given.split(",")] if isinstance(given, str) else given
+        return sorted({int(abs(self.first.outcomes.frequency - one).argmin()) for one in given})
+
+    def governing(self, values) -> tuple:
+        """The largest of a value of each condition, and the places of that condition."""
+        at = int(np.argmax(values))
+        return values[at], self.conditions[at].place
+
+    # Tables.
+
+    def joint_rows(self) -> list:
+        rows = []
+        for name in [*self.study.joints, "any"]:
+            needed = [one.needed(None if name == "any" else one.outcomes.contacts.index(name)) for one in self.analyses.values()]
+            for number, level in enumerate(self.study.levels):
+                for part in EXCEEDED:
+                    found = [quantile(values[:, number], 1 - part, self.study.confidence) for values in needed]
+                    largest, place = self.governing([value for value, _, _ in found])
+                    _, low, high = next(one for one in found if one[0] == largest)
+                    rows.append({"joint": name, "pga [m/s2]": level, "exceeded in": f"{100 * part:g} %", "needed [m]": largest,
+                                 "low": low, "high": high, **place})
+        return rows
+
+    def probability_rows(self) -> list:
+        rows = []
+        of_each = [one.probability_rows() for one in self.analyses.values()]
+        for same in zip(*of_each):
+            _, place = self.governing([row["probability"] for row in same])
+            at = next(number for number, one in enumerate(self.conditions) if one.place == place)
+            rows.append({**same[at], **place})
+        return rows
+
+    def spectra(self, gap: float | None, level: float) -> np.ndarray:
+        """84 % of the members of a cell, shape (conditions, channels that move, damping ratios, frequencies)."""
+        return np.array([moments(one.outcomes.spectra[one.of(gap, level)][:, self.first.channels]).high
+                         for one in self.analyses.values()])
+
+    def spectra_rows(self, gap: float | None, level: float) -> list:
+        rows, found = [], self.first.outcomes
+        high = self.spectra(gap, level)
+        largest, at = high.max(0), high.argmax(0)
+        broad = widened(found.frequency, largest)
+        for c, channel in enumerate(self.first.channels):
+            for d, ratio in enumerate(found.damping):
+                rows += [{"channel": found.channels[channel], "damping": f"{ratio:g}", "frequency": f"{f:.9g}",
+                          "p84": f"{largest[c, d, k]:.6g}", "p84_widened": f"{broad[c, d, k]:.6g}",
+                          **self.conditions[at[c, d, k]].place} for k, f in enumerate(found.frequency)]
+        return rows
+
+    def condition_rows(self) -> list:
+        """Of each condition the joint needed, members that touch and the 84 % spectrum that figures show, at the level of
+        the figures."""
+        rows, number = [], self.study.levels.index(self.level)
+        for condition, one in self.analyses.items():
+            high = self.high(one)
+            rows.append({**condition.place, "pga [m/s2]": self.level,
+                         **{f"joint, {100 * part:g} % [m]": float(np.quantile(one.needed()[:, number], 1 - part)) for part in EXCEEDED},
+                         **{f"touch, {1e3 * gap:g} mm": f"{int(one.hits(CONTACT, gap)[:, number].sum())} of {self.study.samples}"
+                            for gap in self.study.gaps},
+                         **{f"{one.outcomes.channels[self.channel]}, {one.outcomes.frequency[k]:.3g} Hz [m/s2]": float(high[k])
+                            for k in self.frequencies}})
+        return rows
+
+    def high(self, one: Analysis, gap: float | None = None) -> np.ndarray:
+        cell = one.of(self.gap if gap is None else gap, self.level)
+        return moments(one.outcomes.spectra[cell][:, self.channel, self.damping]).high
+
+    def hclpf_rows(self) -> list:
+        rows = []
+        for event in self.first.events:
+            for gap in self.first.gaps_of(event):
+                fits = [one.fits(event)[gap] for one in self.analyses.values()]
+                row = {"event": name_of(event), "gap [m]": gap_text(gap)}
+                known = [fit for fit in fits if isinstance(fit, Fragility)]
+                if len(known) < len(fits):
+                    rows.append({**row, "refused": f"no curve in {len(fits) - len(known)} of {len(fits)} conditions"})
+                    continue
+                rows.append({**row, **hclpf([fit.theta for fit in known], [fit.beta for fit in known], self.study.uncertainty)})
+        return rows
+
+    # What moves the answer.
+
+    def sensitivity_rows(self) -> list:
+        """Range of the needed joint (84 %, strongest level) and of the 84 % spectrum that figures show at some
+        frequencies, by what moves it alone: soils in the first state, states on the first soil, the width of the joint, and
+        the motion and whatever is drawn beside it, from 16 to 84 % of the samples."""
+        first, rows = self.conditions[0], []
+        needed = {condition: one.needed()[:, -1] for condition, one in self.analyses.items()}
+        quantities = [("joint needed [m]", {condition: float(np.quantile(values, 0.84)) for condition, values in needed.items()},
+                       {}, needed[first])]
+        found = self.first.outcomes
+        for k in self.frequencies:
+            values = {condition: float(self.high(one)[k]) for condition, one in self.analyses.items()}
+            by_gap = {f"{1e3 * gap:g} mm": float(self.high(self.first, gap)[k]) for gap in self.study.gaps}
+            samples = found.spectra[self.first.of(self.gap, self.level), self.channel, self.damping, k]
+            quantities.append((f"{found.channels[self.channel]} at {found.frequency[k]:.3g} Hz [m/s2]", values, by_gap, samples))
+        for name, of_conditions, of_gaps, samples in quantities:
+            ranges = {"soil": {one.soil: value for one, value in of_conditions.items() if one.state == first.state},
+                      "state": {one.state: value for one, value in of_conditions.items() if one.soil == first.soil},
+                      "gap": of_gaps,
+                      "motion": {"16 %": float(np.quantile(samples, 0.16)), "84 %": float(np.quantile(samples, 0.84))}}
+            reference = of_conditions[first]
+            for mover, values in ranges.items():
+                if len(values) > 1:
+                    low, high = min(values, key=values.get), max(values, key=values.get)
+                    rows.append({"quantity": name, "moved by": mover, "low": values[low], "at": low, "high": values[high], "at ": high,
+                                 "reference": reference, "range over reference": (values[high] - values[low]) / reference})
+        return rows
+
+    # Figures.
+
+    def draw_sensitivity(self, rows: list, folder: Path) -> list:
+        names = list(dict.fromkeys(row["quantity"] for row in rows))
+        figure, panels = plt.subplots(1, len(names), figsize=(1.35 * WIDTH, 2.6), sharey=False, squeeze=False)
+        for axes, name in zip(panels[0], names):
+            mine = [row for row in rows if row["quantity"] == name][::-1]
+            scale = 1e3 if name.endswith("[m]") else 1.0
+            axes.barh([row["moved by"] for row in mine], [scale * (row["high"] - row["low"]) for row in mine],
+                      left=[scale * row["low"] for row in mine], color=WITHOUT, height=0.6)
+            axes.axvline(scale * mine[0]["reference"], color=WITH, lw=1.5)
+            axes.set(title=name.rsplit(" [", 1)[0], xlabel="mm" if scale > 1 else "m/s²")
+        first = self.conditions[0].title
+        return save(figure, folder, "sensitivity.png", "How far each thing moves the answer alone",
+                    f"Bars: from the least to the largest value as soil, state or joint are changed alone, and from 16 to 84 % of "
+                    f"the samples (motion). Line: {first}. Joint: wide enough for 84 % of the samples at {self.study.levels[-1]:g} "
+                    f"m/s²; spectra: 84 %, {100 * self.first.outcomes.damping[self.damping]:g} % damping, joint of {1e3 * self.gap:g} mm, "
+                    f"{self.level:g} m/s².", columns=[[axes] for axes in panels[0]])
+
+    def draw_spectra(self, folder: Path) -> list:
+        found = self.first.outcomes
+        figure, axes = plt.subplots(figsize=(WIDTH, 3.8))
+        high = [self.high(one) for one in self.analyses.values()]
+        for number, (condition, values) in enumerate(zip(self.conditions, high)):
+            axes.plot(found.frequency, values, color=figures.COLOURS[number % len(figures.COLOURS)], lw=1, label=condition.title)
+        axes.plot(found.frequency, widened(found.frequency, np.max(high, axis=0)), color="black", lw=1.8, label="envelope, widened by 15 %")
+        log_scale(axes, "x", found.frequency)
+        log_scale(axes, "y", np.array(high))
+        axes.set(xlim=(found.frequency[0], found.frequency[-1]), xlabel="frequency [Hz]", ylabel="pseudo-acceleration [m/s²]",
+                 title=f"{found.channels[self.channel]}, joint {1e3 * self.gap:g} mm, {self.level / 9.81:.2g} g")
+        axes.legend(loc="upper left", fontsize=7)
+        g_axis(axes)
+        return save(figure, folder, "envelope.png", "Floor spectra by soil and state",
+                    f"84 % of {self.study.samples} members in each condition, {100 * found.damping[self.damping]:g} % damping, and "
+                    "their envelope with its peaks widened.")
+
+    def told(self, joint: list, sensitivity: list) -> list:
+        lines = []
+        for row in joint:
+            if row["joint"] == "any" and row["exceeded in"] == "5 %":
+                lines.append(f"So that no joint closes in 95 % of the cases at {row['pga [m/s2]']:g} m/s2 it must be as wide as "
+                             f"{1e3 * row['needed [m]']:.3g} mm; {governs(row)}.")
+        for gap in self.study.gaps:
+            share, place = self.governing([one.hits(CONTACT, gap)[:, -1].mean() for one in self.analyses.values()])
+            lines.append(f"In a joint of {1e3 * gap:g} mm the buildings touch at {self.study.levels[-1]:g} m/s2 in "
+                         f"{100 * share:.3g} % of the cases at most; {governs(place)}.")
+        moved = max((row for row in sensitivity if row["quantity"] == "joint needed [m]" and row["moved by"] != "motion"),
+                    key=lambda row: row["range over reference"], default=None)
+        if moved:
+            lines.append(f"The {moved['moved by']} moves the joint needed by {100 * moved['range over reference']:.3g} % "
+                         f"({moved['at']}: {1e3 * moved['low']:.3g} mm, {moved['at ']}: {1e3 * moved['high']:.3g} mm).")
+        return lines
+
+
+def governs(place: dict) -> str:
+    named = [f"{key} {place[key]}" for key in ("soil", "state") if place[key] != ALONE]
+    return f"{' and '.join(named)} govern{'s' if len(named) == 1 else ''}"
+
+
+def _cells(rows: list) -> tuple:
+    head = list(dict.fromkeys(name for row in rows for name in row))
+    return head, [[row.get(name, "") for name in head] for row in rows]
+
+
+def write(study: Study, analyses: dict, folder: Path) -> tuple:
+    """Writes tables, figures and the page of the envelope; returns the page's path and what the terminal shows."""
+    one = Envelope(study, analyses)
+    place = folder / "spectra"
+    place.mkdir(parents=True, exist_ok=True)
+    for gap, level in one.first.cells:
+        write_csv(place / f"gap-{gap_text(gap)}_pga-{level:g}.csv", one.spectra_rows(gap, level))
+    tables = {"joint": one.joint_rows(), "probability": one.probability_rows(), "conditions": one.condition_rows(),
+              "sensitivity": one.sensitivity_rows(), "hclpf": one.hclpf_rows()}
+    for name, rows in tables.items():
+        write_csv(folder / f"{name}.csv", rows)
+    lines = one.told(tables["joint"], tables["sensitivity"])
+    pages = one.draw_sensitivity(tables["sensitivity"], folder) + one.draw_spectra(folder)
+    parts = [("Joint that would be needed [m]", tables["joint"]), ("Each soil and state", tables["conditions"]),
+             ("What moves the answer", tables["sensitivity"]), ("Largest probability of each event", tables["probability"]),
+             ("Capacity of high confidence and low probability of failure (HCLPF)", tables["hclpf"])]
+    content = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))
+    content += "".join(html_figure(folder, page) for page in pages)
+    for caption, rows in parts:
+        content += f"<h2>{escape(caption)}</h2>\n" + html_table("", *_cells(rows), text=(0,))
+    links = ", ".join(f'<a href="conditions/{escape(condition.folder)}/fragility.html">{escape(condition.title)}</a>'
+                      for condition in one.conditions)
+    content += f"<p>The study in each condition: {links}.</p>\n"
+    text = "\n".join(lines) + "\n\n" + "\n".join(markdown(caption, *_cells(rows)) for caption, rows in parts[:3])
+    return write_page(folder / "fragility.html", study.title, content, f"study {study.path.name}"), text

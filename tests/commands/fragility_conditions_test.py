@@ -1,0 +1,124 @@
+"""run/fragility over soils and states: each pair of them, the envelope and the conditions that govern it, mistakes."""
+import csv
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+import program
+import two_buildings
+import yaml
+from pounding import fragility
+
+PROCESSORS = 2  # it starts runs
+
+ON_SOIL = {"left_clamp": "none", "left_soil_mat": "base", "left_soil_vs": 150, "left_soil_density": 1900,
+           "left_soil_poisson": 0.33, "left_soil_size": "6,4"}
+STUDY = {
+    "scene": str(two_buildings.SCENE),
+    "options": {**two_buildings.SHORT, **ON_SOIL, "probes": "left_roof", "output_interval": 2e-4},
+    "reduction": {name: {"model": "modal", "modal_vectors": 8} for name in ("left", "right")},
+    "motions": {"correlation": 0.9, "x": {"target": str(two_buildings.FOLDER / "ground.csv"), "seeds": [1, 2],
+                                          "options": {"duration": 6, "envelope": "0.3,4"}}},
+    "levels": [4.0],
+    "gaps": [0.01],
+    "joints": {"floor1": {}, "floor2": {}},
+    "soils": {"best": {}, "upper": {"factor": 2.25}},
+    "states": {"sound": {}, "cracked": {"left": {"columns": {"stiffness_factor": 0.5}}}},
+    "frequencies": [1, 2, 5, 10, 20, 50, 100],
+    "dampings": [0.05],
+}
+BY_HAND = {"soil": {"best": {}, "upper": {"left_soil_vs": 225}}, "state": {"sound": {}, "cracked": {"left_columns_stiffness_factor": 0.5}}}
+
+
+def rows_of(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+class Conditions(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="pounding-")
+        self.addCleanup(folder.cleanup)
+        self.place = Path(folder.name)
+
+    def fragility(self, *words, status=0, **changes):
+        (self.place / "study.yaml").write_text(yaml.safe_dump({**STUDY, **changes}, sort_keys=False))
+        done = subprocess.run([os.path.join(program.SOURCE, "run", "fragility"), "study.yaml", *words, "--out", "out"],
+                              cwd=self.place, capture_output=True, text=True, timeout=600, check=False,
+                              env={**os.environ, "POUNDING_BUILD": os.path.abspath(program.BUILD)})
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done
+
+    @program.long
+    def test_envelope_is_the_largest_of_single_runs(self):
+        said = self.fragility("--runner", "ensemble").stdout
+        self.assertIn("soil upper, state cracked (4 of 4)", said)
+        needed, spectra = {}, {}
+        for soil, of_soil in BY_HAND["soil"].items():
+            for state, of_state in BY_HAND["state"].items():
+                needed[soil, state], spectra[soil, state] = zip(*(self.alone(seed, {**of_soil, **of_state}) for seed in (1, 2)))
+        largest = max(needed, key=lambda at: np.quantile(needed[at], 0.5))
+        row = next(row for row in rows_of(self.place / "out" / "joint.csv") if row["joint"] == "any" and row["exceeded in"] == "50 %")
+        self.assertEqual((row["soil"], row["state"]), largest)
+        self.assertLess(abs(float(row["needed [m]"]) / np.quantile(needed[largest], 0.5) - 1), 1e-8)
+        high = {at: np.quantile(values, 0.84, axis=0) for at, values in spectra.items()}
+        for row in rows_of(self.place / "out" / "spectra" / "gap-apart_pga-4.csv"):
+            if row["channel"] == "left_roof x":
+                at = STUDY["frequencies"].index(float(row["frequency"]))
+                governing = max(high, key=lambda one: high[one][at])
+                self.assertEqual((row["soil"], row["state"]), governing)
+                self.assertLess(abs(float(row["p84"]) / high[governing][at] - 1), 1e-5)
+        moved = {row["moved by"]: row for row in rows_of(self.place / "out" / "sensitivity.csv") if row["quantity"] == "joint needed [m]"}
+        self.assertEqual(set(moved), {"soil", "state", "motion"})
+        states = {state: np.quantile(needed["best", state], 0.84) for state in ("sound", "cracked")}
+        self.assertLess(abs(float(moved["state"]["high"]) / max(states.values()) - 1), 1e-8)
+        page = (self.place / "out" / "fragility.html").read_text()
+        self.assertIn('href="conditions/upper_cracked/fragility.html"', page)
+        again = self.fragility("--collect").stdout
+        self.assertIn("So that no joint closes", again)
+
+    def alone(self, seed, options):
+        """Joint needed and floor spectrum of a run apart with options given by hand."""
+        with tempfile.TemporaryDirectory() as folder:
+            run = two_buildings.run(os.path.join(folder, "run"), **{
+                **STUDY["options"], "gap": 1.0, "motion_x_seed": seed, "motion_x_pga": 4.0, "motion_x_duration": 6, "motion_x_envelope": "0.3,4",
+                **{f"{name}_{key}": value for name in ("left", "right") for key, value in STUDY["reduction"][name].items()},
+                "spectra_frequencies": "1,2,5,10,20,50,100", "spectra_damping": 0.05, **options})
+            return 1.0 - np.nanmin(run.history["gap"]), run.spectrum("left_roof", "x", damping=0.05)[1]
+
+    def test_mistakes(self):
+        for words, changes in (("has no soil: no structure of two-buildings.yaml has a soil_mat",
+                                {"options": {**two_buildings.SHORT, "probes": "left_roof"}}),
+                               ("soils: 'a b' is no name", {"soils": {"a b": {}}}),
+                               ("left_soil_factor is given by soil upper and by state stiff",
+                                {"states": {"stiff": {"left": {"soil_factor": 2}}}}),
+                               ("soils: upper: factors is unknown", {"soils": {"upper": {"factors": 2}}}),
+                               ("soils: upper: factor: 0 is not above 0", {"soils": {"upper": {"factor": 0}}}),
+                               ("is no list of named states", {"states": ["cracked"]}),
+                               ("has other axes", {"soils": {"own": {"motions": {"y": STUDY["motions"]["x"]}}}})):
+            with self.subTest(words):
+                done = self.fragility("--dry-run", status=1, **changes)
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+                self.assertIn(words, done.stderr)
+
+
+class Capacity(unittest.TestCase):
+    """High confidence and low probability of failure against the formulas."""
+
+    def test_of_one_curve(self):
+        self.assertAlmostEqual(fragility.hclpf([3.0], [0.4])["HCLPF [m/s2]"], 3 * np.exp(-2.326 * 0.4))
+        self.assertAlmostEqual(fragility.hclpf([3.0], [0.3], 0.25)["HCLPF [m/s2]"], 3 * np.exp(-1.645 * 0.55))
+
+    def test_of_conditions(self):
+        found = fragility.hclpf([2.0, 4.0], [0.3, 0.4])
+        between = np.log(2) / 2
+        self.assertAlmostEqual(found["beta_U"], between)
+        self.assertAlmostEqual(found["HCLPF [m/s2]"], np.sqrt(8) * np.exp(-1.645 * (np.sqrt(0.125) + between)))
+        self.assertAlmostEqual(fragility.hclpf([2.0, 4.0], [0.3, 0.4], 0.2)["beta_U"], np.hypot(between, 0.2))
+
+
+if __name__ == "__main__":
+    unittest.main()
