@@ -119,7 +119,7 @@ class Guard(unittest.TestCase):
         """At any time after the first line of the command: one line, status 1."""
         path = imported.of_file("model.inp", ABAQUS)
         script = ("import os, signal, sys, time\nsys.argv = ['COMMAND', 'FILE', 'OUT', '--units', 'm,kg,s']\n"
-                  f"sys.path.insert(0, {str(imported.PACKAGE)!r})\n"
+                  f"sys.path.insert(0, {str(imported.COMMAND.parent)!r})\nimport parts\n"
                   "from pounding import commands\ncommands.leave_when_interrupted('import')\n"
                   "wait = float(os.environ['WAIT'])\nif os.fork() == 0:\n    time.sleep(wait)\n"
                   "    os.kill(os.getppid(), signal.SIGINT)\n    os._exit(0)\n"

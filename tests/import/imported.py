@@ -16,7 +16,7 @@ import scipy.spatial  # noqa: F401
 sys.dont_write_bytecode = True
 COMMAND = Path(program.SOURCE) / "run" / "import"
 PACKAGE = COMMAND.parents[1] / "python"
-sys.path.insert(0, str(PACKAGE))
+sys.path[:0] = [str(PACKAGE), str(COMMAND.parent)]
 for module in sorted((PACKAGE / "pounding" / "importing").glob("[a-z]*.py")):  # once, and not in each fork
     importlib.import_module(f"pounding.importing.{module.stem}")
 TYPES = {"point": 15, "line": 1, "triangle": 2, "quadrangle": 3, "tetrahedron": 4, "brick": 5, "wedge": 6}
