@@ -42,7 +42,7 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
-  "openmpi-bin, python3, python3-h5py, python3-matplotlib, python3-numpy, python3-scipy, python3-yaml")
+  "openmpi-bin, python3, python3-h5py, python3-jinja2, python3-matplotlib, python3-numpy, python3-scipy, python3-yaml")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS libopenblas0-serial)
 # Of the system that it is for, whose libraries it needs: pounding_0.2.0-debian12_amd64.deb.
 cmake_host_system_information(RESULT system QUERY DISTRIB_ID DISTRIB_VERSION_ID)

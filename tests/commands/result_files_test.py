@@ -41,7 +41,7 @@ class Links(InFolder):
                 runs.Job([], path.parent, 1, path.parent, dict(os.environ)).outcome()
 
         for name, write in (("table.csv", lambda path: tables.write_csv(path, [{"a": 1}])),
-                            ("report.html", lambda path: markup.write_page(path, "title", "content")),
+                            ("report.html", lambda path: markup.write_page(path, "title", [("part", "content")])),
                             ("figure.png", figure), (runs.LOG, log),
                             ("scene.yaml", lambda path: pounding.write_scene(path, {"end_time": 1})),
                             ("text.md", lambda path: files.write_text(path, "text"))):
@@ -91,7 +91,7 @@ class Names(InFolder):
     def test_a_figure_of_a_probe_that_climbs_out(self):
         page, = style.save(style.plt.figure(), self.out, "spectra_a/../../x.png", "title", "")
         self.assertEqual([path.name for path in self.out.iterdir()], [page["file"]])
-        self.assertIn("data:image/png", markup.html_figure(self.out, page))
+        self.assertIn("data:image/png", markup.html_figures(self.out, [page]))
         self.assertFalse((self.place / "x.png").exists())
 
 

@@ -16,11 +16,12 @@ SLACK = 30  # lines that a number may be above its count, so that not every smal
 
 
 def code_lines(path):
-    """Lines of a source without blank ones and comments; of Python without docstrings too."""
+    """Lines of a source without blank ones and comments, those of templates as well; of Python without docstrings too."""
     text = path.read_text(errors="replace")
     if path.suffix in (".cpp", ".h"):
         text = re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL)
         return sum(1 for line in text.splitlines() if line.strip() and not line.strip().startswith("//"))
+    text = re.sub(r"{#.*?#}", "", text, flags=re.DOTALL) if path.suffix == ".html" else text
     text = re.sub(r'^[ \t]*"""(?:.*?)"""[ \t]*\n', "", text, flags=re.DOTALL | re.MULTILINE)
     return sum(1 for line in text.splitlines() if line.strip() and not line.strip().startswith("#"))
 

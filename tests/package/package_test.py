@@ -100,7 +100,7 @@ class Installed(unittest.TestCase):
     def test_it_is_installed_with_its_needs(self):
         place = self.place
         told = (place / "site" / "pounding-0.2.0.dist-info" / "METADATA").read_text()
-        self.assertEqual(re.findall(r"Requires-Dist: (\w+)$", told, re.MULTILINE), ["h5py", "matplotlib", "numpy", "pyyaml", "scipy"])
+        self.assertEqual(re.findall(r"Requires-Dist: (\w+)$", told, re.MULTILINE), ["h5py", "jinja2", "matplotlib", "numpy", "pyyaml", "scipy"])
         self.assertIn("VERSION 0.2.0 ", Path(program.SOURCE, "CMakeLists.txt").read_text())
         bin_folder = place / "bin"
         bin_folder.mkdir()

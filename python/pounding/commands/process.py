@@ -21,7 +21,7 @@ def line_of(error: BaseException) -> str:
 
 
 # What the commands need of others; the packages of Debian are python3-numpy and so on.
-NEEDED = ("numpy", "scipy", "h5py", "matplotlib", "yaml")
+NEEDED = ("numpy", "scipy", "h5py", "jinja2", "matplotlib", "yaml")
 STOPPING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 

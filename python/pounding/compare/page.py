@@ -1,13 +1,12 @@
 """Figures, CSV files, text and page of a comparison."""
 
-from html import escape
 from pathlib import Path
 
 import numpy as np
 
 from pounding.tables import markdown, write_csv
 from pounding.plot import answer, design_spectra
-from pounding.plot.markup import answer_box, html_figure, html_table, write_page
+from pounding.plot.markup import answer_box, html_figures, html_table, paragraphs, write_page
 from pounding.plot.style import WIDTH, g_axis, log_scale, plt, run_colours, save
 from pounding.files import write_text
 
@@ -91,8 +90,8 @@ def text(runs: Runs) -> str:
     return "\n".join(lines)
 
 
-def body(runs: Runs, folder: Path) -> str:
-    """Writes CSV files and figures into the folder and returns the parts of a page about them, in HTML."""
+def parts(runs: Runs, folder: Path) -> list:
+    """Writes CSV files and figures into the folder and returns the parts of a page about them."""
     folder.mkdir(parents=True, exist_ok=True)
     for name, rows in (("spectra", tables.spectra(runs)), ("impacts", tables.impacts(runs)),
                        ("peaks", tables.peaks(runs)), ("options", tables.options(runs))):
@@ -101,19 +100,20 @@ def body(runs: Runs, folder: Path) -> str:
         else:
             write_text(folder / f"{name}.csv", "option\n")  # no option differs
     figures = [page for probe in runs.probes for page in spectra_figure(runs, probe, folder)]
-    found = "".join(f'<p class="note">{escape(note)}</p>\n' for note in runs.notes)
-    found += '<h2>Floor response spectra</h2>\n' + "".join(html_figure(folder, page, 3) for page in figures)
-    found += design_spectra.write(dict(zip(runs.labels, runs.results)), runs.probes, runs.dampings, folder)
-    for caption, rows in _parts(runs):
-        found += f"<h2>{escape(caption)}</h2>\n" + (html_table("", *_cells(rows)) if rows else "<p>None.</p>\n")
-    return found
+    spectra = design_spectra.write(dict(zip(runs.labels, runs.results)), runs.probes, runs.dampings, folder)
+    return [("Floor response spectra", html_figures(folder, figures, 3) + spectra),
+            *((caption, html_table("", *_cells(rows)) or paragraphs(["None."])) for caption, rows in _parts(runs))]
 
 
-def box(runs: Runs, more: str = "") -> str:
-    """The answer with which a page of the runs opens; `more`: HTML in it."""
-    return answer_box(answers(runs), any(answer.touched(run) for run in runs.results), more)
+def box(runs: Runs, links: list = ()) -> str:
+    """The answer with which a page of the runs opens; `links`: label, page and why there is none, of the report of each."""
+    return answer_box(answers(runs), any(answer.touched(run) for run in runs.results), links=links)
+
+
+def notes(runs: Runs) -> str:
+    return paragraphs(runs.notes, kind="note")
 
 
 def write(runs: Runs, folder: Path) -> Path:
     """Writes everything into the folder and returns the page's path."""
-    return write_page(folder / "comparison.html", " beside ".join(runs.labels), box(runs) + body(runs, folder))
+    return write_page(folder / "comparison.html", " beside ".join(runs.labels), parts(runs, folder), answer=box(runs), before=notes(runs))

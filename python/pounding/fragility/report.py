@@ -1,13 +1,12 @@
 """Tables, figures and page of a study."""
 
-from html import escape
 from pathlib import Path
 
 import numpy as np
 
 from pounding.tables import markdown, write_csv, write_rows
 from pounding.plot import design_spectra
-from pounding.plot.markup import answer_box, html_figure, html_table, write_page
+from pounding.plot.markup import answer_box, figure_parts, html_table, paragraphs, write_page
 from pounding.fragility import Fragility, binomial_interval, moments
 
 from . import figures
@@ -102,18 +101,14 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
              (f"Members that the mean of any spectrum needs, within {100 * TOLERANCE:g} %",
               enough_summary(enough_rows)), ("Repeats at full order: ln-ratio of the spectra", repeats_summary(tables["full_order"]))]
     lines = told(analysis, fits, full, tables) + notes
-    content = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))
-    content += "".join(html_figure(folder, page) for page in pages)
-    content += f"<h2>Floor spectra</h2>\n{floor_table(analysis)}"
-    for caption, rows in parts:
-        if rows:
-            content += f"<h2>{escape(caption)}</h2>\n" + html_table("", *_cells(rows), text=(0,))
+    box = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))
+    shown = [*figure_parts(folder, pages), ("Floor spectra", floor_table(analysis)),
+             *((caption, html_table("", *_cells(rows), text=(0,))) for caption, rows in parts)]
     names = ", ".join(f"{name}.csv" for name, rows in tables.items() if rows)
-    content += (f"<p>Tables beside this page: {escape(names)}, design.csv, motions.csv, correlation.csv, "
-                "spectra/*.csv.</p>\n")
+    after = paragraphs([f"Tables beside this page: {names}, design.csv, motions.csv, correlation.csv, spectra/*.csv."])
     text = "\n".join(f"{line}" for line in lines) + "\n\n" + "\n".join(
         markdown(caption, *_cells(rows)) for caption, rows in parts if rows)
-    return write_page(folder / "fragility.html", study.title, content, f"study {study.path.name}"), text
+    return write_page(folder / "fragility.html", study.title, shown, answer=box, after=after, under=f"study {study.path.name}"), text
 
 
 def fields_summary(rows: list) -> list:

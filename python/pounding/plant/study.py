@@ -3,7 +3,6 @@ by floor, spectra beside each other, what it cost."""
 
 import subprocess
 import time
-from html import escape
 from pathlib import Path
 
 from pounding.commands import called, words_of_command
@@ -112,16 +111,11 @@ def draw(folder: Path) -> str:
 
 def write(runs: Runs, folder: Path) -> Path:
     """Draws every run, compares them, writes plant.html and returns its path."""
-    links = ""
-    for label, result in zip(runs.labels, runs.results):
-        why = draw(result.folder)
-        link = result.folder.resolve().relative_to(folder.resolve()) / "report.html"
-        links += (f'<li><a href="{escape(str(link))}">{escape(label)}</a></li>\n' if not why else
-                  f"<li>{escape(label)}: {escape(why)}</li>\n")
+    links = [(label, result.folder.resolve().relative_to(folder.resolve()) / "report.html", draw(result.folder))
+             for label, result in zip(runs.labels, runs.results)]
     apart = next((one for one in runs.results if not one.summary.get("contacts")), None)
-    content = page.box(runs, f"<p>Reports of the runs, with pictures of the model:</p>\n<ul>\n{links}</ul>\n")
-    content += "".join(f"<h2>The answer of {escape(label)}</h2>\n{answer.html(result, apart, '')}"
-                       for label, result in zip(runs.labels, runs.results) if result is not apart)
-    content += page.body(runs, folder / "comparison") + "<h2>What it cost</h2>\n" + html_table("", COST, cost_rows(runs))
+    parts = [(f"The answer of {label}", answer.html(result, apart, ""))
+             for label, result in zip(runs.labels, runs.results) if result is not apart]
+    parts += [*page.parts(runs, folder / "comparison"), ("What it cost", html_table("", COST, cost_rows(runs)))]
     title = runs.results[0].summary.get("title") or "The plant pair"
-    return write_page(folder / "plant.html", title, content)
+    return write_page(folder / "plant.html", title, parts, answer=page.box(runs, links), before=page.notes(runs))

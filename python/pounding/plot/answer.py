@@ -2,7 +2,6 @@
 picture beside them: how far the decisive joint was open, and what its floor feels."""
 
 from dataclasses import dataclass
-from html import escape
 
 import numpy as np
 
@@ -308,11 +307,8 @@ def sentences(run: Result, twin: Result | None, why: str = "") -> list:
 
 def html(run: Result, twin: Result | None, why: str) -> str:
     lines = sentences(run, twin, why)
-    if not lines:
-        return ""
-    wanted = touched(run) and twin is None
-    more = f"<p>The run without pounding: <code>{escape(twins.command(run))}</code></p>\n" if wanted else ""
-    return answer_box(lines, touched(run), more)
+    command = twins.command(run) if touched(run) and twin is None else ""
+    return answer_box(lines, touched(run), command) if lines else ""
 
 
 def _gap(axes, result: Result, name: str) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 from pounding.tables import write_csv
 from pounding.fragility import widened
 from pounding.results import DIRECTIONS
-from .markup import folded, html_table
+from .markup import folded, html_table, paragraphs
 
 BROADENING = 0.15  # part by which peaks are widened on both sides
 # Table 1 of Regulatory Guide 1.122 (revision 1): first frequency, last and increment [Hz]; beyond 34 Hz, where impacts
@@ -71,9 +71,9 @@ def write(runs: dict, probes: list, dampings: list, folder: Path) -> str:
     envelope = "Envelope of the runs" if len(runs) > 1 else "Floor spectra"
     text = html_table(f"{envelope}, {of}, by frequency [Hz]", ["", *(f"{f:g}" for f in head)],
                       [(f"{probe}, {way}", *(_short(value.get((probe, way, float(f)))) for f in head)) for probe, way in places])
-    whole = "".join(_floor(runs, shown, probe) for probe in dict.fromkeys(probe for probe, _ in places))
-    return text + folded(f"At all frequencies of Regulatory Guide 1.122 and third octaves beyond, {of}", whole) + (
-        '<p class="note">floor_spectra.csv beside this page has them at every damping ratio.</p>\n')
+    whole = [_floor(runs, shown, probe) for probe in dict.fromkeys(probe for probe, _ in places)]
+    return (text + folded(f"At all frequencies of Regulatory Guide 1.122 and third octaves beyond, {of}", whole)
+            + paragraphs(["floor_spectra.csv beside this page has them at every damping ratio."], kind="note"))
 
 
 def _short(value: float | None) -> str | None:

@@ -4,7 +4,7 @@ figure of damping."""
 import numpy as np
 
 from pounding.results import DIRECTIONS, Missing, Result
-from .markup import html_table
+from .markup import html_table, paragraphs
 from .style import G, WIDTH, log_scale, plt, save
 
 MOTIONS = ("x", "y", "z", "rx", "ry", "rz")
@@ -31,7 +31,7 @@ def motion_table(result: Result) -> str:
               "PGA [m/s²]", "PGA [g]", "points", "step [s]", "duration [s]", "baseline and sampling",
               "velocity at its end [m/s]", "displacement at its end [mm]")
     if not rows:
-        return "<p>The ground does not move.</p>\n"
+        return paragraphs(["The ground does not move."])
     # One column per direction: the names of files are long.
     columns = list(zip(header, *rows))
     text = html_table("Ground motion as it was understood", list(columns[0]), [list(row) for row in columns[1:]],
@@ -195,9 +195,9 @@ def mode_tables(result: Result) -> str:
         shown = [i for i in range(8) if i < 6 or any(row[i] for row in rows)]
         text += html_table(f"Modes of {name}", [header[i] for i in shown], [[row[i] for i in shown] for row in rows])
     if text:
-        text += ('<p class="note">Effective mass: along the direction named, or rotary inertia about it. Share: of all that can move along the '
-                 "direction named (mass), or about it (rotary inertia), as on the console. Group that moves: the one whose nodes have most of the "
-                 "kinetic energy; nodes that groups share count for each.</p>\n")
+        text += paragraphs(["Effective mass: along the direction named, or rotary inertia about it. Share: of all that can move along the "
+                            "direction named (mass), or about it (rotary inertia), as on the console. Group that moves: the one whose nodes "
+                            "have most of the kinetic energy; nodes that groups share count for each."], kind="note")
     return text
 
 

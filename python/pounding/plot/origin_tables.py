@@ -1,7 +1,7 @@
 """Where a report comes from: date, machine, program and libraries, the inputs with their hashes, and all options."""
 
 from pounding.results import Result
-from .markup import folded, html_table
+from .markup import folded, html_table, paragraphs
 
 SHOWN_OVERRIDES = 6  # in a title
 
@@ -50,15 +50,12 @@ def tables(result: Result) -> str:
                        text=(1,), hashes=(3,))
     text += html_table("Files beside this page", ["", ""], [tuple(one.values()) for one in result.summary.get("files", [])], text=(1,))
     if str(result.summary.get("commit", "")).endswith("-changed"):
-        text += ('<p class="note">The sources of the program were not those of the commit: build a committed state before '
-                 "a report is filed.</p>\n")
+        text += paragraphs(["The sources of the program were not those of the commit: build a committed state before a report is "
+                            "filed."], kind="note")
     return text
 
 
 def options(result: Result) -> str:
     """All options in force, small, behind a click and not on paper: resolved.yaml has them."""
-    rows = list(result.summary.get("options", {}).items())
-    if not rows:
-        return ""
-    table = html_table("", ["option", "value"], rows, text=(1,))
-    return folded("All options in force, as resolved.yaml has them", f'<div class="small">{table}</div>\n', printed=False)
+    table = html_table("", ["option", "value"], list(result.summary.get("options", {}).items()), text=(1,))
+    return folded("All options in force, as resolved.yaml has them", [table], small=True)

@@ -1,13 +1,12 @@
 """The report of a run: the answer first, then what was found, what was computed, and where it all comes from."""
 
-from html import escape
 from pathlib import Path
 
 from pounding.results import Missing, Result
 from pounding.scenes import SceneError, read_scene
 from . import (answer, contact_figures, design_spectra, equipment, floor_figures, force_figures, model_tables, origin_tables,
                result_tables, spectra_figures, view)
-from .markup import html_figure, write_page
+from .markup import html_figures, html_view, paragraphs, write_page
 
 
 class _Drawn:
@@ -16,23 +15,23 @@ class _Drawn:
     def __init__(self, result: Result, told=lambda name: None):
         self.result, self.count, self.skipped, self.told = result, 0, [], told
 
-    def html(self, *figures, level: int = 3) -> str:
-        text = ""
+    def html(self, *figures) -> str:
+        drawn = []
         for figure in figures:
             self.told(figure.__name__)
             try:
-                pages = figure(self.result)
+                drawn += figure(self.result)
             except Missing as reason:
                 self.skipped.append(f"{figure.__name__} skipped: {reason}")
-                continue
-            self.count += len(pages)
-            text += "".join(html_figure(self.result.folder, page, level) for page in pages)
-        return text
+        self.count += len(drawn)
+        return html_figures(self.result.folder, drawn, 3)
 
-
-def _part(title: str, content: str) -> str:
-    """A part of the report; nothing of no content."""
-    return f"<h2>{escape(title)}</h2>\n{content}" if content else ""
+    def view(self) -> str:
+        try:
+            return html_view(*view.texts(self.result))
+        except Missing as reason:
+            self.skipped.append(f"view skipped: {reason}")
+            return ""
 
 
 def _design_spectra(result: Result) -> str:
@@ -42,34 +41,22 @@ def _design_spectra(result: Result) -> str:
     return design_spectra.write(runs, result.spectrum_probes, sorted(set(result.spectra["damping"])), result.folder)
 
 
-def _found(result: Result, drawn: _Drawn) -> str:
-    twin = result.without
-    joints = (result_tables.impact_tables(result) + result_tables.joint_table(result)
-              + drawn.html(*contact_figures.JOINT))
-    floors = (result_tables.probe_table(result, twin) + drawn.html(*spectra_figures.ALL) + _design_spectra(result)
-              + result_tables.drift_table(result) + drawn.html(*floor_figures.ALL))
-    items = equipment.table(result, twin) + drawn.html(*equipment.ALL) if equipment.items(result) else ""
-    forces = result_tables.force_table(result, twin) + drawn.html(*force_figures.ALL)
-    energy = result_tables.energy_table(result) + drawn.html(contact_figures.energy_balance)
-    return (_part("Equipment", items) + _part("Yielding", result_tables.yield_table(result)) + _part("The joints", joints)
-            + _part("The floors", floors) + _part("Forces and links", forces) + _part("Energy", energy))
-
-
-def _computed(result: Result, drawn: _Drawn) -> str:
-    motion = model_tables.motion_table(result) if result.summary else ""
-    motion += drawn.html(floor_figures.ground_motion)
-    model = (model_tables.structure_table(result) + model_tables.contact_table(result)
-             + model_tables.damping_table(result) + drawn.html(model_tables.damping) + model_tables.material_tables(result)
-             + model_tables.region_table(result) + model_tables.mode_tables(result))
-    return _part("The motion", motion) + _part("The model", model)
-
-
-def _view(result: Result, drawn: _Drawn) -> str:
-    try:
-        return view.html(result)
-    except Missing as reason:
-        drawn.skipped.append(f"view skipped: {reason}")
-        return ""
+def _parts(result: Result, drawn: _Drawn) -> list:
+    """Titles and contents: what was found, what was computed, and where it all comes from."""
+    twin, found, model, draw = result.without, result_tables, model_tables, drawn.html
+    return [
+        ("Equipment", equipment.table(result, twin) + draw(*equipment.ALL) if equipment.items(result) else ""),
+        ("Yielding", found.yield_table(result)),
+        ("The joints", found.impact_tables(result) + found.joint_table(result) + draw(*contact_figures.JOINT)),
+        ("The floors", found.probe_table(result, twin) + draw(*spectra_figures.ALL) + _design_spectra(result)
+         + found.drift_table(result) + draw(*floor_figures.ALL)),
+        ("Forces and links", found.force_table(result, twin) + draw(*force_figures.ALL)),
+        ("Energy", found.energy_table(result) + draw(contact_figures.energy_balance)),
+        ("The motion", (model.motion_table(result) if result.summary else "") + draw(floor_figures.ground_motion)),
+        ("The model", model.structure_table(result) + model.contact_table(result) + model.damping_table(result)
+         + draw(model.damping) + model.material_tables(result) + model.region_table(result) + model.mode_tables(result)),
+        ("The model and its motion", drawn.view()),
+        ("Where this report comes from", model.run_table(result) + origin_tables.tables(result) + origin_tables.options(result))]
 
 
 def stopped(result: Result) -> str:
@@ -91,14 +78,10 @@ def write(result: Result, why: str = "", told=lambda name: None) -> tuple:
     """Draws the figures and writes report.html into the result folder; `why` there is no run without pounding beside
     it; `told` hears what is drawn. Returns the number of figures, what was skipped and the path."""
     drawn = _Drawn(result, told)
-    content = answer.html(result, result.without, why) + drawn.html(answer.picture)
-    content += result_tables.warnings(result)
-    if not result.summary:
-        content += f'<p class="note">{stopped(result)}</p>\n'
-    content += _found(result, drawn) + _computed(result, drawn) + _view(result, drawn)
-    origin = model_tables.run_table(result) + origin_tables.tables(result)
-    content += _part("Where this report comes from", origin) + origin_tables.options(result)
-    path = write_page(result.folder / "report.html", origin_tables.title(result), content, origin_tables.line(result))
+    box, picture, parts = answer.html(result, result.without, why), drawn.html(answer.picture), _parts(result, drawn)
+    before = picture + result_tables.warnings(result) + paragraphs(filter(None, [stopped(result)]), kind="note")
+    path = write_page(result.folder / "report.html", origin_tables.title(result), parts, answer=box, before=before,
+                      under=origin_tables.line(result))
     return drawn.count, drawn.skipped, path
 
 

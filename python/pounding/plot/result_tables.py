@@ -143,5 +143,4 @@ def energy_table(result: Result) -> str:
 
 
 def warnings(result: Result) -> str:
-    found = result.summary.get("warnings", [])
-    return f"<h3>Warnings</h3>\n{paragraphs(found)}" if found else ""
+    return paragraphs(result.summary.get("warnings", []), "Warnings")

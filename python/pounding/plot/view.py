@@ -239,12 +239,10 @@ def data(result: Result) -> dict:
             "members": scene.members(result, motion.get("times", []))}
 
 
-def html(result: Result) -> str:
-    """The view for the page, with its script and its numbers in it."""
+def texts(result: Result) -> tuple:
+    """Numbers and script of the view, as a page has them. Throws Missing."""
     try:
         numbers = json.dumps(data(result), separators=(",", ":")).replace("</", "<\\/")
     except (OSError, KeyError, ValueError, IndexError) as error:
         raise Missing(f"a file with the mesh or its motion cannot be read: {' '.join(str(error).split())}") from error
-    script = (Path(__file__).parent / "view.js").read_text(encoding="utf-8")
-    return ('<h2>The model and its motion</h2>\n<div id="view"></div>\n'
-            f'<script type="application/json" id="view-data">{numbers}</script>\n<script>\n{script}</script>\n')
+    return numbers, (Path(__file__).parent / "view.js").read_text(encoding="utf-8")

@@ -5,7 +5,7 @@ from pathlib import Path
 from matplotlib.ticker import MaxNLocator
 
 from pounding.plot import answer
-from pounding.plot.markup import answer_box, html_figure, html_table, write_page
+from pounding.plot.markup import answer_box, figure_parts, html_table, paragraphs, write_page
 from pounding.plot.style import WIDTH, plt, probe_colour, save
 from pounding.fragility import binomial_interval
 from pounding.results import DIRECTIONS, Result
@@ -183,10 +183,8 @@ def write(rows: list, axes: list, title: str, folder: Path) -> Path:
     """Draws the figure, writes sweep.html and returns its path."""
     failed = sum(row["status"] != "ok" for row in rows)
     lines = sentences(rows, axes) + [f"{len(rows)} members, {failed} failed."]
-    content = answer_box(lines, any(row.get("impacts") for row in rows))
-    head, cells = shown(rows, axes)
-    content += html_table("Impacts, the factor on the motion that closes the joint where it is open, and the largest floor "
-                          "spectra [m/s²]", head, cells)
-    content += "".join(html_figure(folder, page) for page in draw(rows, axes, folder))
-    content += "<p>Tables beside this page: sweep.csv, and a folder with the results of each member.</p>\n"
-    return write_page(folder / "sweep.html", title, content)
+    table = html_table("Impacts, the factor on the motion that closes the joint where it is open, and the largest floor "
+                       "spectra [m/s²]", *shown(rows, axes))
+    return write_page(folder / "sweep.html", title, figure_parts(folder, draw(rows, axes, folder)),
+                      answer=answer_box(lines, any(row.get("impacts") for row in rows)), before=table, after=paragraphs(
+                          ["Tables beside this page: sweep.csv, and a folder with the results of each member."]))

@@ -1,11 +1,10 @@
 """The page of a campaign: the paper's tables and figures with ours, the findings, the impacts."""
 
 import json
-from html import escape
 from pathlib import Path
 
 from pounding.files import write_text
-from pounding.plot.markup import html_figure, html_table, write_page
+from pounding.plot.markup import figure_parts, html_table, paragraphs, write_page
 
 from . import findings, paper, paper_tables, results
 from .cases import VARIANTS
@@ -55,8 +54,8 @@ def _runs(campaign: Campaign) -> str:
                                "µs per step", "energy residual"], rows)
 
 
-def _note(text: str) -> str:
-    return f'<p class="note">{escape(text)}</p>\n'
+def _note(*texts: str) -> str:
+    return paragraphs(texts, kind="note")
 
 
 def write(campaign: Campaign, summaries: dict, failures: dict, pages: list, folder: Path, notes: list) -> Path:
@@ -66,15 +65,12 @@ def write(campaign: Campaign, summaries: dict, failures: dict, pages: list, fold
     write_text(folder / "findings.json", json.dumps(checks, indent=1))
     failed = [(case.name, why) for case, why in failures.items() if why]
     title = "The two-storey pair: the paper's campaign"
-    parts = ["".join(map(_note, notes)), html_table("Cases that failed", ["case", "why"], failed), _findings(campaign)]
+    before = _note(*notes) + html_table("Cases that failed", ["case", "why"], failed) + _findings(campaign)
     if summaries:
-        for caption, head, rows in (paper_tables.frequency_table(summaries), paper_tables.time_step_table(summaries)):
-            parts.append(html_table(caption, head, rows))
-        parts.append(_damping(summaries))
-    parts.append(_excitations(campaign))
-    parts += [html_figure(folder, page) for page in pages]
-    parts.append(html_table("Impacts by case and floor", results.IMPACT_HEAD, results.impact_rows(campaign.all())))
-    parts.append(_note("left: share of the impulse in the half of the face at y = 0; bottom: in its lower half; at "
-                       f"both ends: impacts of which each half took over {100 * (1 - results.AT_AN_END):.0f} %."))
-    parts.append(_runs(campaign))
-    return write_page(folder / "report.html", title, "".join(parts))
+        before += (html_table(*paper_tables.frequency_table(summaries)) + html_table(*paper_tables.time_step_table(summaries))
+                   + _damping(summaries))
+    after = html_table("Impacts by case and floor", results.IMPACT_HEAD, results.impact_rows(campaign.all()))
+    after += _note("left: share of the impulse in the half of the face at y = 0; bottom: in its lower half; at "
+                   f"both ends: impacts of which each half took over {100 * (1 - results.AT_AN_END):.0f} %.")
+    return write_page(folder / "report.html", title, figure_parts(folder, pages), before=before + _excitations(campaign),
+                      after=after + _runs(campaign))

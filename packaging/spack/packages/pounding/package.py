@@ -38,7 +38,7 @@ class Pounding(CMakePackage):
 
     with when("+tools"):
         depends_on("python@3.11:", type=("build", "run"))
-        for module in ("numpy", "scipy", "h5py", "matplotlib", "pyyaml"):
+        for module in ("numpy", "scipy", "h5py", "jinja2", "matplotlib", "pyyaml"):
             depends_on(f"py-{module}", type="run")
 
     requires("%gcc@12:", msg="kernels are written with vectors of g++ 12 or later")
