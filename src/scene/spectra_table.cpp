@@ -28,6 +28,10 @@ struct SpectraCommand {
     option("-dirac-step", real("s", absent("left out: the time step in summary.json beside FILE"), positive), "half the base of the triangle");
     option("-output", text("file", absent("left out: standard output"), "a file"), "CSV of the spectra");
     option("-peaks", text("file", absent("left out: none"), "a file"), "CSV of the peaks: start, end, impulse of the floor per unit of mass");
+    option("-samples", text("file", absent("left out: none"), "a file"), "CSV of the samples as they were read: time, acceleration");
+    option("-accept", text("file", absent("left out: spectra"), "a file"), "judge the motion, or the set of them, by a table of rules (docs/manual/motions.md); no spectra then: --output has a row for each rule");
+    option("-anchor", text("pga", absent("left out: as the rules say"), "a number and its unit, as 0.3g"), "rules: peak acceleration of their targets, as 0.3g or 3m/s2");
+    option("-directions", text("names", absent("left out: x,y,z, as many as FILEs"), "x, y and z between commas"), "rules: components of each motion, in the order of the FILEs");
     option("-digits", integer("digits", "9", digit_count), "significant ones of every number; 17: to the bit");
     // clang-format on
   }

@@ -266,6 +266,20 @@ void require_free_place(const SpectraOptions& options, const std::string& option
   }
 }
 
+void write_samples(const std::string& path, int digits, const std::vector<Input>& inputs) {
+  CsvFile file(path, digits);
+  file.header("probe,direction,time,acceleration");
+  for (const Input& input : inputs) {
+    const SampledSignal& signal = input.named.signal;
+    for (std::size_t i = 0; i < signal.acceleration.size(); ++i) {
+      file.row(
+          source_of(input.named),
+          {signal.first_time + static_cast<double>(i) * signal.time_step, signal.acceleration[i]});
+    }
+  }
+  file.close();
+}
+
 void write_peaks(CsvFile& file, const Input& input) {
   const SampledSignal& signal = input.named.signal;
   const auto start_of = [&](std::size_t k) {
@@ -282,12 +296,14 @@ void write_peaks(CsvFile& file, const Input& input) {
 void run_spectra(const SpectraOptions& options) {
   require_free_place(options, "--output", options.output == "/dev/stdout" ? "" : options.output);
   require_free_place(options, "--peaks", options.peaks == "/dev/stdout" ? "" : options.peaks);
+  require_free_place(options, "--samples", options.samples == "/dev/stdout" ? "" : options.samples);
   std::vector<Input> inputs;
   double longest_step = 0;
   for (NamedSignal& named : read_signals(options)) {
     longest_step = std::max(longest_step, named.signal.time_step);
     inputs.push_back(prepare(options, std::move(named)));
   }
+  if (!options.samples.empty()) write_samples(options.samples, options.digits, inputs);
   CsvFile file(options.output, options.digits);
   std::optional<CsvFile> peaks;
   if (!options.peaks.empty()) {

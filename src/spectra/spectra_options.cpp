@@ -86,6 +86,19 @@ std::vector<Treatment> read_treatments(OptionReader& reader) {
   return treatments;
 }
 
+/// Refuses options that have no effect with --accept, or none without it.
+void check_acceptance(const OptionReader& reader, bool accept) {
+  const std::string_view idle = accept
+                                    ? "-damping -frequencies -true -after -envelope -rotd -broaden "
+                                      "-treatment -peaks -samples -digits"
+                                    : "-anchor -directions";
+  for (const std::string& pattern : split(idle, ' ')) {
+    if (!reader.given(pattern)) continue;
+    throw UserError("-" + pattern + " has no effect with" +
+                    (accept ? " --accept: the table of rules decides" : "out --accept"));
+  }
+}
+
 void check_together(const SpectraOptions& options) {
   if (options.files.empty()) throw UserError("no file given (see --help)");
   const bool peaks =
@@ -106,8 +119,11 @@ void check_together(const SpectraOptions& options) {
   const auto place = [](const std::string& file) {
     return file.empty() ? std::string("/dev/stdout") : file;
   };
-  if (!options.peaks.empty() && options.peaks == place(options.output)) {
-    throw UserError("--peaks " + options.peaks + ": the spectra go there; give another file");
+  for (const auto& [name, file] :
+       {std::pair{"--peaks ", options.peaks}, {"--samples ", options.samples}}) {
+    if (!file.empty() && file == place(options.output)) {
+      throw UserError(name + file + ": the spectra go there; give another file");
+    }
   }
 }
 
@@ -153,7 +169,9 @@ std::string spectra_help() {
       "oscillators start at rest, and their peaks are exact for samples joined by lines. A CSV\n"
       "as spectra.csv of a run is; SI units.\n\n";
   for (const OptionRow& row : spectra_option_table()) text += lines_of(row);
-  return text + "  --help                    this page\n\nExit status: 0, or 1 after an error.\n";
+  return text +
+         "  --help                    this page\n\nExit status: 0, or 1 after an error; "
+         "with --accept 3 when a rule refuses a motion.\n";
 }
 
 SpectraOptions read_spectra_options(std::span<const std::string> words) {
@@ -186,7 +204,10 @@ SpectraOptions read_spectra_options(std::span<const std::string> words) {
   options.dirac_step = real("-dirac-step");
   options.output = text("-output");
   options.peaks = text("-peaks");
+  options.samples = text("-samples");
+  options.rules = text("-accept");
   options.digits = reader.integer("-digits");
+  check_acceptance(reader, !options.rules.empty());
   check_together(options);
   return options;
 }

@@ -32,7 +32,9 @@ struct SpectraOptions {
   double dirac_step = 0;              ///< [s]; 0: the time step of the run
   std::string output;                 ///< CSV; "": standard output
   std::string peaks;                  ///< CSV of the peaks; "": none
-  int digits = 9;                     ///< significant ones of every number
+  std::string samples;                ///< CSV of the samples; "": none
+  std::string rules;  ///< table of rules that judge the motions; "": spectra instead
+  int digits = 9;     ///< significant ones of every number
 };
 
 /// The page of --help.
