@@ -135,8 +135,7 @@ bool may_fly(const Scene& scene, const Structure& structure) {
 }
 
 /// Doubt about joins whose nodes are far apart: the nearest node may not be the one meant.
-void doubt_long_joins(const Structure& structure, const GlobalMesh& mesh,
-                      std::vector<std::string>& warnings) {
+void doubt_long_joins(const Structure& structure, const GlobalMesh& mesh, Doubts doubts) {
   double longest = longest_join;
   const RigidNodes* found = nullptr;
   for (const RigidNodes& body : mesh.rigid) {
@@ -152,15 +151,15 @@ void doubt_long_joins(const Structure& structure, const GlobalMesh& mesh,
     }
   }
   if (found == nullptr) return;
-  warnings.push_back(sentence(
-      "structure {}: join {} holds nodes {} m apart together, one at {}; is the nearest node of "
-      "the second group the one that is meant?",
-      {structure.name, found->group, longest, place_text(mesh.position(found->nodes.front()))}));
+  doubts.add("structure " + structure.name,
+             "join {} holds nodes {} m apart together, one at {}; is the nearest node of "
+             "the second group the one that is meant?",
+             {found->group, longest, place_text(mesh.position(found->nodes.front()))});
 }
 
 /// Doubt about embedded foundations of this structure alone that turn about a point outside of it.
 void doubt_turning_points(const Scene& scene, const Structure& structure, const BoundingBox& box,
-                          std::vector<std::string>& warnings) {
+                          Doubts doubts) {
   const double reach = outside * box.diagonal();
   for (const Support& support : scene.supports) {
     if (!support.embedment) continue;
@@ -173,10 +172,11 @@ void doubt_turning_points(const Scene& scene, const Structure& structure, const 
       return group.structure == structure.name;
     });
     if (!alone || !is_out) continue;
-    warnings.push_back("support " + support.name + ": it turns about " + place_text(support.point) +
-                       ", outside of structure " + structure.name + ", which lies between " +
-                       place_text(box.low) + " and " + place_text(box.high) + "; give -" +
-                       support.name + "_point the middle of its underside");
+    doubts.add("support " + support.name,
+               "it turns about {}, outside of structure {}, which lies between {} and {}; give "
+               "-{}_point the middle of its underside",
+               {place_text(support.point), structure.name, place_text(box.low),
+                place_text(box.high), support.name});
   }
 }
 
@@ -215,8 +215,7 @@ std::vector<double> line_lengths(const GlobalMesh& mesh) {
 }
 
 /// Doubt about regions of beams without flexibility in shear whose longest line is thick.
-void doubt_slenderness(const Structure& structure, const GlobalMesh& mesh,
-                       std::vector<std::string>& warnings) {
+void doubt_slenderness(const Structure& structure, const GlobalMesh& mesh, Doubts doubts) {
   const std::vector<double> lengths = line_lengths(mesh);
   std::map<int, double> longest;  // of each region
   std::size_t b = 0;
@@ -234,14 +233,14 @@ void doubt_slenderness(const Structure& structure, const GlobalMesh& mesh,
     // 12 E I / (kappa G A L2)
     const double held = 24 * (1 + region.material.poisson) / shear_part / std::pow(slenderness, 2);
     if (cantilever_part * held < doubted_shear) continue;
-    warnings.push_back(sentence(
-        "structure {}, group {}: slenderness {:.3g}, its beams being {:.4g} m long in one "
-        "line: shear, which they leave out, would make that {:.3g} % more flexible held "
-        "at both ends, {:.3g} % as a cantilever; {}",
-        {structure.name, region.group, slenderness, length, 100 * held,
-         100 * cantilever_part * held,
+    doubts.add(
+        "structure " + structure.name + ", group " + region.group,
+        "slenderness {:.3g}, its beams being {:.4g} m long in one line: shear, which "
+        "they leave out, would make that {:.3g} % more flexible held at both ends, "
+        "{:.3g} % as a cantilever; {}",
+        {slenderness, length, 100 * held, 100 * cantilever_part * held,
          region.element == ElementType::beam ? "give section " + section.name + " a shear_area"
-                                             : "let its element be beam, with shear areas"}));
+                                             : "let its element be beam, with shear areas"});
   }
 }
 
@@ -312,27 +311,24 @@ void check_connectivity(const Scene& scene, const Structure& structure,
   }
 }
 
-std::vector<std::string> mesh_warnings(const Scene& scene, const Structure& structure,
-                                       const GlobalMesh& mesh, const Connectivity& connectivity) {
-  std::vector<std::string> warnings;
+void add_mesh_doubts(const Scene& scene, const Structure& structure, const GlobalMesh& mesh,
+                     const Connectivity& connectivity, Doubts doubts) {
   if (connectivity.coincident_inside.count > 0 && !structure.allow_loose) {
-    warnings.push_back(
-        "structure " + structure.name + ": " +
-        found_at(connectivity.coincident_inside,
-                 " pairs of nodes lie on each other and are not one, the first at "));
+    doubts.add("structure " + structure.name, "{}",
+               {found_at(connectivity.coincident_inside,
+                         " pairs of nodes lie on each other and are not one, the first at ")});
   }
-  doubt_long_joins(structure, mesh, warnings);
+  doubt_long_joins(structure, mesh, doubts);
   const BoundingBox box = bounding_box({&mesh, 1});
-  doubt_turning_points(scene, structure, box, warnings);
-  if (structure.matrices.empty()) doubt_slenderness(structure, mesh, warnings);
-  warnings.insert(warnings.end(), mesh.doubts.begin(), mesh.doubts.end());
+  doubt_turning_points(scene, structure, box, doubts);
+  if (structure.matrices.empty()) doubt_slenderness(structure, mesh, doubts);
+  doubts.add(mesh.doubts);
   const double longest = box.longest_side();
   if (longest > longest_structure) {
-    warnings.push_back(sentence(
-        "structure {}: its mesh is {} m long; meshes are in metres, is this one in millimetres?",
-        {structure.name, longest}));
+    doubts.add("structure " + structure.name,
+               "its mesh is {} m long; meshes are in metres, is this one in millimetres?",
+               {longest});
   }
-  return warnings;
 }
 
 }  // namespace pounding

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "checks/doubts.h"
 #include "mesh/connectivity.h"
 #include "mesh/global_mesh.h"
 #include "scene/scene.h"
@@ -27,9 +28,9 @@ std::vector<UnusedElements> check_unused(const Scene& scene, const Structure& st
 void check_connectivity(const Scene& scene, const Structure& structure,
                         const Connectivity& connectivity);
 
-/// Doubts about a mesh: nodes that coincide within one piece, the size of a whole, the point about
-/// which its embedded foundation turns, and thick beams that leave shear out.
-std::vector<std::string> mesh_warnings(const Scene& scene, const Structure& structure,
-                                       const GlobalMesh& mesh, const Connectivity& connectivity);
+/// Adds doubts about a mesh: nodes that coincide within one piece, the size of a whole, the point
+/// about which its embedded foundation turns, and thick beams that leave shear out.
+void add_mesh_doubts(const Scene& scene, const Structure& structure, const GlobalMesh& mesh,
+                     const Connectivity& connectivity, Doubts doubts);
 
 }  // namespace pounding

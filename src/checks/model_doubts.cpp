@@ -25,8 +25,7 @@ constexpr double small_part = 1e-4;    ///< and over that of the building
 constexpr double slow = 3;             ///< first frequency times longest side [m/s]
 constexpr double light = 2;            ///< mass over the volume of the box around it [kg/m3]
 
-void doubt_mat(const Structure& structure, const GlobalMesh& mesh,
-               std::vector<std::string>& doubts) {
+void doubt_mat(const Structure& structure, const GlobalMesh& mesh, Doubts doubts) {
   if (!structure.soil) return;
   BoundingBox box;
   for (const GlobalIndex node : mesh.groups.at(structure.soil->mat).nodes) {
@@ -35,15 +34,14 @@ void doubt_mat(const Structure& structure, const GlobalMesh& mesh,
   const double height = box.high[2] - box.low[2];
   const double side = std::max(box.high[0] - box.low[0], box.high[1] - box.low[1]);
   if (!(height > std::max(level_mat, level_part * side))) return;
-  doubts.push_back(
-      sentence("structure {}: the nodes of its mat on soil, group {}, lie from z = {} to {} m, and "
-               "all of them move as one rigid body; -{}_soil_mat takes the group of the mat alone",
-               {structure.name, structure.soil->mat, box.low[2], box.high[2], structure.name}));
+  doubts.add("structure " + structure.name,
+             "the nodes of its mat on soil, group {}, lie from z = {} to {} m, and all of "
+             "them move as one rigid body; -{}_soil_mat takes the group of the mat alone",
+             {structure.soil->mat, box.low[2], box.high[2], structure.name});
 }
 
 /// A spring acts along the axes, and gives no moment for its length.
-void doubt_springs(const Structure& structure, const GlobalMesh& mesh,
-                   std::vector<std::string>& doubts) {
+void doubt_springs(const Structure& structure, const GlobalMesh& mesh, Doubts doubts) {
   for (const ElementSet& set : mesh.regions) {
     if (traits_of(set.type).family != ElementFamily::spring) continue;
     constexpr double along = 0.999;  // cosine
@@ -59,12 +57,11 @@ void doubt_springs(const Structure& structure, const GlobalMesh& mesh,
       doubted = doubted || length > (skew ? skew_spring : long_spring);
     }
     if (!doubted) continue;
-    std::ostringstream text;
-    text.precision(4);
-    text << "structure " << structure.name << ", group " << set.group << ": a spring of " << longest
-         << " m; it acts along the axes whatever its direction, and its length gives no moment; a "
-            "bar acts along its line, is one meant?";
-    doubts.push_back(text.str());
+    doubts.add(
+        "structure " + structure.name + ", group " + set.group,
+        "a spring of {:.4g} m; it acts along the axes whatever its direction, and its length "
+        "gives no moment; a bar acts along its line, is one meant?",
+        {longest});
   }
 }
 
@@ -79,20 +76,19 @@ class JointDoubts {
         report_(report),
         model_size_(model_size) {}
 
-  void doubt(std::vector<std::string>& doubts) const {
+  void doubt(Doubts doubts) const {
     const double smallest = report_.geometric_gap[0];
     if (!(smallest > 0) || is_of_beams(contact_.secondary) || is_of_beams(contact_.primary)) return;
     if (const std::string between = what_lies_between(); !between.empty()) {
-      doubts.push_back(sentence(
-          "contact {}: between its faces, up to {:.4g} m apart, lies {}: it goes through a "
-          "building; name the faces that look at each other across the joint",
-          {contact_.name, report_.geometric_gap[1], between}));
+      doubts.add("contact " + contact_.name,
+                 "between its faces, up to {:.4g} m apart, lies {}: it goes through a building; "
+                 "name the faces that look at each other across the joint",
+                 {report_.geometric_gap[1], between});
     } else if (smallest > std::max(wide_gap, wide_part * model_size_) && stands_still()) {
-      doubts.push_back(sentence(
-          "contact {}: its faces are at least {:.4g} m apart in the meshes{}; are they the ones "
-          "that look at each other across the joint?",
-          {contact_.name, smallest,
-           contact_.gap.values.empty() ? ", which no building moves" : ""}));
+      doubts.add("contact " + contact_.name,
+                 "its faces are at least {:.4g} m apart in the meshes{}; are they the ones that "
+                 "look at each other across the joint?",
+                 {smallest, contact_.gap.values.empty() ? ", which no building moves" : ""});
     }
   }
 
@@ -186,7 +182,7 @@ double extent_at(const GlobalMesh& mesh, double height, double tolerance) {
 
 /// Floors reach about as far as the building; a cabinet on one of them does not.
 void doubt_floors(const Scene& scene, std::span<const GlobalMesh> meshes,
-                  std::span<const ResolvedProbe> probes, std::vector<std::string>& doubts) {
+                  std::span<const ResolvedProbe> probes, Doubts doubts) {
   for (std::size_t s = 0; s < meshes.size(); ++s) {
     const BoundingBox box = bounding_box({&meshes[s], 1});
     const double tolerance = 0.01 * (box.high[2] - box.low[2]);
@@ -202,22 +198,20 @@ void doubt_floors(const Scene& scene, std::span<const GlobalMesh> meshes,
     }
     for (const auto& [probe, extent] : floors) {
       if (!(extent < narrow_floor * widest)) continue;
-      doubts.push_back(
-          sentence("probe {}: a floor at z = {:.4g} m, where {} reaches over {:.4g} m in "
-                   "plan, and over {:.4g} m at its widest floor; drifts are between floors, not of "
-                   "what stands on them: leave -{}_floor out there",
-                   {probe->name, probe->position[2], scene.structures[s].name, extent, widest,
-                    probe->name}));
+      doubts.add("probe " + probe->name,
+                 "a floor at z = {:.4g} m, where {} reaches over {:.4g} m in plan, and over "
+                 "{:.4g} m at its widest floor; drifts are between floors, not of what stands "
+                 "on them: leave -{}_floor out there",
+                 {probe->position[2], scene.structures[s].name, extent, widest, probe->name});
     }
   }
 }
 
 }  // namespace
 
-std::vector<std::string> place_doubts(const Scene& scene, std::span<const GlobalMesh> meshes,
-                                      const interactions::Interface& interface,
-                                      std::span<const ResolvedProbe> probes) {
-  std::vector<std::string> doubts;
+void add_place_doubts(const Scene& scene, std::span<const GlobalMesh> meshes,
+                      const interactions::Interface& interface,
+                      std::span<const ResolvedProbe> probes, Doubts doubts) {
   for (std::size_t s = 0; s < meshes.size(); ++s) {
     doubt_mat(scene.structures[s], meshes[s], doubts);
     doubt_springs(scene.structures[s], meshes[s], doubts);
@@ -228,11 +222,10 @@ std::vector<std::string> place_doubts(const Scene& scene, std::span<const Global
         .doubt(doubts);
   }
   doubt_floors(scene, meshes, probes, doubts);
-  return doubts;
 }
 
 void add_frequency_doubts(const Scene& scene, std::span<const ResolvedProbe> probes,
-                          const Building& building, std::vector<std::string>& doubts) {
+                          const Building& building, Doubts doubts) {
   const std::string& structure = building.structure->name;
   const MeshWaves& waves = building.findings.waves;
   const double asked = scene.spectra.frequencies.back();
@@ -253,19 +246,18 @@ void add_frequency_doubts(const Scene& scene, std::span<const ResolvedProbe> pro
                        building.basis->modes < building.basis->independent_dofs;
   const double modes = reduced ? highest_mode(*building.basis) : asked;
   if (const std::string of = beyond(modes); !of.empty()) {
-    doubts.push_back(
-        sentence("structure {}: its modes end at {:.4g} Hz, {} to {:.4g} Hz: above its modes it "
-                 "follows statically, and floor spectra there are no results; give more "
-                 "-{}_modal_vectors, or measure the error with -fidelity_window",
-                 {structure, modes, of, asked, structure}));
+    doubts.add("structure " + structure,
+               "its modes end at {:.4g} Hz, {} to {:.4g} Hz: above its modes it follows "
+               "statically, and floor spectra there are no results; give more "
+               "-{}_modal_vectors, or measure the error with -fidelity_window",
+               {modes, of, asked, structure});
   }
   const double carried = waves.frequency > 0 ? waves.frequency : asked;
   if (const std::string of = beyond(carried); !of.empty()) {
-    doubts.push_back(
-        sentence("structure {}: its mesh carries waves up to {:.3g} Hz, by elements of {:.3g} m of "
-                 "{}, {} to {:.4g} Hz: above, they are those of the mesh; a finer one shows by how "
-                 "much",
-                 {structure, carried, waves.element_size, waves.group, of, asked}));
+    doubts.add("structure " + structure,
+               "its mesh carries waves up to {:.3g} Hz, by elements of {:.3g} m of {}, {} to "
+               "{:.4g} Hz: above, they are those of the mesh; a finer one shows by how much",
+               {carried, waves.element_size, waves.group, of, asked});
   }
 }
 
@@ -277,15 +269,14 @@ double highest_mode(const ModalBasis& basis) {
   return std::sqrt(square) / (2 * std::numbers::pi);
 }
 
-void add_mass_doubts(MPI_Comm comm, const Building& building, std::vector<std::string>& doubts) {
+void add_mass_doubts(MPI_Comm comm, const Building& building, Doubts doubts) {
   const Structure& structure = *building.structure;
   const double total = building.system->total_mass;
   for (const Region& region : structure.regions) {
     if (!(region.mass > 0 && region.mass < std::min(small_mass, small_part * total))) continue;
-    doubts.push_back(
-        sentence("structure {}, group {}: mass {:.4g} kg is nothing in a structure of "
-                 "{:.4g} kg; is it in t?",
-                 {structure.name, region.group, region.mass, total}));
+    doubts.add("structure " + structure.name + ", group " + region.group,
+               "mass {:.4g} kg is nothing in a structure of {:.4g} kg; is it in t?",
+               {region.mass, total});
   }
   if (structure.matrices.empty()) return;
   const Vector3 sides = bounding_box(comm, *building.mesh).sides();
@@ -293,16 +284,16 @@ void add_mass_doubts(MPI_Comm comm, const Building& building, std::vector<std::s
   const double volume = sides[0] * sides[1] * sides[2];
   const double frequency = building.modal.first_frequency();
   if (frequency > 0 && frequency * longest < slow) {
-    doubts.push_back(
-        sentence("structure {}: by the matrices of {} its first frequency is {:.4g} Hz, in "
-                 "a model of {:.4g} m; is the stiffness in N/m (not N/mm), and the mass in kg?",
-                 {structure.name, structure.matrices, frequency, longest}));
+    doubts.add("structure " + structure.name,
+               "by the matrices of {} its first frequency is {:.4g} Hz, in a model of {:.4g} "
+               "m; is the stiffness in N/m (not N/mm), and the mass in kg?",
+               {structure.matrices, frequency, longest});
   }
   if (std::ranges::min(sides) > 0.1 * longest && total < light * volume) {
-    doubts.push_back(
-        sentence("structure {}: by the matrices of {} its mass is {:.4g} kg, in a box of "
-                 "{:.4g} m3; is it in kg (not t)?",
-                 {structure.name, structure.matrices, total, volume}));
+    doubts.add("structure " + structure.name,
+               "by the matrices of {} its mass is {:.4g} kg, in a box of {:.4g} m3; is it in "
+               "kg (not t)?",
+               {structure.matrices, total, volume});
   }
 }
 

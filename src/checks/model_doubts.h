@@ -1,9 +1,8 @@
 #pragma once
 
 #include <span>
-#include <string>
-#include <vector>
 
+#include "checks/doubts.h"
 #include "mesh/global_mesh.h"
 #include "model/model.h"
 
@@ -13,20 +12,20 @@ namespace pounding {
 
 /// Doubts that whole meshes show: a mat on soil that is not level, contacts that go through a
 /// building or across it, floors that are no floors. Serial, rank 0.
-std::vector<std::string> place_doubts(const Scene& scene, std::span<const GlobalMesh> meshes,
-                                      const interactions::Interface& interface,
-                                      std::span<const ResolvedProbe> probes);
+void add_place_doubts(const Scene& scene, std::span<const GlobalMesh> meshes,
+                      const interactions::Interface& interface,
+                      std::span<const ResolvedProbe> probes, Doubts doubts);
 
 /// Doubts about a structure whose modes, if it is reduced and their error is not estimated, or
 /// whose mesh (mesh/mesh_waves.h) end below the spectra of its probes. Of the mesh on rank 0 only.
 void add_frequency_doubts(const Scene& scene, std::span<const ResolvedProbe> probes,
-                          const Building& building, std::vector<std::string>& doubts);
+                          const Building& building, Doubts doubts);
 
 /// Frequency of the highest mode in a basis [Hz].
 double highest_mode(const ModalBasis& basis);
 
 /// Doubts about masses and frequencies of a structure that is built: point masses that are nothing
 /// beside the rest, matrices in other units. Collective.
-void add_mass_doubts(MPI_Comm comm, const Building& building, std::vector<std::string>& doubts);
+void add_mass_doubts(MPI_Comm comm, const Building& building, Doubts doubts);
 
 }  // namespace pounding

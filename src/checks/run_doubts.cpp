@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "checks/warnings.h"
 #include "common/facts.h"
 #include "motion/signal_treatment.h"
 
 namespace pounding {
 namespace {
 
-void doubt_slides(const Scene& scene, const RunStatistics& statistics,
-                  std::vector<std::string>& doubts) {
+void doubt_slides(const Scene& scene, const RunStatistics& statistics, Doubts doubts) {
   for (std::size_t c = 0; c < statistics.slides.size(); ++c) {
     const Slide& slide = statistics.slides[c];
     if (slide.since < 0) continue;
@@ -28,35 +26,33 @@ void doubt_slides(const Scene& scene, const RunStatistics& statistics,
                   "the facets that they face at the start, so that impacts after that may "
                   "hit what has moved away, or miss; -{}_sliding finds pairs anew",
                   {slide.facet_size, slide.since, name});
-    doubts.push_back(
-        sentence("contact {}: its faces slid along each other by up to {:.4g} m, more than {}",
-                 {name, slide.distance, limit}));
+    doubts.add("contact " + name, "its faces slid along each other by up to {:.4g} m, more than {}",
+               {slide.distance, limit});
   }
 }
 
-void doubt_closings(const Scene& scene, const RunStatistics& statistics,
-                    std::vector<std::string>& doubts) {
+void doubt_closings(const Scene& scene, const RunStatistics& statistics, Doubts doubts) {
   const std::string scaled = scaled_by_closing(scene);
   const bool closes = std::ranges::any_of(
       statistics.closings, [](const JointClosing& joint) { return std::isfinite(joint.factor); });
   if (scaled == "motion" || statistics.all_impacts.episodes > 0 || !closes) return;
-  doubts.push_back(sentence(
-      "closing factors are of {} together, since one run cannot part them: "
-      "the motion alone closes a joint sooner where the others hold it open, later where they "
-      "close it{}; -motion_level shows",
-      {scaled, scene.preload ? "" : "; -preload static takes constant ones out"}));
+  doubts.say(
+      "closing factors are of {} together, since one run cannot part them: the "
+      "motion alone closes a joint sooner where the others hold it open, later where "
+      "they close it{}; -motion_level shows",
+      {scaled, scene.preload ? "" : "; -preload static takes constant ones out"});
 }
 
-void doubt_pendulums(const RunStatistics& statistics, std::vector<std::string>& doubts) {
+void doubt_pendulums(const RunStatistics& statistics, Doubts doubts) {
   for (const std::string& structure : statistics.overpressed) {
-    doubts.push_back("structure " + structure +
-                     ": more pressed on a friction pendulum than hardening times stiffness times "
-                     "its radius, and its slope was cut there; give a larger hardening");
+    doubts.add("structure " + structure,
+               "more pressed on a friction pendulum than hardening times stiffness times "
+               "its radius, and its slope was cut there; give a larger hardening");
   }
 }
 
 void doubt_coarse_spectra(const Scene& scene, std::span<const TargetSpectrum> capacities,
-                          std::vector<std::string>& doubts) {
+                          Doubts doubts) {
   constexpr double widest = 1.1 * (1 + 1e-6);  // as Regulatory Guide 1.122 has it
   for (std::size_t i = 0; i < capacities.size(); ++i) {
     const Equipment& item = scene.equipment[i];
@@ -72,11 +68,11 @@ void doubt_coarse_spectra(const Scene& scene, std::span<const TargetSpectrum> ca
       before = frequency;
     }
     if (worst[1] / worst[0] <= widest) continue;
-    doubts.push_back(sentence(
-        "equipment {}: its floor's spectrum has no frequency between {:.4g} and {:.4g} Hz "
-        "(-spectra_frequencies), where a peak that turns its verdict is not seen; give them 10 % "
-        "apart or closer",
-        {item.name, worst[0], worst[1]}));
+    doubts.add("equipment " + item.name,
+               "its floor's spectrum has no frequency between {:.4g} and {:.4g} Hz "
+               "(-spectra_frequencies), where a peak that turns its verdict is not seen; give "
+               "them 10 % apart or closer",
+               {worst[0], worst[1]});
   }
 }
 
@@ -95,7 +91,7 @@ double excess(const StatedPeaks& peaks, const Recorder& recorder, std::size_t pr
 }
 
 void doubt_sampled_peaks(const Scene& scene, const StatedPeaks& peaks, const Recorder& recorder,
-                         std::vector<std::string>& doubts) {
+                         Doubts doubts) {
   constexpr std::size_t named = 3;
   std::vector<std::string> names;
   double most = 1;
@@ -113,11 +109,11 @@ void doubt_sampled_peaks(const Scene& scene, const StatedPeaks& peaks, const Rec
     text += (i > 0 ? ", " : "") + names[i];
   }
   if (names.size() > named) text += sentence(" and {} more", {names.size() - named});
-  doubts.push_back(
-      text + sentence(": sampled accelerations reach {:.4g} times the peak below {:.4g} Hz; that "
-                      "sampled value goes with 1/output_interval where an impulse acts beside the "
-                      "probe{}, so take the other",
-                      {most, peaks.frequency, reduced ? " or its structure is reduced" : ""}));
+  doubts.add(text,
+             "sampled accelerations reach {:.4g} times the peak below {:.4g} Hz; that sampled "
+             "value goes with 1/output_interval where an impulse acts beside the probe{}, so take "
+             "the other",
+             {most, peaks.frequency, reduced ? " or its structure is reduced" : ""});
 }
 
 }  // namespace
@@ -141,21 +137,19 @@ std::vector<std::string> contact_warnings(double residual) {
       {residual, solved})};
 }
 
-std::vector<std::string> pass_warnings(const Scene& scene, std::span<const OtherPass> passes) {
-  std::vector<std::string> warnings;
+void add_pass_doubts(const Scene& scene, std::span<const OtherPass> passes, Doubts doubts) {
   for (std::size_t c = 0; c < passes.size(); ++c) {
     const OtherPass& other = passes[c];
     if (!(other.depth > std::min(OtherPass::deep, OtherPass::deep_part * other.facet_size))) {
       continue;
     }
     const std::string& name = scene.contacts[c].name;
-    warnings.push_back(sentence(
-        "contact {}: in one pass nodes of its primary went up to {:.3g mm} into facets of the "
-        "secondary of {:.3g} m, at ({:.4g}, {:.4g}) m, t = {:.4g} s: impacts are missed or late "
-        "there; give -{}_passes 2",
-        {name, other.depth, other.facet_size, other.place[0], other.place[1], other.time, name}));
+    doubts.add("contact " + name,
+               "in one pass nodes of its primary went up to {:.3g mm} into facets of the "
+               "secondary of {:.3g} m, at ({:.4g}, {:.4g}) m, t = {:.4g} s: impacts are "
+               "missed or late there; give -{}_passes 2",
+               {other.depth, other.facet_size, other.place[0], other.place[1], other.time, name});
   }
-  return warnings;
 }
 
 std::string scaled_by_closing(const Scene& scene) {
@@ -183,17 +177,18 @@ std::vector<std::string> lowered_peak_warnings(const Scene& scene, double interv
 std::vector<std::string> run_doubts(const Scene& scene, const Model& model,
                                     const RunStatistics& run, const Recorder& recorder,
                                     std::span<const TargetSpectrum> capacities) {
-  std::vector<std::string> doubts =
+  std::vector<std::string> lines =
       displacement_warnings(recorder.largest_displacement(), model.interface.model_size);
-  append(contact_warnings(run.complementarity_residual), doubts);
+  const Doubts doubts(lines);
+  doubts.add(contact_warnings(run.complementarity_residual));
   doubt_slides(scene, run, doubts);
-  append(pass_warnings(scene, run.other_passes), doubts);
+  add_pass_doubts(scene, run.other_passes, doubts);
   doubt_coarse_spectra(scene, capacities, doubts);
   doubt_closings(scene, run, doubts);
   doubt_pendulums(run, doubts);
-  append(lowered_peak_warnings(scene, recorder.interval(), model.time_step), doubts);
+  doubts.add(lowered_peak_warnings(scene, recorder.interval(), model.time_step));
   if (run.all_impacts.episodes > 0) doubt_sampled_peaks(scene, run.peaks, recorder, doubts);
-  return doubts;
+  return lines;
 }
 
 }  // namespace pounding

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "checks/doubts.h"
 #include "motion/synthetic.h"
 #include "observers/recorder.h"
 #include "observers/run_statistics.h"
@@ -24,8 +25,8 @@ std::vector<std::string> displacement_warnings(double largest, double model_size
 /// residual of the run [-].
 std::vector<std::string> contact_warnings(double residual);
 
-/// Contacts of one pass whose primary went deep into their secondary.
-std::vector<std::string> pass_warnings(const Scene& scene, std::span<const OtherPass> passes);
+/// Adds doubts about contacts of one pass whose primary went deep into their secondary.
+void add_pass_doubts(const Scene& scene, std::span<const OtherPass> passes, Doubts doubts);
 
 /// Names of all that a closing factor multiplies: "motion", "motion and loads" where some of those
 /// are not in the rest from which a run starts, "weight" likewise.

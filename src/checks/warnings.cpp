@@ -20,40 +20,39 @@ namespace {
 
 /// Rayleigh damping above half of the critical one at one of these frequencies [Hz].
 void doubt_rayleigh(const std::string& owner, const Rayleigh& damping,
-                    const std::vector<double>& frequencies, std::vector<std::string>& warnings) {
+                    const std::vector<double>& frequencies, Doubts doubts) {
   constexpr double doubtful_share = 0.5;
   for (const double frequency : frequencies) {
     const double ratio = damping_ratio(damping, 2 * std::numbers::pi * frequency);
     if (!(ratio > doubtful_share) || !(frequency > 0)) continue;
-    warnings.push_back(sentence(
-        "{}: alpha {:.4g} 1/s and beta {:.4g} s damp {:.4g %} of critical at {:.4g} Hz; are they "
-        "meant? -damping_ratio with two frequencies is surer",
-        {owner, damping.alpha, damping.beta, ratio, frequency}));
+    doubts.add(owner,
+               "alpha {:.4g} 1/s and beta {:.4g} s damp {:.4g %} of critical at {:.4g} Hz; "
+               "are they meant? -damping_ratio with two frequencies is surer",
+               {damping.alpha, damping.beta, ratio, frequency});
     return;
   }
 }
 
 /// Uniform damping whose filters are too few, or whose band is too narrow for the modes.
-void doubt_uniform(const Structure& structure, const std::vector<Mode>& modes,
-                   std::vector<std::string>& warnings) {
+void doubt_uniform(const Structure& structure, const std::vector<Mode>& modes, Doubts doubts) {
   constexpr double large_ripple = 0.2;
   constexpr double doubtful_part = 0.8;
   const UniformDamping& uniform = *structure.uniform_damping;
   const std::string& name = structure.name;
   if (uniform.ripple > large_ripple) {
-    warnings.push_back(sentence(
-        "structure {}: {} filters hold the uniform damping within {:.3g %} of its ratio only; give "
-        "more -{}_damping_filters, or a narrower band",
-        {name, uniform.filters.size(), uniform.ripple, name}));
+    doubts.add("structure " + name,
+               "{} filters hold the uniform damping within {:.3g %} of its ratio only; give "
+               "more -{}_damping_filters, or a narrower band",
+               {uniform.filters.size(), uniform.ripple, name});
   }
   for (const Mode& mode : modes) {
     const double found = uniform.ratio_at(2 * std::numbers::pi * mode.frequency);
     const bool inside = mode.frequency >= uniform.lowest && mode.frequency <= uniform.highest;
     if (!mode.location.empty() || inside || found >= doubtful_part * uniform.ratio) continue;
-    warnings.push_back(sentence(
-        "structure {}: a mode of {:.3g} Hz lies outside of the band of its uniform damping and has "
-        "{:.3g %} of critical instead of {:.3g %}; give a wider -{}_damping_band",
-        {name, mode.frequency, found, uniform.ratio, name}));
+    doubts.add("structure " + name,
+               "a mode of {:.3g} Hz lies outside of the band of its uniform damping and has "
+               "{:.3g %} of critical instead of {:.3g %}; give a wider -{}_damping_band",
+               {mode.frequency, found, uniform.ratio, name});
     return;
   }
 }
@@ -77,17 +76,16 @@ const Accelerogram& samples(const Model& model, int direction) {
 }
 
 /// A record of its own that ends before the run. Synthetic motions are made as long as asked.
-void add_short_record(const Scene& scene, const Model& model, int direction,
-                      std::vector<std::string>& warnings) {
+void add_short_record(const Scene& scene, const Model& model, int direction, Doubts doubts) {
   const Accelerogram& component = samples(model, direction);
   const auto& asked = scene.motion[direction];
   const double last = component.end();
   if (std::holds_alternative<RecordedMotion>(asked->source) &&
       scene.end_time > (last + component.time_step) * nearly) {
-    warnings.push_back(
-        sentence("option -end_time {} s: the record along {} ends at {} s, the ground stands still "
-                 "afterwards",
-                 {scene.end_time, direction_names[direction], last}));
+    doubts.say(
+        "option -end_time {} s: the record along {} ends at {} s, the ground stands "
+        "still afterwards",
+        {scene.end_time, direction_names[direction], last});
   }
 }
 
@@ -103,15 +101,15 @@ double peak_until(const Accelerogram& component, double end) {
 
 /// A motion whose peak comes after the end of the run.
 void add_late_peak(const Scene& scene, const Accelerogram& component, int direction,
-                   std::vector<std::string>& warnings) {
+                   Doubts doubts) {
   constexpr double whole = 0.99;
   const double peak = component.peak();
   const double felt = peak_until(component, scene.end_time);
   if (felt >= whole * peak) return;
-  warnings.push_back(sentence(
-      "option -end_time {:.4g} s: the motion along {} has its peak of {:.4g} m/s2 later; the run "
-      "feels {:.4g} m/s2 at most",
-      {scene.end_time, direction_names[direction], peak, felt}));
+  doubts.say(
+      "option -end_time {:.4g} s: the motion along {} has its peak of {:.4g} m/s2 "
+      "later; the run feels {:.4g} m/s2 at most",
+      {scene.end_time, direction_names[direction], peak, felt});
 }
 
 /// Between the samples of a direction as they are given: resampling adds nothing to step over.
@@ -148,15 +146,15 @@ bool frequencies_are_asked(const Scene& scene) {
 
 /// Spectra beyond half the sampling frequency of the probes, or, where no impacts are looked for,
 /// of the motion.
-void add_high_spectra(const Scene& scene, const Model& model, std::vector<std::string>& warnings) {
+void add_high_spectra(const Scene& scene, const Model& model, Doubts doubts) {
   if (scene.probes.empty()) return;
   const double highest = scene.spectra.frequencies.back();
   const auto add = [&](const std::string& of, double interval, const std::string& what) {
     if (!(highest * 2 * interval > nearly)) return;
-    warnings.push_back(sentence(
-        "spectra go to {:.4g} Hz (-spectra_frequencies), {} every {:.4g} s tell nothing above "
-        "{:.4g} Hz{}",
-        {highest, of, interval, 0.5 / interval, what}));
+    doubts.say(
+        "spectra go to {:.4g} Hz (-spectra_frequencies), {} every {:.4g} s tell "
+        "nothing above {:.4g} Hz{}",
+        {highest, of, interval, 0.5 / interval, what});
   };
   if (scene.output_interval != parse_real(option_row("output_interval").preset.text)) {
     add("samples of the probes", scene.output_interval, "; give a shorter -output_interval");
@@ -185,17 +183,16 @@ bool is_weightless(const StructureRest& rest) {
   return length_of(rest.weight) == 0 && rest.forces == 0;
 }
 
-void doubt_slivers(const LinearSystem& system, std::vector<std::string>& doubts) {
+void doubt_slivers(const LinearSystem& system, Doubts doubts) {
   for (const Sliver& sliver : system.slivers) {
-    doubts.push_back(sentence(
-        "structure {}: sliver: {} allows by itself {:.4g} s, the median of its group {:.4g} s ({} "
-        "such elements in it); mend the mesh",
-        {system.name, sliver.element, sliver.time_step, sliver.median, sliver.count}));
+    doubts.add("structure " + system.name,
+               "sliver: {} allows by itself {:.4g} s, the median of its group {:.4g} s ({} "
+               "such elements in it); mend the mesh",
+               {sliver.element, sliver.time_step, sliver.median, sliver.count});
   }
 }
 
-void doubt_shifts(const LinearSystem& system, const ModalResult& modal,
-                  std::vector<std::string>& doubts) {
+void doubt_shifts(const LinearSystem& system, const ModalResult& modal, Doubts doubts) {
   constexpr double highest = 33;  // Hz
   double worst = 0.1;
   if (!system.uniform_damping) return;
@@ -208,32 +205,31 @@ void doubt_shifts(const LinearSystem& system, const ModalResult& modal,
     if (!(std::abs(shift) > worst)) continue;
     worst = std::abs(shift);
     text = sentence(
-        "structure {}: uniform damping of {:.3g %} moves its mode of {:.3g} Hz by {:.3g %} to "
+        "uniform damping of {:.3g %} moves its mode of {:.3g} Hz by {:.3g %} to "
         "{:.3g} Hz, since modes keep their place at {:.3g} Hz; give -{}_damping_reference where it "
         "matters most",
-        {system.name, uniform.ratio, mode.frequency, shift, moved, uniform.reference, system.name});
+        {uniform.ratio, mode.frequency, shift, moved, uniform.reference, system.name});
   }
-  if (!text.empty()) doubts.push_back(text);
+  if (!text.empty()) doubts.add("structure " + system.name, "{}", {text});
 }
 
-void doubt_mechanisms(const Scene& scene, const Model& model, std::vector<std::string>& doubts) {
+void doubt_mechanisms(const Scene& scene, const Model& model, Doubts doubts) {
   const auto has_no_stiffness = [](const Mode& mode) { return !mode.location.empty(); };
   for (std::size_t s = 0; s < model.buildings.size(); ++s) {
     const std::vector<Mode>& modes = model.buildings[s].modal.modes;
     const auto count = std::ranges::count_if(modes, has_no_stiffness);
     const Connectivity& connectivity = model.buildings[s].findings.connectivity;
     if (count == 0 || !connectivity.wholly_held() || scene.structures[s].allow_loose) continue;
-    doubts.push_back(sentence(
-        "structure {}: {} of its lowest modes have no stiffness (0 Hz), the first moves most at "
-        "{}; look for hinges, missing elements and supports",
-        {scene.structures[s].name, count,
-         std::ranges::find_if(modes, has_no_stiffness)->location}));
+    doubts.add("structure " + scene.structures[s].name,
+               "{} of its lowest modes have no stiffness (0 Hz), the first moves most at {}; "
+               "look for hinges, missing elements and supports",
+               {count, std::ranges::find_if(modes, has_no_stiffness)->location});
   }
 }
 
-void doubt_rest(const Model& model, std::vector<std::string>& doubts) {
+void doubt_rest(const Model& model, Doubts doubts) {
   if (model.equilibrium && std::ranges::all_of(model.equilibrium->structures, is_weightless)) {
-    doubts.emplace_back(
+    doubts.say(
         "-preload static, and no structure has a weight or a load at rest: the run starts "
         "undeformed; give -gravity 9.81");
   }
@@ -242,35 +238,35 @@ void doubt_rest(const Model& model, std::vector<std::string>& doubts) {
     const double settlement = std::max(rest.largest_displacement, length_of(rest.settlement));
     const std::string& name = model.systems[s].name;
     if (settlement > small_settlement * model.interface.model_size) {
-      doubts.push_back(
-          sentence("structure {} settles by {} m under its weight and loads: displacements are "
-                   "taken for small; are its stiffness and its density in SI units?",
-                   {name, settlement}));
+      doubts.say(
+          "structure {} settles by {} m under its weight and loads: displacements are "
+          "taken for small; are its stiffness and its density in SI units?",
+          {name, settlement});
     } else if (rest.imbalance > small_imbalance) {
-      doubts.push_back(sentence("structure {}: the forces that hold it miss its weight by {} of it",
-                                {name, rest.imbalance}));
+      doubts.add("structure " + name, "the forces that hold it miss its weight by {} of it",
+                 {rest.imbalance});
     }
   }
   if (model.equilibrium && model.equilibrium->residual > small_residual) {
-    doubts.push_back(sentence(
-        "the static equilibrium is found to {} of the weight only, by energy: round-off of very "
-        "stiff elements; the run starts as far from rest",
-        {model.equilibrium->residual}));
+    doubts.say(
+        "the static equilibrium is found to {} of the weight only, by energy: "
+        "round-off of very stiff elements; the run starts as far from rest",
+        {model.equilibrium->residual});
   }
 }
 
-void doubt_rest_gaps(const Scene& scene, const Model& model, std::vector<std::string>& doubts) {
+void doubt_rest_gaps(const Scene& scene, const Model& model, Doubts doubts) {
   for (std::size_t c = 0; model.equilibrium && c < model.joint_gaps.size(); ++c) {
     const JointGaps& gaps = model.joint_gaps[c];
     const double overlap = -gaps.unloaded[0];
     if (!scene.contacts[c].gap_at_rest || !(gaps.at_rest[0] > 0)) continue;
     if (overlap <= none_below * model.interface.model_size) continue;
     const std::string& name = scene.contacts[c].name;
-    doubts.push_back(sentence(
-        "contact {}: the weight opens the joint by more than the {:.4g mm} that it has at rest; "
-        "without it the faces would overlap by {:.4g mm}; is the gap that of the rest "
-        "(-{}_gap_at)?",
-        {name, gaps.at_rest[0], overlap, name}));
+    doubts.add("contact " + name,
+               "the weight opens the joint by more than the {:.4g mm} that it has at rest; "
+               "without it the faces would overlap by {:.4g mm}; is the gap that of the rest "
+               "(-{}_gap_at)?",
+               {gaps.at_rest[0], overlap, name});
   }
 }
 
@@ -286,35 +282,34 @@ std::vector<std::string> damping_warnings(const Structure& structure, const Moda
     }
   }
   if (frequencies.empty()) frequencies = {1, highest};
-  std::vector<std::string> warnings;
+  std::vector<std::string> doubts;
   const bool by_mode = structure.modal && !structure.modal->damping_ratios.empty();
   const std::string owner = "structure " + structure.name;
   if (structure.uniform_damping) {
-    doubt_uniform(structure, modal.modes, warnings);
+    doubt_uniform(structure, modal.modes, doubts);
   } else if (!by_mode) {
-    doubt_rayleigh(owner, structure.damping, frequencies, warnings);
+    doubt_rayleigh(owner, structure.damping, frequencies, doubts);
   }
   for (const Region& region : structure.regions) {
     if (by_mode || (!region.damping && region.damping_factor == 1)) continue;
     doubt_rayleigh(owner + ", group " + region.group, structure.damping_of(region), frequencies,
-                   warnings);
+                   doubts);
   }
-  return warnings;
+  return doubts;
 }
 
 void add_model_doubts(MPI_Comm comm, const Scene& scene, Model& model) {
-  std::vector<std::string>& doubts = model.warnings;
-  append(model.motion->doubts(), doubts);
-  if (model.supports) append(model.supports->doubts(), doubts);
+  const Doubts doubts(model.warnings);
+  doubts.add(model.motion->doubts());
+  if (model.supports) doubts.add(model.supports->doubts());
   if (model.load_histories) {
-    append(model.load_histories->doubts(scene.loads, model.motion->origin(), scene.end_time),
-           doubts);
+    doubts.add(model.load_histories->doubts(scene.loads, model.motion->origin(), scene.end_time));
   }
   for (const LinearSystem& system : model.systems) doubt_slivers(system, doubts);
-  append(model.interface.warnings, doubts);
+  doubts.add(model.interface.warnings);
   for (const Building& building : model.buildings) {
-    append(damping_warnings(*building.structure, building.modal), doubts);
-    append(wave_doubts(*building.structure, building.beams, building.modal.modes), doubts);
+    doubts.add(damping_warnings(*building.structure, building.modal));
+    doubts.add(wave_doubts(*building.structure, building.beams, building.modal.modes));
     add_mass_doubts(comm, building, doubts);
     add_frequency_doubts(scene, model.probes, building, doubts);
     doubt_shifts(*building.system, building.modal, doubts);
@@ -324,73 +319,65 @@ void add_model_doubts(MPI_Comm comm, const Scene& scene, Model& model) {
   doubt_rest_gaps(scene, model, doubts);
 }
 
-void add_long_step(const std::string& of, double sample, double step,
-                   std::vector<std::string>& warnings) {
+void add_long_step(const std::string& of, double sample, double step, Doubts doubts) {
   if (step > sample * nearly) {
-    warnings.push_back(
-        sentence("the time step {} s is longer than {}, {} s; give -time_step {} or less",
-                 {step, of, sample, sample}));
+    doubts.say("the time step {} s is longer than {}, {} s; give -time_step {} or less",
+               {step, of, sample, sample});
   }
 }
 
-std::vector<std::string> run_warnings(const Scene& scene, const Model& model) {
-  std::vector<std::string> warnings;
+void add_step_doubts(const Scene& scene, const Model& model, Doubts doubts) {
   if (stands_still(scene) && model.support_columns().empty() && !scene.dry_run &&
       scene.export_matrices.empty()) {
-    warnings.emplace_back(
+    doubts.say(
         "nothing makes the scene move: no -motion_x_record or -motion_x_target (nor y, z), no "
         "initial displacement or velocity, no gravity");
   }
   for (int direction = 0; direction < 3; ++direction) {
     if (!samples(model, direction).acceleration.empty()) {
-      add_short_record(scene, model, direction, warnings);
-      add_late_peak(scene, samples(model, direction), direction, warnings);
+      add_short_record(scene, model, direction, doubts);
+      add_late_peak(scene, samples(model, direction), direction, doubts);
       add_long_step("a sample of the motion along " + std::string(direction_names[direction]),
-                    given_interval(model, direction), model.time_step, warnings);
+                    given_interval(model, direction), model.time_step, doubts);
     }
   }
-  for (const std::string& line : long_step_warnings(scene, model)) warnings.push_back(line);
-  add_high_spectra(scene, model, warnings);
+  doubts.add(long_step_warnings(scene, model));
+  add_high_spectra(scene, model, doubts);
   // The interval that nobody asked for is as short as the step where that is longer.
   const auto preset = parse_real(option_row("output_interval").preset.text);
   if (!scene.probes.empty() && scene.output_interval != preset) {
-    add_long_step("-output_interval", scene.output_interval, model.time_step, warnings);
+    add_long_step("-output_interval", scene.output_interval, model.time_step, doubts);
   }
-  return warnings;
 }
 
-std::vector<std::string> probe_warnings(std::span<const ResolvedProbe> probes,
-                                        std::span<const GlobalMesh> meshes,
-                                        const interactions::Interface& interface) {
+void add_probe_doubts(std::span<const ResolvedProbe> probes, std::span<const GlobalMesh> meshes,
+                      const interactions::Interface& interface, Doubts doubts) {
   constexpr std::uint8_t translations = 7;
   constexpr std::size_t nodes_per_doubt = 4;
   const NodeSet touching = contact_nodes(interface);
-  std::vector<std::string> warnings;
   for (const ResolvedProbe& probe : probes) {
     const std::string far =
         snap_doubt("probe " + probe.name, probe.snap_distance, probe.element_size);
-    if (!far.empty()) warnings.push_back(far);
+    if (!far.empty()) doubts.say("{}", {far});
     const GlobalMesh& mesh = meshes[probe.structure];
     const std::size_t clamped = std::ranges::count_if(probe.nodes, [&](GlobalIndex node) {
       return (mesh.free_components[node] & translations) == 0;
     });
     if (clamped > 0) {
-      warnings.push_back(subject(probe, clamped) +
-                         (mesh.supported.empty()
-                              ? " clamped: the ground's own motion is recorded there"
-                              : " clamped: the motion of its support is recorded there"));
+      doubts.say("{} clamped: the {} is recorded there",
+                 {subject(probe, clamped),
+                  mesh.supported.empty() ? "ground's own motion" : "motion of its support"});
     }
     const std::size_t in_contact = std::ranges::count_if(probe.nodes, [&](GlobalIndex node) {
       return touching.contains({probe.structure, node});
     });
     if (nodes_per_doubt * in_contact >= probe.nodes.size()) {
-      warnings.push_back(subject(probe, in_contact) +
-                         " part of a contact: the accelerations hold the impulses that act on it, "
-                         "and the samples go with 1/output_interval; for a floor take nodes "
-                         "one element away");
+      doubts.say(
+          "{} part of a contact: the accelerations hold the impulses that act on it, and the "
+          "samples go with 1/output_interval; for a floor take nodes one element away",
+          {subject(probe, in_contact)});
     }
   }
-  return warnings;
 }
 
 }  // namespace pounding

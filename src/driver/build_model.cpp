@@ -265,8 +265,9 @@ void build_structures(MPI_Comm comm, Scene& scene, Profile& profile, Model& mode
   add_model_doubts(comm, scene, model);
   model.filler_time_step = filler_limit(comm, scene, model, model.meshes);
   choose_time_step(scene, step_limits(scene, model), model);
-  append(run_warnings(scene, model), model.warnings);
-  append(check_fields(comm, scene, model), model.warnings);
+  const Doubts doubts(model.warnings);
+  add_step_doubts(scene, model, doubts);
+  doubts.add(check_fields(comm, scene, model));
 }
 
 }  // namespace

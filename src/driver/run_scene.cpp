@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "checks/run_doubts.h"
-#include "checks/warnings.h"
 #include "common/error.h"
 #include "common/memory.h"
 #include "common/parallel.h"
@@ -69,7 +68,7 @@ void take_folders(Scene& scene, const std::string& resolved, bool runs,
   if (!scene.export_matrices.empty()) try_folder("export_matrices", scene.export_matrices);
   if (!runs) return;
   folder.emplace(scene.output);
-  append(replaced_results(scene, resolved), scene.warnings);
+  Doubts(scene.warnings).add(replaced_results(scene, resolved));
 }
 
 /// Capacities of equipment, on rank 0; their corners become frequencies of the spectra. Collective.

@@ -30,7 +30,7 @@ void check_mesh(const Scene& scene, std::size_t s, const GlobalMesh& mesh, Model
   findings.waves = mesh_waves(structure, mesh);
   check_export(scene, structure, mesh);
   if (structure.matrices.empty()) check_connectivity(scene, structure, findings.connectivity);
-  append(mesh_warnings(scene, structure, mesh, findings.connectivity), model.warnings);
+  add_mesh_doubts(scene, structure, mesh, findings.connectivity, model.warnings);
 }
 
 /// Takes the mesh of a structure, the next of `reader`, lays its soil under the mat and finds its
@@ -42,7 +42,7 @@ void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, MeshReader& rea
   GlobalMesh& mesh = whole.meshes[s];
   const Progress progress(comm, structure.name + ": mesh", scene.progress_interval);
   read_soil_file(structure);
-  append(fit_doubts(structure), model.warnings);
+  Doubts(model.warnings).add(fit_doubts(structure));
   MeshRead read = reader.next();
   mesh = std::move(read.mesh);
   model.buildings[s].findings.files = std::move(read.files);
@@ -81,9 +81,9 @@ WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model) {
   model.forces = resolve_forces(scene, whole.meshes);
   model.loads = find_loads(scene, whole.meshes);
   model.starts = find_start_states(scene, whole.meshes);
-  append(load_doubts(scene, whole.meshes, model.loads), model.warnings);
-  append(probe_warnings(model.probes, whole.meshes, model.interface), model.warnings);
-  append(place_doubts(scene, whole.meshes, model.interface, model.probes), model.warnings);
+  Doubts(model.warnings).add(load_doubts(scene, whole.meshes, model.loads));
+  add_probe_doubts(model.probes, whole.meshes, model.interface, model.warnings);
+  add_place_doubts(scene, whole.meshes, model.interface, model.probes, model.warnings);
   return whole;
 }
 

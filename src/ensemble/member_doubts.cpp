@@ -84,19 +84,16 @@ std::vector<std::string> repeated_members(const MemberTable& table) {
   return doubts;
 }
 
-double check_motion(const MemberScene& member, std::vector<std::string>& doubts) {
+double check_motion(const MemberScene& member, Doubts doubts) {
   const Scene& scene = member.scene;
   std::array<std::optional<MotionComponent>, 3> recorded;
   double interval = std::numeric_limits<double>::infinity();
-  const auto append = [&doubts](const std::vector<std::string>& more) {
-    doubts.insert(doubts.end(), more.begin(), more.end());
-  };
-  append(scene.warnings);
+  doubts.add(scene.warnings);
   try {
     for (std::size_t d = 0; d < 3; ++d) {
       if (!scene.motion[d]) continue;
       if (std::holds_alternative<SyntheticMotion>(scene.motion[d]->source)) {
-        append(synthetic_doubts(std::string("motion ") + direction_names[d], *scene.motion[d]));
+        doubts.add(synthetic_doubts(std::string("motion ") + direction_names[d], *scene.motion[d]));
         interval = std::min(interval, synthetic_interval);
       } else {
         recorded[d] = scene.motion[d];
@@ -107,9 +104,10 @@ double check_motion(const MemberScene& member, std::vector<std::string>& doubts)
     for (const MotionDescription& description : model.motion->descriptions()) {
       interval = std::min(interval, description.time_step);
     }
-    append(model.motion->doubts());
-    append(LoadHistories(scene.loads).doubts(scene.loads, model.motion->origin(), scene.end_time));
-    append(run_warnings(scene, model));
+    doubts.add(model.motion->doubts());
+    doubts.add(
+        LoadHistories(scene.loads).doubts(scene.loads, model.motion->origin(), scene.end_time));
+    add_step_doubts(scene, model, doubts);
   } catch (const UserError& error) {
     throw UserError(member.place + error.what());
   }
@@ -180,9 +178,7 @@ std::vector<std::string> member_damping_doubts(const MemberScene& member, const 
   for (std::size_t s = 0; s < model.buildings.size(); ++s) {
     ModalResult modal = model.buildings[s].modal;
     for (Mode& mode : modal.modes) mode.frequency *= std::sqrt(member.stiffness_factors[s]);
-    for (const std::string& doubt : damping_warnings(member.scene.structures[s], modal)) {
-      doubts.push_back(doubt);
-    }
+    Doubts(doubts).add(damping_warnings(member.scene.structures[s], modal));
   }
   return doubts;
 }
@@ -197,7 +193,9 @@ void add_pass_doubts(const Scene& scene, const interactions::Interface& interfac
         const auto& row = interface.watched[static_cast<std::size_t>(result.other_row[c])];
         passes[c] = {result.other_depth[c], row.facet_size, row.place, result.other_time[c]};
       }
-      return pass_warnings(scene, passes);
+      std::vector<std::string> lines;
+      add_pass_doubts(scene, passes, lines);
+      return lines;
     };
     const auto deepest = std::ranges::max_element(
         results, {}, [c](const auto& each) { return each.second.other_depth[c]; });
@@ -214,7 +212,7 @@ std::vector<std::string> result_doubts(const MemberResult& result, double model_
   for (const double displacement : result.displacement) largest = std::max(largest, displacement);
   std::vector<std::string> doubts = displacement_warnings(largest, model_size);
   for (const double residual : result.contact_residual) {
-    for (const std::string& doubt : contact_warnings(residual)) doubts.push_back(doubt);
+    Doubts(doubts).add(contact_warnings(residual));
   }
   return doubts;
 }

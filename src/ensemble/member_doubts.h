@@ -7,6 +7,7 @@
 
 #include <mpi.h>
 
+#include "checks/doubts.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/member_scene.h"
 
@@ -34,7 +35,7 @@ std::vector<std::string> repeated_members(const MemberTable& table);
 
 /// Checks the motion of a member, without making synthetic ones: its files and its peaks. Returns
 /// the shortest interval between samples of its motion [s], infinite without one. Throws UserError.
-double check_motion(const MemberScene& member, std::vector<std::string>& doubts);
+double check_motion(const MemberScene& member, Doubts doubts);
 
 /// Checks the gaps of every member as those of a single run are. Rank 0. Throws UserError with the
 /// line of the table.
