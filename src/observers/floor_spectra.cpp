@@ -5,6 +5,7 @@
 
 #include "common/error.h"
 #include "common/facts.h"
+#include "common/facts_of.h"
 #include "common/parallel.h"
 #include "io/csv_file.h"
 #include "motion/accelerogram.h"
@@ -217,15 +218,11 @@ Facts equipment_facts(const Scene& scene, std::span<const TargetSpectrum> capaci
   Facts facts;
   for (std::size_t i = 0; i < capacities.size(); ++i) {
     const Equipment& item = scene.equipment[i];
-    Json of{{"probe", item.probe},
-            {"directions", Json::array()},
-            {"needed", 1 + item.margin},
-            {"damping", item.damping},
-            {"broadening", item.broadening},
-            {"dip", item.dip},
-            {"high_band", item.high_band},
-            {"capacity",
-             {{"frequency", capacities[i].frequency}, {"acceleration", capacities[i].ratio}}}};
+    Json of = FACTS_OF(item, probe, damping, broadening, dip, high_band);
+    of.update({{"directions", Json::array()},
+               {"needed", 1 + item.margin},
+               {"capacity",
+                {{"frequency", capacities[i].frequency}, {"acceleration", capacities[i].ratio}}}});
     for (std::size_t d = 0; d < 3; ++d) {
       if (item.directions[d]) of["directions"].push_back(direction_names[d]);
     }

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "common/facts_of.h"
 #include "common/parallel.h"
 #include "common/types.h"
 #include "model/element_middle.h"
@@ -82,13 +83,11 @@ struct YieldSum {
   }
   Json values() const {
     const YieldRow& largest = most != nullptr ? *most : YieldRow{};
-    return {{"elements", elements},
-            {"yielded", yielded},
-            {"ductility", largest.ductility},
-            {"element", largest.element},
-            {"place", largest.place},
-            {"first_time", std::isfinite(first_time) ? Json(first_time) : Json()},
-            {"energy_lost", lost}};
+    Json of = FACTS_OF((*this), elements, yielded);
+    of.update(FACTS_OF(largest, ductility, element, place));
+    of.update({{"first_time", std::isfinite(first_time) ? Json(first_time) : Json()},
+               {"energy_lost", lost}});
+    return of;
   }
 };
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "checks/run_doubts.h"
+#include "common/facts_of.h"
 #include "report/report.h"
 
 namespace pounding {
@@ -60,14 +61,8 @@ Facts with_gaps(const Contact& contact, const interactions::InterfaceReport& rep
 }
 
 Json values_of(const ImpactTotals& totals) {
-  return {{"episodes", totals.episodes},
-          {"total_impulse", totals.total_impulse},
-          {"largest_impulse", totals.largest_impulse},
-          {"peak_force", totals.peak_force},
-          {"window_force", totals.window_force},
-          {"max_penetration", totals.max_penetration},
-          {"energy_lost", totals.energy_lost},
-          {"friction_loss", totals.friction_loss}};
+  return FACTS_OF(totals, episodes, total_impulse, largest_impulse, peak_force, window_force,
+                  max_penetration, energy_lost, friction_loss);
 }
 
 Json values_of(const SeparationSide& side) {
@@ -94,7 +89,7 @@ std::string add_loads(const Contact& contact, const interactions::FillerTotals& 
                 of["stop"], {contact.name});
   }
   Json& loads = of[contact.crushes() ? "crushing" : "filler"];
-  loads.update({{"peak_pressure", filler.peak_pressure}, {"peak_force", filler.peak_force}});
+  loads.update(FACTS_OF(filler, peak_pressure, peak_force));
   const std::string pressed =
       told(" pressed by at most {peak_pressure:.4g kPa}, {peak_force:.4g kN} in all, crushed by ",
            loads);
@@ -103,9 +98,8 @@ std::string add_loads(const Contact& contact, const interactions::FillerTotals& 
     return told("  {:-12s} filler", loads, {contact.name}) + pressed +
            told("{crushed_strain:.3g %}, took {energy_lost:.4g} J\n", loads);
   }
-  loads.update({{"crushed_depth", filler.crushed_depth},
-                {"crushed_place", filler.crushed_place},
-                {"energy_lost", filler.loss}});
+  loads.update(FACTS_OF(filler, crushed_depth, crushed_place));
+  loads["energy_lost"] = filler.loss;
   return told("  {:-12s} faces", loads, {contact.name}) + pressed +
          told("{crushed_depth:.4g mm}", loads) +
          (filler.crushed_depth > 0 ? told(" at ({crushed_place/0:.4g}, {crushed_place/1:.4g}) m, "
@@ -118,10 +112,7 @@ std::string add_loads(const Contact& contact, const interactions::FillerTotals& 
 /// Adds how deep nodes went in a pass that is not taken. Returns the sentence of the report.
 std::string add_other_pass(const Contact& contact, const OtherPass& other, Json& of) {
   if (!(other.depth > 0)) return "";
-  of["other_pass"] = {{"depth", other.depth},
-                      {"facet_size", other.facet_size},
-                      {"place", other.place},
-                      {"time", other.time}};
+  of["other_pass"] = FACTS_OF(other, depth, facet_size, place, time);
   return told(
       "  {:-12s} nodes of the primary, of which no pass is taken, went into it by at most "
       "{depth:.3g mm}, at ({place/0:.4g}, {place/1:.4g}) m, t = {time:.4g} s\n",
@@ -134,23 +125,14 @@ Facts contact_facts(const Scene& scene, const Model& model, std::size_t c) {
   const Contact& contact = scene.contacts[c];
   const interactions::InterfaceReport& report = model.interface.reports[c];
   const JointGaps& gaps = model.joint_gaps[c];
-  Facts facts{{{"largest_closing", nullptr},
-               {"closing_factor", nullptr},
-               {"closing_factor_scales", scaled_by_closing(scene)},
-               {"passes", report.passes},
-               {"pairs", report.pairs},
-               {"matched", report.matched},
-               {"unmatched_nodes", report.unmatched_nodes},
-               {"carried_nodes", report.carried},
-               {"initial_gap", gaps.at_rest},
-               {"unloaded_gap", gaps.unloaded},
-               {"geometric_gap", report.geometric_gap},
-               {"overlapping_pairs", report.overlapping},
-               {"half_thickness", report.half_thickness},
-               {"largest_slide", nullptr},
-               {"slide_facet_size", nullptr},
-               {"other_pass", nullptr},
-               {"normal", report.normal}}};
+  Facts facts{FACTS_OF(report, passes, pairs, matched, unmatched_nodes, geometric_gap,
+                       half_thickness, normal)};
+  facts.values.update({{"closing_factor_scales", scaled_by_closing(scene)},
+                       {"carried_nodes", report.carried},
+                       {"initial_gap", gaps.at_rest},
+                       {"unloaded_gap", gaps.unloaded},
+                       {"overlapping_pairs", report.overlapping},
+                       {"other_pass", nullptr}});
   if (contact.crushes()) {
     facts.values["crushing"] = {{"area", report.filler_area},
                                 {"depth", contact.filler->thickness},
@@ -240,22 +222,14 @@ Facts separation_facts(const Scene& scene, const Model& model) {
   Facts facts;
   for (const Separation& one : model.separations) {
     const std::string& name = scene.contacts[one.contact].name;
-    const Json secondary = values_of(one.secondary);
-    const Json primary = values_of(one.primary);
+    Json of = FACTS_OF(one, gap, correlation, sum, srss, ddc, modal);
+    of.update({{"secondary", values_of(one.secondary)}, {"primary", values_of(one.primary)}});
     facts.add(
-        "separations", name,
-        {{"gap", one.gap},
-         {"secondary", secondary},
-         {"primary", primary},
-         {"correlation", one.correlation},
-         {"sum", one.sum},
-         {"srss", one.srss},
-         {"ddc", one.ddc},
-         {"modal", one.modal}},
+        "separations", name, of,
         "\njoint {}, {gap:.4g mm}: peaks along its normal by response spectrum:{},{}\n"
         "  needed so that nothing hits: modal {modal:.4g mm}, DDC {ddc:.4g [mm]} (correlation "
         "{correlation:.3f}), SRSS {srss:.4g [mm]}, sum {sum:.4g [mm]}\n",
-        {name, told_side(secondary), told_side(primary)});
+        {name, told_side(of["secondary"]), told_side(of["primary"])});
   }
   if (!model.separations.empty()) {
     facts.say(

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "checks/model_doubts.h"
+#include "common/facts_of.h"
 #include "common/types.h"
 #include "report/report.h"
 #include "stability/stable_time_step.h"
@@ -24,10 +25,6 @@ std::string told_ratios(const Rayleigh& damping) {
   return told_ratios([&](double omega) { return damping_ratio(damping, omega); });
 }
 
-Json rayleigh_values(const Rayleigh& damping) {
-  return {{"alpha", damping.alpha}, {"beta", damping.beta}};
-}
-
 Facts uniform_damping_facts(const UniformDamping& damping) {
   Facts facts{{{"uniform", damping.ratio},
                {"band", {damping.lowest, damping.highest}},
@@ -37,7 +34,7 @@ Facts uniform_damping_facts(const UniformDamping& damping) {
                {"stiffness_of_fastest_motions", damping.at_once()},
                {"filters", Json::array()}}};
   for (const DampingFilter& filter : damping.filters) {
-    facts.values["filters"].push_back({{"weight", filter.weight}, {"rate", filter.rate}});
+    facts.values["filters"].push_back(FACTS_OF(filter, weight, rate));
   }
   if (damping.filters.empty()) {
     facts.say("  uniform damping of {uniform:.4g %} from {band} Hz: none\n");
@@ -89,10 +86,8 @@ Facts mass_scaling_facts(const Building& building) {
   const LinearSystem& system = *building.system;
   const MassScaling& scaling = system.mass_scaling;
   const double stable = building.limits.stable_time_step;
-  Facts facts{{{"time_step", scaling.time_step},
-               {"elements", scaling.elements},
-               {"coupled_dofs", scaling.dofs},
-               {"largest_factor", scaling.largest_factor}}};
+  Facts facts{FACTS_OF(scaling, time_step, elements, largest_factor)};
+  facts.add("coupled_dofs", scaling.dofs);
   facts.say(
       "  mass scaled for a step of {time_step:.4e} s: {elements} elements, {coupled_dofs} coupled "
       "dofs, at most {largest_factor:.3e} s2 of their stiffness\n");
@@ -155,11 +150,9 @@ std::string told_bound(double bound) {
 Facts mode_facts(const Mode& mode, const Building& building, int number) {
   const std::optional<UniformDamping>& uniform = building.system->uniform_damping;
   const auto& mass = mode.effective_modal_mass;
-  Facts facts{{{"frequency", mode.frequency},
-               {"direction", mode.direction},
-               {"fraction", mode.direction_fraction},
-               {"effective_mass", std::max({0.0, mass[0], mass[1], mass[2]})},
-               {"effective_modal_mass", mass}}};
+  Facts facts{FACTS_OF(mode, frequency, direction, effective_modal_mass)};
+  facts.add("fraction", mode.direction_fraction);
+  facts.add("effective_mass", std::max({0.0, mass[0], mass[1], mass[2]}));
   const auto way = static_cast<std::size_t>(std::ranges::find(motion_names, mode.direction) -
                                             motion_names.begin());
   const bool moves = way < motion_names.size();  // else no direction: nothing moves
@@ -279,7 +272,7 @@ Facts damping_facts(const Building& building) {
   if (uniform) {
     facts.add("damping", uniform_damping_facts(*uniform));
   } else {
-    facts.add("damping", rayleigh_values(structure.damping));
+    facts.add("damping", FACTS_OF(structure.damping, alpha, beta));
   }
   if (!uniform && by_mode) {
     facts.say(
@@ -293,7 +286,7 @@ Facts damping_facts(const Building& building) {
   for (const Region& region : structure.regions) {
     if (!region.damping && region.damping_factor == 1) continue;
     const Rayleigh damping = structure.damping_of(region);
-    facts.values["region_damping"][region.group] = rayleigh_values(damping);
+    facts.values["region_damping"][region.group] = FACTS_OF(damping, alpha, beta);
     if (uniform || by_mode) continue;
     facts.say("    of {}:{}", {region.group, told_ratios(damping)});
   }
@@ -301,9 +294,8 @@ Facts damping_facts(const Building& building) {
 }
 
 Facts scaling_facts(const Building& building) {
-  Facts target;
   Facts facts;
-  if (building.design) target.add("time_step_target", step_target_facts(building));
+  if (building.design) facts.add("time_step_target", step_target_facts(building));
   if (building.system->mass_scaling.time_step > 0) {
     facts.add("mass_scaling", mass_scaling_facts(building));
   }
@@ -311,8 +303,6 @@ Facts scaling_facts(const Building& building) {
     facts.add("condensed_dofs", building.system->condensed_dofs,
               "  {condensed_dofs} dofs without mass follow the springs that hold them\n");
   }
-  facts.values.update(target.values);
-  facts.text = target.text + facts.text;
   for (const Sliver& sliver : building.system->slivers) {
     facts.values["slivers"].push_back({{"element", sliver.element},
                                        {"time_step", sliver.time_step},

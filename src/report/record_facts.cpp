@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/facts_of.h"
 #include "report/report.h"
 
 namespace pounding {
@@ -33,12 +34,8 @@ Facts drift_facts(const StoreyDrifts& drifts) {
   for (std::size_t s = 0; s < drifts.storeys().size(); ++s) {
     const Storey& storey = drifts.storeys()[s];
     const auto& [x, y] = drifts.peaks()[s];
-    const Json& of = facts.values.emplace_back(Json{{"structure", storey.structure},
-                                                    {"upper", storey.upper},
-                                                    {"lower", storey.lower},
-                                                    {"height", storey.height},
-                                                    {"peak", {x.drift, y.drift}},
-                                                    {"time", {x.time, y.time}}});
+    Json& of = facts.values.emplace_back(FACTS_OF(storey, structure, upper, lower, height));
+    of.update({{"peak", {x.drift, y.drift}}, {"time", {x.time, y.time}}});
     facts.text += told(
         "  {:-36s} {height:8.3f} {peak/0:11.4f [%]} {time/0:9.4f} {peak/1:11.4f [%]} "
         "{time/1:9.4f}\n",
@@ -128,11 +125,8 @@ Facts support_facts(const SupportMotion& supports) {
   for (std::size_t c = 0; c < supports.columns().size(); ++c) {
     const SupportMotion::Reach reach = supports.reach(c);
     const bool turns = supports.columns()[c].component >= 3;
-    const Json& of = facts.values.emplace_back(Json{{"component", supports.describe(c)},
-                                                    {"source", supports.source(c)},
-                                                    {"peak", reach.peak},
-                                                    {"largest", reach.largest},
-                                                    {"end", reach.end}});
+    Json& of = facts.values.emplace_back(FACTS_OF(reach, peak, largest, end));
+    of.update({{"component", supports.describe(c)}, {"source", supports.source(c)}});
     facts.text += told("{component}: {source}; against the ground at most {peak:.4g} ", of);
     facts.text +=
         told(turns ? "rad/s2 and {largest:.4g} rad\n" : "m/s2 and {largest:.4g mm}\n", of);
@@ -145,17 +139,12 @@ Facts load_facts(const Scene& scene, const Model& model) {
   for (std::size_t l = 0; l < scene.loads.size(); ++l) {
     const Load& load = scene.loads[l];
     const NodalLoad& on = model.loads[l];
-    const double peak = model.load_histories->peak(l, scene.end_time);
-    const Json& of =
-        facts.values.emplace_back(Json{{"name", load.name},
-                                       {"on", load.structure + ":" + load.group},
-                                       {"nodes", on.nodes},
-                                       {"extent", on.extent},
-                                       {"force", on.force},
-                                       {"moment", on.moment},
-                                       {"function", model.load_histories->describe(l)},
-                                       {"peak", peak},
-                                       {"at_rest", model.load_histories->before_start(l)}});
+    Json& of = facts.values.emplace_back(FACTS_OF(on, nodes, extent, force, moment));
+    of.update({{"name", load.name},
+               {"on", load.structure + ":" + load.group},
+               {"function", model.load_histories->describe(l)},
+               {"peak", model.load_histories->peak(l, scene.end_time)},
+               {"at_rest", model.load_histories->before_start(l)}});
     facts.text += told(
         "load {name}: on {nodes} nodes of {on}, force {force:.6g} N[, moment about the origin "
         "{moment:.6g} N m]\n"

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "common/byte_texts.h"
+#include "common/facts_of.h"
 #include "common/vector_unit.h"
 #include "model/time_step.h"
 #include "report/report.h"
@@ -31,15 +32,8 @@ std::vector<ContactLoad> contact_loads(const Scene& scene, const Model& model) {
 
 Facts structure_rest_facts(const Scene& scene, const Model& model, std::size_t s) {
   const StructureRest& of = model.equilibrium->structures[s];
-  Facts facts{{{"method", of.method},
-               {"weight", of.weight},
-               {"load", of.load},
-               {"support", of.support},
-               {"contact", of.contact},
-               {"settlement", of.settlement},
-               {"largest_displacement", of.largest_displacement},
-               {"place", of.place},
-               {"imbalance", of.imbalance}}};
+  Facts facts{FACTS_OF(of, method, weight, load, support, contact, settlement, largest_displacement,
+                       place, imbalance)};
   facts.say(
       "  structure {}, {method}\n"
       "    weight                 {weight:.6g} N\n"
@@ -156,9 +150,8 @@ Facts phase_facts(const PhaseReport& report) {
 
 Facts energy_facts(const RunStatistics& run) {
   const EnergyLine& energy = run.energy;
-  Facts facts{{{"relative_residual", run.energy_residual},
-               {"kinetic", energy.kinetic},
-               {"strain", energy.strain}}};
+  Facts facts{FACTS_OF(energy, kinetic, strain)};
+  facts.add("relative_residual", run.energy_residual);
   std::string sentences;
   for (std::size_t r = 0; r < ledger_rows.size(); ++r) {
     const LedgerRow& row = ledger_rows[r];
@@ -179,12 +172,8 @@ Facts energy_facts(const RunStatistics& run) {
 
 Facts rest_facts(const Scene& scene, const Model& model) {
   const Equilibrium& rest = *model.equilibrium;
-  Facts facts{{{"iterations", rest.iterations},
-               {"residual", rest.residual},
-               {"rows_tried", rest.rows_tried},
-               {"acting_links", rest.acting_links},
-               {"idle_links", rest.idle_links},
-               {"gravity_potential", rest.gravity_potential}}};
+  Facts facts{FACTS_OF(rest, iterations, residual, rows_tried, acting_links, idle_links,
+                       gravity_potential)};
   facts.say(
       "\nstatic equilibrium: {iterations} iterations, {residual:.1e} of the weight left, "
       "{rows_tried} contact points and links tried\n");
@@ -214,22 +203,14 @@ Facts climb_facts(const Scene& scene) {
   const FidelityClimb& climb = scene.fidelity;
   Facts facts;
   if (climb.target == 0) return facts;
-  Json tried = Json::array();
+  facts.values = FACTS_OF(climb, target, modes, reason);
+  facts.add("scaled_mass", climb.scaled);
+  facts.add("tried", Json::array(), "fidelity target {target:.4g %}:");
   for (const TriedFidelity& one : climb.tried) {
-    tried.push_back({{"modes", one.modes},
-                     {"scaled_mass", one.modes == 0},
-                     {"error", one.error},
-                     {"wall_time", one.wall_time}});
-  }
-  facts.values = {{"target", climb.target},
-                  {"modes", climb.modes},
-                  {"scaled_mass", climb.scaled},
-                  {"tried", tried},
-                  {"reason", climb.reason}};
-  facts.say("fidelity target {target:.4g %}:");
-  for (const TriedFidelity& one : climb.tried) {
-    facts.say(" {} {:.3g %} off ({:.0f} s),",
-              {fidelity_subject(one.modes), one.error, one.wall_time});
+    Json& of = facts.values["tried"].emplace_back(FACTS_OF(one, modes, error, wall_time));
+    of["scaled_mass"] = one.modes == 0;
+    facts.text +=
+        told(" {} {error:.3g %} off ({wall_time:.0f} s),", of, {fidelity_subject(one.modes)});
   }
   facts.text += climb.modes > 0 || climb.scaled ? " " + fidelity_subject(climb.modes) + " tried\n"
                                                 : " full order is taken, " + climb.reason + "\n";
@@ -237,9 +218,9 @@ Facts climb_facts(const Scene& scene) {
 }
 
 Facts fidelity_facts(const Scene& scene, const RunStatistics& run) {
-  Facts climb;
-  if (scene.fidelity.target > 0) climb.values["fidelity_climb"] = climb_facts(scene).values;
-  if (!run.fidelity) return climb;
+  Facts facts;
+  if (scene.fidelity.target > 0) facts.values["fidelity_climb"] = climb_facts(scene).values;
+  if (!run.fidelity) return facts;
   const FidelityEstimate& estimate = *run.fidelity;
   Json channels = Json::object();
   std::string lines;
@@ -250,21 +231,15 @@ Facts fidelity_facts(const Scene& scene, const RunStatistics& run) {
     lines += sentence("  {:-24s}", {channel.name}) + told_bands(channel.rms) +
              sentence("  {:.3g [%]} at {:.4g} Hz\n", {channel.largest, channel.at});
   }
-  Facts facts;
-  facts.add(climb);
-  facts.add("fidelity", {{"window", {estimate.start, estimate.end}},
-                         {"window_reason", estimate.reason},
-                         {"rms", band_values(estimate.rms)},
-                         {"window_rms", band_values(estimate.window)},
-                         {"spread_rms", band_values(estimate.spread)},
-                         {"disturbance", estimate.disturbance},
-                         {"channels", channels},
-                         {"impulse", estimate.impulse},
-                         {"full_impulse", estimate.full_impulse},
-                         {"full_dofs", estimate.full_dofs},
-                         {"full_time_step", estimate.time_step},
-                         {"wall_time", estimate.wall_time},
-                         {"full_run_time", estimate.full_run_time}});
+  facts.add("fidelity", FACTS_OF(estimate, disturbance, impulse, full_impulse, full_dofs, wall_time,
+                                 full_run_time));
+  facts.values["fidelity"].update({{"window", {estimate.start, estimate.end}},
+                                   {"window_reason", estimate.reason},
+                                   {"rms", band_values(estimate.rms)},
+                                   {"window_rms", band_values(estimate.window)},
+                                   {"spread_rms", band_values(estimate.spread)},
+                                   {"channels", channels},
+                                   {"full_time_step", estimate.time_step}});
   facts.say(
       "\nfloor spectra of this run beside full order ({fidelity/full_dofs} dofs), "
       "estimated by {fidelity/window:.4g} s at full order,\n"

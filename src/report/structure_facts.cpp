@@ -2,6 +2,7 @@
 #include <array>
 #include <numbers>
 
+#include "common/facts_of.h"
 #include "common/types.h"
 #include "elements/element_traits.h"
 #include "report/report.h"
@@ -18,31 +19,25 @@ Json regions_of(const Structure& structure) {
     Json material;
     Json section;
     if (const Material& of = region.material; of.young > 0) {
-      material = {
-          {"name", of.name}, {"young", of.young}, {"poisson", of.poisson}, {"density", of.density}};
+      material = FACTS_OF(of, name, young, poisson, density);
     }
     if (const auto& of = region.section) {
-      section = {{"name", of->name},           {"area", of->area},
-                 {"inertia_y", of->inertia_y}, {"inertia_z", of->inertia_z},
-                 {"torsion", of->torsion},     {"z_axis", of->z_axis}};
+      section = FACTS_OF((*of), name, area, inertia_y, inertia_z, torsion, z_axis);
       if (is_flexible_in_shear(region)) {
         section["shear_area"] = {of->shear_area_y, of->shear_area_z};
       }
     }
     const std::string per = per_extent(region.spread);
-    regions[region.group] = without_nothing({{"element", element_name(region.element)},
-                                             {"material", material},
-                                             {"section", section},
-                                             {"area", region.area},
-                                             {"thickness", region.thickness},
-                                             {"added_mass", region.added_mass},
-                                             {"mass", region.mass},
-                                             {"rotary_inertia", region.rotary_inertia},
-                                             {"stiffness" + per, region.stiffness},
-                                             {"dashpot" + per, region.dashpot},
-                                             {"yield_force", region.nonlinear.yield_force},
-                                             {"sliding_friction", region.nonlinear.friction},
-                                             {"one_way", is_one_way(region)}});
+    Json all = FACTS_OF(region, area, thickness, added_mass, mass, rotary_inertia);
+    all.update({{"element", element_name(region.element)},
+                {"material", material},
+                {"section", section},
+                {"stiffness" + per, region.stiffness},
+                {"dashpot" + per, region.dashpot},
+                {"yield_force", region.nonlinear.yield_force},
+                {"sliding_friction", region.nonlinear.friction},
+                {"one_way", is_one_way(region)}});
+    regions[region.group] = without_nothing(all);
   }
   return regions;
 }
@@ -98,7 +93,7 @@ Facts connectivity_facts(const MeshFindings& findings) {
   }
   for (const Piece& piece : connectivity.pieces) {
     if (piece.held) continue;
-    facts.values["not_held"].push_back({{"nodes", piece.nodes}, {"place", piece.place}});
+    facts.values["not_held"].push_back(FACTS_OF(piece, nodes, place));
   }
   const auto add = [&](const char* key, const Places& places, const std::string& what) {
     Json& of = facts.values[key] = Json{{"count", places.count}};
@@ -136,11 +131,7 @@ Facts rigid_facts(const Building& building) {
     facts.text += told("  {}: {group}", of, {words[static_cast<std::size_t>(rigid.kind)]});
     for (const RigidBodyReport& report : building.system->rigid_bodies) {
       if (report.group != rigid.name()) continue;
-      of.update({{"bodies", report.bodies},
-                 {"nodes", report.nodes},
-                 {"mass", report.mass},
-                 {"dofs", report.dofs},
-                 {"motions", report.motions}});
+      of.update(FACTS_OF(report, bodies, nodes, mass, dofs, motions));
       facts.text += told(", {nodes} nodes of {mass:.0f} kg", of);
       if (report.bodies > 1) facts.text += told(" in {bodies}", of);
       facts.text += told(rigid.kind == RigidKind::tie ? ", {dofs} dofs that follow"
@@ -260,40 +251,30 @@ Facts fit_facts(const Soil& soil, const Region& region) {
 Facts structure_facts(const Building& building) {
   const Structure& structure = *building.structure;
   const Mesh& mesh = *building.mesh;
-  const Facts groups = group_facts(mesh);
-  const Facts rigid = rigid_facts(building);
-  const Facts connectivity = connectivity_facts(building.findings);
-  const Facts reduction = building.basis ? reduction_facts(building) : Facts{};
-  const Facts spread = spread_facts(building);
-  const Facts scaling = scaling_facts(building);
   GlobalIndex elements = 0;
   for (const ElementBlock& block : mesh.blocks) elements += block.global_count;
   Facts facts{{{"nodes", mesh.global_nodes},
                {"dofs", mesh.global_dofs},
                {"dofs_before_clamping", mesh.global_dofs_unclamped},
-               {"groups", groups.values},
                {"elements", elements},
                {"regions", regions_of(structure)},
-               {"connectivity", connectivity.values},
                {"mass", building.system->total_mass},
                {"stiffness", building.system->stiffness_method}}};
   facts.say(
       "\nstructure {}: {nodes} nodes, {dofs} dofs ({dofs_before_clamping} before clamping), mass "
       "{mass:.0f} kg\n",
       {building.name()});
-  const Facts beams = beam_facts(building);
-  if (!beams.values.empty()) facts.add("beams", beams.values);
-  facts.text += groups.text + beams.text + rigid.text + connectivity.text;
+  facts.add("groups", group_facts(mesh));
+  if (const Facts beams = beam_facts(building); !beams.values.empty()) facts.add("beams", beams);
+  if (!structure.rigid_groups.empty()) facts.add("rigid_groups", rigid_facts(building));
+  facts.add("connectivity", connectivity_facts(building.findings));
   if (const MeshWaves& waves = building.findings.waves; waves.frequency > 0) {
-    facts.add("mesh_waves",
-              {{"frequency", waves.frequency},
-               {"element_size", waves.element_size},
-               {"group", waves.group}},
+    facts.add("mesh_waves", FACTS_OF(waves, frequency, element_size, group),
               "  the mesh carries waves up to {mesh_waves/frequency:.3g} Hz, by elements of "
               "{mesh_waves/element_size:.3g} m of {mesh_waves/group}\n");
   }
   facts.say("  stiffness: {stiffness}\n");
-  facts.text += reduction.text;
+  if (building.basis) facts.add("modal", reduction_facts(building));
   facts.add(damping_facts(building));
   if (const auto& compression = building.compression) {
     facts.add("p_delta",
@@ -301,13 +282,11 @@ Facts structure_facts(const Building& building) {
               "  P-Delta: at rest up to {p_delta/largest_compression} N press {p_delta/place}\n");
   }
   if (structure.soil) facts.add("soil", soil_facts(structure));
-  if (!building.spread.empty()) facts.add("spread_springs", spread.values);
   if (!structure.absorbing.empty()) facts.add("absorbing", absorbing_facts(building));
-  facts.text += spread.text;
-  if (!structure.rigid_groups.empty()) facts.add("rigid_groups", rigid.values);
-  if (building.basis) facts.add("modal", reduction.values);
-  facts.values.update(scaling.values);
+  if (!building.spread.empty()) facts.add("spread_springs", spread_facts(building));
   facts.add(mode_facts(building));
+  const Facts scaling = scaling_facts(building);
+  facts.values.update(scaling.values);
   if (!building.basis) facts.text += scaling.text;
   facts.add(step_limit_facts(building));
   return facts;
@@ -349,11 +328,8 @@ Facts absorbing_facts(const Building& building) {
   const interactions::AbsorbingReport& report = building.absorbing;
   const std::vector<std::string> groups = groups_of(structure, false);
   const std::vector<std::string> base = groups_of(structure, true);
-  Facts facts{{{"groups", groups},
-               {"base", base},
-               {"nodes", report.nodes},
-               {"area", report.area},
-               {"base_area", report.base_area}}};
+  Facts facts{FACTS_OF(report, nodes, area, base_area)};
+  facts.values.update({{"groups", groups}, {"base", base}});
   facts.say("  absorbing faces:{}, {nodes} nodes, {area:.6g} m2\n", {listed(groups)});
   if (structure.is_driven_from_below()) {
     facts.say("    the motion enters through{}, {base_area:.6g} m2\n", {listed(base)});

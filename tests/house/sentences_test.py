@@ -7,6 +7,7 @@ import unittest
 SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "src")
 LITERAL = re.compile(r'"((?:\\.|[^"\\\n])*)"')
 SLOT = re.compile(r"\{([^{}]*)\}")
+MEMBERS = re.compile(r"FACTS_OF\((?:\([^()]*\)|[^(),]*),([^()]*)\)")  # whose names are keys
 FORM = re.compile(r"(?P<name>[\w/]*)(?::(?P<conversion>[-+]?\d*(?:\.\d+)?[defgs])?(?: (?P<unit>\S+))?)?")
 
 
@@ -18,7 +19,7 @@ def units():
 def faults(text, known):
     """Slots of the string literals of a file that cannot be filled, and how many there are."""
     found, count = [], 0
-    words = set(LITERAL.findall(text))
+    words = set(LITERAL.findall(text)) | set(re.findall(r"\w+", " ".join(MEMBERS.findall(text))))
     for literal in LITERAL.findall(text):
         for slot in SLOT.findall(literal):
             count += 1
@@ -45,7 +46,7 @@ class Sentences(unittest.TestCase):
                     text = file.read()
                 if "ledger_rows" in text:
                     text += ledger
-                if not name.endswith(".cpp") or not re.search(r"(common/facts|report/report)\.h", text):
+                if not name.endswith(".cpp") or not re.search(r"(common/facts(_of)?|report/report)\.h", text):
                     continue
                 if name == "facts.cpp":
                     continue
@@ -57,6 +58,8 @@ class Sentences(unittest.TestCase):
     def test_a_slot_that_cannot_be_filled_is_found(self):
         text = 'facts.add("mass", m, "{mass:.3g kg} {mas} {mass:.3g mm} {:5q} {mass/0:8.2f [mm]}");'
         self.assertEqual(faults(text, {"mm"}), (["mass:.3g kg", "mas", ":5q"], 5))
+        text = 'facts.values.push_back(FACTS_OF(mode, frequency, mass)); say("{frequency} {share}");'
+        self.assertEqual(faults(text, {}), (["share"], 2))
 
 
 if __name__ == "__main__":
