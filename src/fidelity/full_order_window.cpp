@@ -16,6 +16,7 @@
 #include "model/solver.h"
 #include "motion/response_spectrum.h"
 #include "observers/observed_run.h"
+#include "scene/law_kinds.h"
 
 namespace pounding {
 namespace {
@@ -330,8 +331,8 @@ std::string without_window(const Scene& scene) {
       return "the damping ratios of modes of " + structure.name + " are none of its full order";
     }
     for (const Region& region : structure.regions) {
-      if (follows_law(region) || yields_by_links(region) || region.nonlinear.has_series() ||
-          region.nonlinear.dashpot_exponent != 1) {
+      if (follows_law(region) || (has_element_law(region) && structure.modal) ||
+          region.nonlinear.has_series() || region.nonlinear.dashpot_exponent != 1) {
         return "group " + region.group + " of " + structure.name + " is not linear";
       }
     }

@@ -19,7 +19,7 @@ constexpr double unfelt = 1e-13;
 }  // namespace
 
 std::optional<DashpotRows> dashpot_rows(const LinearSystem& system) {
-  if (!system.links || !system.generalised) return {};
+  if (!system.links || !system.generalised || !system.laws.empty()) return {};
   const std::vector<Link>& links = system.links->links();
   if (links.empty() || !carried_by_supports(system).empty()) return {};
   const Trace& trace = system.links->trace();

@@ -6,6 +6,7 @@
 
 #include "common/parallel.h"
 #include "elements/element_traits.h"
+#include "system/inelastic_laws.h"
 #include "system/support_shapes.h"
 
 namespace pounding::interactions {
@@ -18,9 +19,12 @@ InelasticElements::InelasticElements(std::size_t structure, const Mesh& mesh,
       time_step_(time_step),
       laws_(std::move(laws)),
       state_(0) {
+  const bool apart = laws_.front().apart;
+  const std::vector<char> acted_on = dofs_of_laws(laws_, apart, mesh);
   for (LocalIndex dof = 0; dof < mesh.owned_dofs; ++dof) {
-    if (system.inelastic[dof] != 0) dofs_.push_back(dof);
+    if (acted_on[dof] != 0) dofs_.push_back(dof);
   }
+  if (apart) trace_.emplace(system, mesh, points_of(mesh, dofs_), true);
   for (const RegionLaw& entry : laws_) {
     std::size_t first = 0;
     for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
@@ -33,21 +37,24 @@ InelasticElements::InelasticElements(std::size_t structure, const Mesh& mesh,
       group.layout = element_layout(block.type);
       group.law = entry.law.get();
       group.memory.assign(block.count() * entry.law->memory_size(), 0.0);
+      find_places(group);
       for (std::size_t e = 0; e < block.count(); ++e) {
-        for (std::size_t p = 0; block.counted[e] != 0 && p < entry.law->parts().size(); ++p) {
+        for (std::size_t p = 0; group.counted[e] != 0 && p < entry.law->parts().size(); ++p) {
           parts_.push_back({groups_.size() - 1, e, p});
         }
       }
-      find_places(group);
     }
   }
-  find_ghosts();
+  if (!trace_) find_ghosts();
   displacement_.assign(mesh.dof_count + held_.size(), 0.0);
   force_ = displacement_;
   find_carried();
   now_.assign(dofs_.size(), 0.0);
-  before_ = acting_ = now_;
+  before_ = acting_ = after_ = now_;
   state_ = Before(dofs_.size());
+  if (!trace_) return;
+  stepped_ = Before(trace_->dofs().size());
+  velocity_.assign(trace_->dofs().size(), 0.0);
 }
 
 InelasticElements::~InelasticElements() = default;
@@ -60,28 +67,41 @@ void InelasticElements::find_places(Group& group) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(group.layout.size()); ++i) {
     bool any = false;
     for (std::size_t e = 0; e < block.count(); ++e) any = any || acts(e, i);
-    if (any) group.acting.push_back(i);
+    if (any) group.acting.push_back({i});
+    if (any && is_grounded(block.type) && system_.supports) group.acting.push_back({i, true});
   }
   const auto components = static_cast<std::size_t>(group.layout.components);
   const auto nodes = static_cast<std::size_t>(group.layout.nodes);
   for (std::size_t e = 0; e < block.count(); ++e) {
-    for (const std::size_t i : group.acting) {
+    for (const auto& [i, ground] : group.acting) {
       const LocalIndex node = block.connectivity[e * nodes + i / components];
-      group.places.push_back(acts(e, i) ? place_of(node, static_cast<int>(i % components)) : -1);
+      const auto component = static_cast<int>(i % components);
+      group.places.push_back(acts(e, i) ? place_of(node, component, ground) : -1);
     }
+  }
+  group.counted = block.counted;
+  for (std::size_t e = 0; trace_ && e < block.count(); ++e) {
+    const auto first = group.places.begin() + static_cast<std::ptrdiff_t>(e * group.acting.size());
+    group.counted[e] =
+        std::any_of(first, first + static_cast<std::ptrdiff_t>(group.acting.size()),
+                    [&](LocalIndex place) { return place >= 0 && place < mesh_.owned_dofs; });
   }
 }
 
-LocalIndex InelasticElements::place_of(LocalIndex node, int component) {
-  const LocalIndex dof = mesh_.dof(node, component);
+double InelasticElements::carried_by(const SupportColumn& column, const HeldPlace& held) const {
+  return held.ground ? ground_displacement(column, mesh_, held.node, held.component)
+                     : support_displacement(column, mesh_, held.node, held.component);
+}
+
+LocalIndex InelasticElements::place_of(LocalIndex node, int component, bool ground) {
+  const LocalIndex dof = ground ? -1 : mesh_.dof(node, component);
   if (dof >= 0 || !system_.supports) return dof;
-  const auto moves = [&](const SupportColumn& column) {
-    return support_displacement(column, mesh_, node, component) != 0;
-  };
+  const HeldPlace held{node, component, ground};
+  const auto moves = [&](const SupportColumn& column) { return carried_by(column, held) != 0; };
   if (std::ranges::none_of(system_.supports->columns, moves)) return -1;
-  const auto found = std::ranges::find(held_, std::pair(node, component));
+  const auto found = std::ranges::find(held_, held);
   const auto place = static_cast<LocalIndex>(found - held_.begin());
-  if (found == held_.end()) held_.emplace_back(node, component);
+  if (found == held_.end()) held_.push_back(held);
   return static_cast<LocalIndex>(mesh_.dof_count) + place;
 }
 
@@ -112,16 +132,18 @@ void InelasticElements::find_carried() {
   const SupportShapes& supports = *system_.supports;
   for (std::size_t c = 0; c < supports.columns.size(); ++c) {
     std::vector<double>& carried = carried_.emplace_back(mesh_.dof_count + held_.size(), 0.0);
-    std::vector<double> owned = supports.shape[c];
-    owned.resize(mesh_.owned_dofs, 0.0);
-    halo_->begin(owned);
-    std::ranges::copy(owned, carried.begin());
-    halo_->end();
-    take_ghosts(carried);
+    if (trace_) {
+      for (std::size_t k = 0; k < dofs_.size(); ++k) carried[dofs_[k]] = trace_->carried(k)[c];
+    } else {
+      std::vector<double> owned = supports.shape[c];
+      owned.resize(mesh_.owned_dofs, 0.0);
+      halo_->begin(owned);
+      std::ranges::copy(owned, carried.begin());
+      halo_->end();
+      take_ghosts(carried);
+    }
     for (std::size_t k = 0; k < held_.size(); ++k) {
-      const auto& [node, component] = held_[k];
-      carried[mesh_.dof_count + k] =
-          support_displacement(supports.columns[c], mesh_, node, component);
+      carried[mesh_.dof_count + k] = carried_by(supports.columns[c], held_[k]);
     }
   }
 }
@@ -130,10 +152,14 @@ void InelasticElements::exchange(const Step& step, double back) {
   const SteppedStructure& structure = *step.structures[structure_];
   const stiffness::StiffnessArgument moved{structure.displacement().data(),
                                            structure.velocity().data(), -back};
-  halo_->begin(moved);
-  for (const LocalIndex dof : dofs_) displacement_[dof] = moved[dof];
-  halo_->end();
-  take_ghosts(displacement_);
+  if (halo_) halo_->begin(moved);
+  for (std::size_t k = 0; k < dofs_.size(); ++k) {
+    displacement_[dofs_[k]] = state_.displacement[k] - back * state_.velocity[k];
+  }
+  if (halo_) {
+    halo_->end();
+    take_ghosts(displacement_);
+  }
   if (carried_.empty()) return;
   std::fill_n(displacement_.begin() + static_cast<std::ptrdiff_t>(mesh_.dof_count), held_.size(),
               0.0);
@@ -156,22 +182,24 @@ double InelasticElements::respond() {
     const std::size_t size = group.layout.size();
     const std::size_t acting = group.acting.size();
     const std::size_t numbers = group.law->memory_size();
-    const ElementBlock& block = mesh_.blocks[group.block];
-    for (std::size_t e = 0; e < block.count(); ++e) {
+    for (std::size_t e = 0; e < group.counted.size(); ++e) {
       const LocalIndex* const place = group.places.data() + e * acting;
       for (std::size_t k = 0; k < acting; ++k) {
-        u[group.acting[k]] = place[k] < 0 ? 0 : displacement_[place[k]];
+        const auto& [dof, ground] = group.acting[k];
+        const double own = place[k] < 0 ? 0 : displacement_[place[k]];
+        u[dof] = ground ? u[dof] - own : own;
       }
       const ElementLaw::Response response =
           group.law->respond(group.first + e, {u.data(), size},
                              {group.memory.data() + e * numbers, numbers}, {g.data(), size});
       if (!response.acts) continue;
-      if (block.counted[e] != 0) offset += response.offset;
+      const bool counted = group.counted[e] != 0;
+      if (counted) offset += response.offset;
       for (std::size_t k = 0; k < acting; ++k) {
         const bool held = place[k] >= static_cast<LocalIndex>(mesh_.dof_count);
-        const bool own =
-            held ? block.counted[e] != 0 : place[k] >= 0 && place[k] < mesh_.owned_dofs;
-        if (own) force_[place[k]] += g[group.acting[k]];
+        const bool own = held ? counted : place[k] >= 0 && place[k] < mesh_.owned_dofs;
+        const auto& [dof, ground] = group.acting[k];
+        if (own) force_[place[k]] += ground ? -g[dof] : g[dof];
       }
       std::fill_n(g.begin(), size, 0.0);
     }
@@ -179,21 +207,32 @@ double InelasticElements::respond() {
   return offset;
 }
 
+void InelasticElements::attach(std::span<SteppedStructure* const> structures) {
+  if (trace_) structures[structure_]->watch(trace_->dofs(), true);
+}
+
 void InelasticElements::begin(const Step& step) {
   const ScopedTimer timer(step.profile, Phase::step);
   SteppedStructure& structure = *step.structures[structure_];
-  structure.remember(dofs_, state_);
-  const bool first = step.number == 0;
-  if (first) {  // g_{-1}, of which no history is kept
+  if (trace_) {
+    structure.remember(trace_->dofs(), stepped_);
+    measure(structure.displacement(), state_.displacement);
+    measure(structure.velocity(), state_.velocity);
+  } else {
+    structure.remember(dofs_, state_);
+  }
+  if (step.number == 0) {  // g_{-1}, of which no history is kept
     std::vector<std::vector<double>> kept;
     for (const Group& group : groups_) kept.push_back(group.memory);
     exchange(step, time_step_);
-    offset_ = respond();
-    for (std::size_t k = 0; k < dofs_.size(); ++k) now_[k] = force_[dofs_[k]];
+    held_energy_ = -respond();
+    for (std::size_t k = 0; k < dofs_.size(); ++k) {
+      now_[k] = force_[dofs_[k]];
+      held_energy_ += now_[k] * (state_.displacement[k] + carried(step, dofs_[k]).now) / 2;
+    }
     for (std::size_t g = 0; g < groups_.size(); ++g) groups_[g].memory = kept[g];
   }
   before_ = now_;
-  offset_before_ = offset_;
   for (std::size_t k = 0; k < taken_.size(); ++k) {
     taken_[k] = state_of(parts_[records_.links()[k]]).taken;
   }
@@ -204,12 +243,22 @@ void InelasticElements::begin(const Step& step) {
     records_.note(k, part.elongation, part.force, part.ductility > 1);
     records_.add_work(k, part.taken - taken_[k]);
   }
-  const double lag = system_.damping.beta / time_step_;
+  const double lag = trace_ ? 0 : system_.damping.beta / time_step_;
   for (std::size_t k = 0; k < dofs_.size(); ++k) {
     now_[k] = force_[dofs_[k]];
     acting_[k] = now_[k] + lag * (now_[k] - before_[k]);
   }
-  structure.act(dofs_, acting_, first);
+  if (!trace_) structure.act(dofs_, acting_, step.number == 0);
+}
+
+void InelasticElements::push(const Step& step) {
+  if (!trace_ || std::ranges::all_of(now_, [](double force) { return force == 0; })) return;
+  const ScopedTimer timer(step.profile, Phase::step);
+  SteppedStructure& structure = *step.structures[structure_];
+  for (std::size_t k = 0; k < dofs_.size(); ++k) after_[k] = -step.share() * time_step_ * now_[k];
+  trace_->restrict_to_dofs(structure.velocity().data(), velocity_.data());
+  trace_->add_impulse(after_.data(), velocity_.data());
+  structure.correct(trace_->dofs(), stepped_, velocity_);
 }
 
 InelasticElements::Carried InelasticElements::carried(const Step& step, std::size_t place) const {
@@ -233,26 +282,28 @@ double InelasticElements::held_by_supports(const Step& step) const {
 
 void InelasticElements::finish(const Step& step) {
   const std::vector<double>& velocity = step.structures[structure_]->velocity();
-  double work = 0, input = 0, damped = 0, held_before = -offset_before_;
-  offset_ -= held_by_supports(step);
-  double held = -offset_;
+  if (trace_) {
+    measure(velocity, after_);
+  } else {
+    for (std::size_t k = 0; k < dofs_.size(); ++k) after_[k] = velocity[dofs_[k]];
+  }
+  double work = 0, input = 0, damped = 0, held = held_by_supports(step) - offset_;
   for (std::size_t k = 0; k < dofs_.size(); ++k) {
     const auto [now, next, by_supports] = carried(step, dofs_[k]);
-    const double u = state_.displacement[k];
-    const double moved = time_step_ * velocity[dofs_[k]];
+    const double moved = time_step_ * after_[k];
     const double way = (moved + time_step_ * state_.velocity[k]) / 2;
     work += now_[k] * way;
     input += now_[k] * by_supports;
     damped += (acting_[k] - now_[k]) * way;
-    held_before += before_[k] * (u + now) / 2;
-    held += now_[k] * (u + moved + next) / 2;
+    held += now_[k] * (state_.displacement[k] + moved + next) / 2;
   }
   for (std::size_t place = mesh_.dof_count; place < force_.size(); ++place) {
     input += force_[place] * carried(step, place).way;
   }
   LedgerPart& ledger = *step.ledger[structure_];
-  ledger.link_energy_before += held_before;
-  ledger.plastic_loss += work + input - (held - held_before);
+  ledger.link_energy_before += held_energy_;
+  ledger.plastic_loss += work + input - (held - held_energy_);
+  held_energy_ = held;
   ledger.damping_loss += damped;
   ledger.support_input += input;
 }
@@ -300,17 +351,19 @@ void InelasticElements::save(SavedState& saved) const {
     const std::size_t numbers = group.law->memory_size();
     std::vector<double> rows;
     for (std::size_t e = 0; e < block.count(); ++e) {
-      if (block.counted[e] == 0) continue;
+      if (group.counted[e] == 0) continue;
       rows.push_back(static_cast<double>(block.tags[e]));
       const auto begin = group.memory.begin() + static_cast<std::ptrdiff_t>(e * numbers);
       rows.insert(rows.end(), begin, begin + static_cast<std::ptrdiff_t>(numbers));
     }
     saved.put(name_of(group, "history"), gather_rows(mesh_.comm, rows), numbers + 1);
   }
-  std::vector<double> force(mesh_.owned_dofs, 0.0);
-  for (std::size_t k = 0; k < dofs_.size(); ++k) force[dofs_[k]] = now_[k];
-  saved.put_dofs(static_cast<int>(structure_), "inelastic_force", force);
-  saved.put_sums("inelastic " + mesh_.structure + " offset", {&offset_, 1});
+  saved.put_sums(energy_name(), {&held_energy_, 1});
+  if (!trace_) {
+    std::vector<double> force(mesh_.owned_dofs, 0.0);
+    for (std::size_t k = 0; k < dofs_.size(); ++k) force[dofs_[k]] = now_[k];
+    saved.put_dofs(static_cast<int>(structure_), "inelastic_force", force);
+  }
   records_.save(record_names(), saved);
 }
 
@@ -324,6 +377,7 @@ void InelasticElements::load(const SavedState& saved) {
     for (std::size_t r = 0; r < rows.size(); r += numbers + 1) place.emplace_back(rows[r], r + 1);
     std::ranges::sort(place);
     for (std::size_t e = 0; e < block.count(); ++e) {
+      if (trace_ && group.counted[e] == 0) continue;
       const auto tag = static_cast<double>(block.tags[e]);
       const auto found = std::ranges::lower_bound(place, std::pair(tag, std::size_t{0}));
       if (found == place.end() || found->first != tag) saved.refuse_values(name);
@@ -331,10 +385,12 @@ void InelasticElements::load(const SavedState& saved) {
                   group.memory.begin() + static_cast<std::ptrdiff_t>(e * numbers));
     }
   }
-  std::vector<double> force(mesh_.owned_dofs);
-  saved.get_dofs(static_cast<int>(structure_), "inelastic_force", force);
-  for (std::size_t k = 0; k < dofs_.size(); ++k) now_[k] = force[dofs_[k]];
-  saved.get_sums("inelastic " + mesh_.structure + " offset", {&offset_, 1});
+  saved.get_sums(energy_name(), {&held_energy_, 1});
+  if (!trace_) {
+    std::vector<double> force(mesh_.owned_dofs);
+    saved.get_dofs(static_cast<int>(structure_), "inelastic_force", force);
+    for (std::size_t k = 0; k < dofs_.size(); ++k) now_[k] = force[dofs_[k]];
+  }
   records_.load(record_names(), saved);
 }
 

@@ -139,16 +139,12 @@ YieldGroups::YieldGroups(std::span<const Link> links) {
     const LinkOrigin& origin = links[b].origin;
     const auto component = static_cast<std::size_t>(origin.component);
     if (origin.part == SpringPart::gauge) gauges[links[b].number] = static_cast<int>(b);
-    if (origin.section) groups_.push_back({{b}});
-    if (origin.section || origin.part != SpringPart::stiffness || origin.region == nullptr ||
+    if (origin.part != SpringPart::stiffness || origin.region == nullptr ||
         !origin.region->nonlinear.yields(component)) {
       continue;
     }
     const NonlinearSpring& spring = origin.region->nonlinear;
-    std::size_t place = groups_.size();
-    if (spring.is_in_circle(component)) {
-      place = circles.try_emplace(links[b].number, place).first->second;
-    }
+    const std::size_t place = circles.try_emplace(links[b].number, groups_.size()).first->second;
     if (place == groups_.size()) groups_.emplace_back();
     groups_[place].links.push_back(b);
     groups_[place].pressing = origin.region->stiffness[spring.circle[2]];

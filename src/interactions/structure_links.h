@@ -33,9 +33,6 @@ class StructureLinks : public Interaction {
   virtual bool overpressed() const { return false; }
   /// Force N_n of a link of this rank in the step just made [N, N m].
   virtual double force(std::size_t link) const = 0;
-  /// Ductility and lost energy [J] of the law of a link of this rank, see LinkLaw.
-  double ductility(std::size_t link) const { return laws_[link]->ductility(memory_[link]); }
-  double lost(std::size_t link) const { return laws_[link]->lost(memory_[link]); }
   /// Records some of this rank's links from now on, numbers into `links()` of the system.
   void record(std::vector<std::size_t> links);
   const LinkRecords& records() const { return records_; }
@@ -63,9 +60,9 @@ class StructureLinks : public Interaction {
   std::vector<double> recorded_;  ///< e_n of all links; empty if none is recorded
 };
 
-/// Links of a structure that yield, mostly one by one; the two horizontal components of a bearing
-/// yield together, by the resultant of their trials, and those of a sliding one at a capacity that
-/// follows from the force on it. Local.
+/// Links of a structure that yield on a circle: two components of a bearing together, by the
+/// resultant of their trials, those of a sliding one at a capacity that follows from the force on
+/// it. Local.
 class YieldGroups {
  public:
   explicit YieldGroups(std::span<const Link> links);

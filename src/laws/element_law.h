@@ -31,8 +31,9 @@ struct PartState {
 class ElementLaw {
  public:
   struct Response {
-    double offset = 0;  ///< W_n [J]
-    bool acts = false;  ///< whether any force was added
+    double offset = 0;    ///< W_n [J]
+    bool acts = false;    ///< whether any force was added
+    bool yields = false;  ///< whether it left its straight line
   };
 
   virtual ~ElementLaw() = default;
@@ -46,6 +47,11 @@ class ElementLaw {
   /// `element`: its number among those that this rank has of the region, block by block.
   virtual Response respond(std::size_t element, std::span<const double> displacement,
                            std::span<double> memory, std::span<double> force) const = 0;
+
+  /// Adds `factor` times the stiffness of an element on its first line to a matrix over its dofs,
+  /// where K holds nothing of it.
+  virtual void add_tangent(std::size_t /*element*/, double /*factor*/,
+                           std::span<double> /*matrix*/) const {}
 
   /// Names of its laws in one dimension, "shear_y" say, the same of every element; none where it
   /// has no such parts.
@@ -66,6 +72,9 @@ class ElementLaw {
 struct RegionLaw {
   int region = 0;  ///< its number in the structure
   std::shared_ptr<const ElementLaw> law;
+  /// No damping of K acts on it: springs and bars, which the K of a step does not hold, and every
+  /// law of a reduced structure, whose modes hold it as elastic.
+  bool apart = false;
 };
 
 }  // namespace pounding::interactions

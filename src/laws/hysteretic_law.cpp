@@ -22,14 +22,6 @@ HystereticLaw::HystereticLaw(const Hysteresis& law)
       first_minus_(first_elongation(law.negative)),
       path_(make_path(law)) {}
 
-double HystereticLaw::elastic_energy(double now, double after) const {
-  const auto pulled = [&](double elongation) {
-    if (first_plus_ == 0) elongation = std::min(0.0, elongation);
-    return first_minus_ == 0 ? std::max(0.0, elongation) : elongation;
-  };
-  return stiffness_ * pulled(now) * pulled(after) / 2;
-}
-
 void HystereticLaw::advance(double elongation, std::span<double> memory, double strength) const {
   const bool was_elastic = is_elastic(memory);
   const auto note = [&](double first, double reached, double& most) {
@@ -51,7 +43,6 @@ void HystereticLaw::advance(double elongation, std::span<double> memory, double 
     }
   }
   memory[elongation_now] = elongation;
-  memory[moved] = 1;
 }
 
 void HystereticLaw::yield(double elongation, std::span<double> memory, double strength) const {

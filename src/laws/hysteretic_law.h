@@ -5,7 +5,6 @@
 #include <span>
 
 #include "laws/hysteresis_path.h"
-#include "laws/link_law.h"
 
 namespace pounding::interactions {
 
@@ -48,10 +47,6 @@ class HystereticLaw {
   /// Whether it never went beyond the first break of a direction: f_n = k0 e_n.
   bool is_elastic(std::span<const double> memory) const { return within(ductility(memory)); }
   double tangent() const { return stiffness_; }
-  /// Whether no `advance` has moved it.
-  bool is_untouched(std::span<const double> memory) const { return memory[moved] == 0; }
-  /// E between two elongations [m] one step apart of an untouched memory, elastic.
-  double elastic_energy(double now, double after) const;
 
  private:
   enum Number : std::size_t {
@@ -62,7 +57,6 @@ class HystereticLaw {
     on_path,
     most_plus,
     most_minus,
-    moved,  ///< 1 after the first `advance`
     of_the_law
   };
 
@@ -77,51 +71,6 @@ class HystereticLaw {
   double first_plus_ = 0;  ///< elongations of the first breaks; 0: carries nothing
   double first_minus_ = 0;
   std::unique_ptr<HysteresisPath> path_;
-};
-
-/// Law of a link that follows a HystereticLaw: N_n = f_n of e_n and its history, W_{n+1/2} = E.
-class HystereticLink : public LinkLaw {
- public:
-  explicit HystereticLink(const Hysteresis& law) : law_(law) {}
-
-  double force(double /*before*/, double /*now*/, double /*after*/,
-               Memory memory = {}) const override {
-    return law_.force(next(memory));
-  }
-  double energy(double now, double after, Memory memory = {}) const override {
-    const auto last = memory.first(law_.memory_size());
-    if (law_.is_untouched(last)) return law_.elastic_energy(now, after);
-    return law_.stored(last) + law_.force(last) * (after - now) / 2;
-  }
-  double tangent() const override { return law_.tangent(); }
-  bool is_explicit() const override { return true; }
-  bool is_idle(double now, Memory memory = {}) const override {
-    return now == 0 && law_.is_untouched(memory);
-  }
-  bool has_yielded(Memory memory) const override { return law_.ductility(memory) > 1; }
-  bool loses_plastic_work() const override { return true; }
-  double ductility(Memory memory) const override { return law_.ductility(memory); }
-  double lost(Memory memory) const override { return law_.lost(memory); }
-  void yield(double now, double /*kept*/, std::span<double> memory) const override {
-    const auto last = memory.first(law_.memory_size());
-    std::ranges::copy(last, memory.begin() + static_cast<std::ptrdiff_t>(last.size()));
-    law_.advance(now, memory.last(law_.memory_size()));
-  }
-  void rest(double now, std::span<double> memory) const override {
-    yield(now, 1, memory);
-    std::ranges::copy(next(memory), memory.begin());
-  }
-  /// The memory of the law at the end of the last step, and in the step that is being made.
-  std::size_t memory_size() const override { return 2 * law_.memory_size(); }
-  void remember(double /*before*/, double /*now*/, double /*after*/, double /*share*/,
-                std::span<double> memory) const override {
-    std::ranges::copy(next(memory), memory.begin());
-  }
-
- private:
-  Memory next(Memory memory) const { return memory.last(law_.memory_size()); }
-
-  HystereticLaw law_;
 };
 
 }  // namespace pounding::interactions

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "laws/dashpot_law.h"
-#include "laws/hysteretic_law.h"
 #include "laws/tension_law.h"
 #include "laws/yield_law.h"
 
@@ -14,14 +13,16 @@ std::vector<SpringLink> spring_links(const Region& region) {
   std::vector<SpringLink> links;
   if (is_bar(region.element)) {
     if (region.dashpot[0] > 0) links.push_back({0, SpringPart::dashpot});
-    if (follows_law(region)) links.push_back({0, SpringPart::stiffness});
+    if (is_one_way(region)) links.push_back({0, SpringPart::stiffness});
   }
   if (!is_spring(region.element)) return links;
   for (int c = 0; c < static_cast<int>(region.dashpot.size()); ++c) {
     const auto component = static_cast<std::size_t>(c);
     const bool pressed = region.compression_only && c == 2;
     if (region.dashpot[component] > 0 && !pressed) links.push_back({c, SpringPart::dashpot});
-    if (region.nonlinear.yields(component) || pressed) links.push_back({c, SpringPart::stiffness});
+    const bool slides =
+        region.nonlinear.yields(component) && !region.nonlinear.yields_alone(component);
+    if (slides || pressed) links.push_back({c, SpringPart::stiffness});
   }
   if (region.nonlinear.friction > 0) {
     links.push_back({region.nonlinear.circle[2], SpringPart::gauge});
@@ -30,7 +31,7 @@ std::vector<SpringLink> spring_links(const Region& region) {
 }
 
 bool has_links(const Region& region) {
-  return yields_by_links(region) || region.foundation || !spring_links(region).empty();
+  return region.nonlinear.yields() || region.foundation || !spring_links(region).empty();
 }
 
 bool is_pressed(const LinkOrigin& origin) {
@@ -61,7 +62,6 @@ std::unique_ptr<LinkLaw> stiff(const LinkOrigin& origin, Arguments&&... argument
 /// Law of a bar, or of a component of a spring.
 std::unique_ptr<LinkLaw> stiff_law(const LinkOrigin& origin, double time_step,
                                    const UniformDamping* uniform) {
-  if (origin.section) return stiff<HystereticLink>(origin, *origin.section);
   const Region& region = *origin.region;
   const bool spring = is_spring(region.element);
   const double stiffness = spring ? origin.share * region.stiffness[origin.component]
@@ -71,10 +71,6 @@ std::unique_ptr<LinkLaw> stiff_law(const LinkOrigin& origin, double time_step,
                               region.nonlinear.radius);
   }
   const auto component = static_cast<std::size_t>(origin.component);
-  if (region.nonlinear.is_hysteretic(component)) {
-    return stiff<HystereticLink>(
-        origin, region.nonlinear.law_of(component, stiffness, spring ? 1 : origin.length));
-  }
   if (region.nonlinear.yields(component)) {
     return stiff<YieldLaw>(origin, stiffness, region.nonlinear.hardening,
                            region.nonlinear.yield_force[component], region.nonlinear.friction > 0);

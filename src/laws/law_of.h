@@ -36,8 +36,9 @@ class RelievingLaw final : public Law {
   bool is_idle(double /*now*/, Memory = {}) const override { return false; }
 };
 
-/// Whether the elements of a region are links, or hold some: tension-only bars, compression-only
-/// springs, what yields, springs and bars with dashpots, soil under a mat.
+/// Whether the elements of a region are links, or hold some, or pull by a law of their own:
+/// tension-only bars, compression-only springs, springs and bars that yield or have dashpots, soil
+/// under a mat.
 bool has_links(const Region& region);
 
 /// Part of a spring that a link is: its dashpot, what it does along its stiffness by a law, or a
@@ -54,9 +55,6 @@ struct SpringLink {
 /// The links that each spring or bar of a region is beside what K holds of it.
 std::vector<SpringLink> spring_links(const Region& region);
 
-/// Components of the links of sections are the numbers of their laws, from this one on.
-constexpr int first_section_component = 10;
-
 /// Origin of a link, from which its law follows.
 struct LinkOrigin {
   const Region* region = nullptr;  ///< borrowed from the structure; null of an absorbing face
@@ -67,8 +65,6 @@ struct LinkOrigin {
   SpringPart part = SpringPart::dashpot;
   double share = 1;      ///< of a grounded spring, see ElementSet
   double absorbing = 0;  ///< dashpot of an absorbing face [N s/m]
-  /// Law of a section of a beam over the motion of its ends; null: it is no section.
-  std::shared_ptr<const Hysteresis> section{};
 };
 
 /// Whether a link is the part along z of a compression-only spring.

@@ -56,10 +56,6 @@ class LinkLaw {
 
   /// Whether its loss is plastic work: of yielding, damage or crushing.
   virtual bool loses_plastic_work() const { return false; }
-  /// Largest elongation over that of the first corner of its skeleton; below 0 without one.
-  virtual double ductility(Memory) const { return -1; }
-  /// Energy that a law with a skeleton lost so far [J].
-  virtual double lost(Memory) const { return 0; }
 
   /// Rate r [N/m] of a law N_n = r (e_{n+1} - e_{n-1}) + offset, 0 of any other: such links are
   /// solved for together, and their elongations are counted from e_n, so that these have no

@@ -4,13 +4,6 @@
 
 namespace pounding::interactions {
 
-void YieldLaw::rest(double now, std::span<double> memory) const {
-  const double carried = std::abs(trial(now, memory));
-  if (slides_ || !(carried > capacity_)) return;
-  yield(now, capacity_ / carried, memory);
-  memory[0] = memory[1];
-}
-
 void YieldLaw::yield(double now, double kept, std::span<double> memory) const {
   memory[1] = kept < 1 ? now - kept * (now - memory[0]) : memory[0];
 }

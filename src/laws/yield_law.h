@@ -37,7 +37,6 @@ class YieldLaw : public LinkLaw {
   double capacity() const override { return capacity_; }
   bool has_yielded(Memory memory) const override { return memory[0] != 0; }
   bool loses_plastic_work() const override { return !slides_; }
-  void rest(double now, std::span<double> memory) const override;
   void yield(double now, double kept, std::span<double> memory) const override;
   /// p of the end of the last step, and of the step that is being made.
   std::size_t memory_size() const override { return 2; }

@@ -18,6 +18,7 @@
 #include "mesh/soil_node.h"
 #include "mesh/tied_nodes.h"
 #include "mesh/unused_elements.h"
+#include "scene/law_kinds.h"
 #include "scene/spring_reader.h"
 
 namespace pounding {
@@ -236,7 +237,7 @@ class MeshBuilder {
     set.group = region.group;
     set.region = number;
     set.type = kind;
-    set.inelastic = region.inelastic;
+    set.inelastic = has_element_law(region);
     mesh_.regions.push_back(std::move(set));
     return mesh_.regions.back();
   }

@@ -7,6 +7,7 @@
 
 #include "common/error.h"
 #include "mesh/element_checks.h"
+#include "scene/law_kinds.h"
 
 namespace pounding {
 namespace {
@@ -149,7 +150,8 @@ void add_point_groups(const Structure& structure, GlobalMesh& mesh) {
       continue;
     }
     const auto number = static_cast<int>(region - structure.regions.begin());
-    mesh.regions.push_back({group.name, number, region->element, {}, nodes, {}, region->inelastic});
+    mesh.regions.push_back(
+        {group.name, number, region->element, {}, nodes, {}, has_element_law(*region)});
     for (const GlobalIndex node : nodes) mesh.regions.back().tags.push_back(mesh.node_tags[node]);
   }
 }

@@ -10,6 +10,7 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "stiffness/stiffness.h"
+#include "system/inelastic_laws.h"
 #include "system/links.h"
 #include "system/mass_scaling.h"
 #include "system/support_shapes.h"
@@ -154,6 +155,7 @@ LinearSystem build_reduced_system(MPI_Comm comm, int owner, const Structure& str
   system.stiffest_element = largest.location;
   system.links = Links::build(structure, mesh);
   if (system.links) system.links->find_trace(system, mesh);
+  system.laws = inelastic_laws(structure, mesh);
   return system;
 }
 

@@ -125,10 +125,15 @@ void Solver::make_stepper() {
   inelastic_.clear();
   for (std::size_t s = 0; s < parts.systems.size(); ++s) {
     const LinearSystem& system = parts.systems[s];
-    inelastic_.push_back(system.laws.empty()
-                             ? nullptr
-                             : &stepper_->add(std::make_unique<interactions::InelasticElements>(
-                                   s, parts.meshes[s], system, parts.time_step, system.laws)));
+    inelastic_.emplace_back();
+    for (const bool apart : {false, true}) {
+      std::vector<interactions::RegionLaw> laws;
+      std::ranges::copy_if(system.laws, std::back_inserter(laws),
+                           [&](const auto& law) { return law.apart == apart; });
+      if (laws.empty()) continue;
+      inelastic_[s].push_back(&stepper_->add(std::make_unique<interactions::InelasticElements>(
+          s, parts.meshes[s], system, parts.time_step, std::move(laws))));
+    }
     const bool braked_in_batch =
         !parts.batch.structures.empty() && parts.batch.structures[s].brakes(parts.batch.number);
     links_.push_back(system.links && !braked_in_batch
@@ -175,10 +180,11 @@ std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSys
   std::vector<GapWatch::Bound> bounds(systems.size());
   for (std::size_t s = 0; contact != nullptr && s < bounds.size(); ++s) {
     const LinearSystem& system = systems[s];
-    // The energy of soil is in that of its structure; that of one-way links in modes may be
-    // negative, and nothing bounds the motion by a wave from below, supports of its own or loads,
-    // nor about a rest that yielded.
+    // The energy of soil is in that of its structure; that of links in modes may be negative, and
+    // nothing bounds the motion by a wave from below, supports of its own or loads, nor about a
+    // rest that yielded.
     if (system.supports || system.loads || !system.rest_law_force.empty() ||
+        system.has_laws(true) ||
         (system.links && (system.links->hold_stiffness() || system.links->driven())) ||
         !(energy_margins[s] > 0)) {
       bounds[s].rate_norm = std::numeric_limits<double>::infinity();

@@ -62,11 +62,8 @@ class Solver {
   const interactions::StructureLinks* links(std::size_t structure) const {
     return links_[structure];
   }
-  /// The inelastic elements of a structure; null if it has none.
-  interactions::InelasticElements* inelastic(std::size_t structure) {
-    return inelastic_[structure];
-  }
-  const interactions::InelasticElements* inelastic(std::size_t structure) const {
+  /// The inelastic elements of a structure: those damped with K, those apart.
+  std::span<interactions::InelasticElements* const> inelastic(std::size_t structure) const {
     return inelastic_[structure];
   }
   /// Impulses act in the step just made.
@@ -101,10 +98,10 @@ class Solver {
   std::vector<GapWatch::Bound> bounds_;
   std::unique_ptr<interactions::ContactProblem> contact_;
   std::unique_ptr<CdLagrange> stepper_;
-  std::vector<interactions::StructureLinks*> links_;         ///< per structure, of the stepper
-  std::vector<interactions::InelasticElements*> inelastic_;  ///< per structure, of the stepper
-  interactions::FillerRows* fillers_ = nullptr;              ///< of the stepper
-  UnilateralContact* unilateral_ = nullptr;                  ///< of the stepper
+  std::vector<interactions::StructureLinks*> links_;  ///< per structure, of the stepper
+  std::vector<std::vector<interactions::InelasticElements*>> inelastic_;  ///< per structure
+  interactions::FillerRows* fillers_ = nullptr;                           ///< of the stepper
+  UnilateralContact* unilateral_ = nullptr;                               ///< of the stepper
   bool gives_way_ = false;        ///< some stop does, or some faces are crushed
   std::vector<double> impulses_;  ///< see row_actions; room where something gives way
   std::vector<double> works_;

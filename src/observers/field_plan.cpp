@@ -10,6 +10,7 @@
 #include "common/facts.h"
 #include "mesh/node_table.h"
 #include "observers/observed_run.h"
+#include "scene/law_kinds.h"
 
 namespace pounding {
 namespace {
@@ -34,20 +35,12 @@ double free_room(const std::string& folder) {
   return static_cast<double>(space.available);
 }
 
-bool has_skeleton(const Region& region) {
-  bool any = region.inelastic || yields_by_links(region);
-  for (std::size_t c = 0; c < region.nonlinear.yield_force.size(); ++c) {
-    any = any || region.nonlinear.is_hysteretic(c);
-  }
-  return any;
-}
-
 }  // namespace
 
 std::vector<char> yielding_structures(const Scene& scene) {
   std::vector<char> yields;
   for (const Structure& structure : scene.structures) {
-    yields.push_back(std::ranges::any_of(structure.regions, has_skeleton) ? 1 : 0);
+    yields.push_back(std::ranges::any_of(structure.regions, has_element_law) ? 1 : 0);
   }
   return yields;
 }

@@ -25,7 +25,8 @@ bool has_history(const ForceItem& force) {
 /// Refuses a total of a reduced structure whose links are beside modes that hold them at their
 /// stiffest.
 void refuse_relieved(const ForceItem& force, const LinearSystem& system) {
-  if (!system.generalised || !system.links || !system.links->hold_stiffness()) return;
+  const bool apart = system.has_laws(true) || (system.links && system.links->hold_stiffness());
+  if (!system.generalised || !apart) return;
   throw UserError("option -" + force.name + "_kind: structure " + force.structure +
                   " is reduced and has elements that yield or act in one direction only; give -" +
                   force.structure + "_model full, or -loops for these elements");
@@ -227,7 +228,8 @@ void Forces::observe(const CdLagrange& stepper) {
   for (const Total& total : totals_) {
     Wrench sum{};
     total.force->add(stepper.state().structures[total.structure], stepper.forces(total.structure),
-                     run_.solver.links(total.structure), sum);
+                     run_.solver.links(total.structure), run_.solver.inelastic(total.structure),
+                     sum);
     for (std::size_t k = 0; k < sum.size(); ++k) part_[total.first + k] += sum[k];
     if (total.elements) {
       total.elements->add(acting_displacement(total.structure), supports_, part_);
@@ -368,11 +370,14 @@ TotalForce::TotalForce(const ForceItem& item, const LinearSystem& system, const 
 }
 
 void TotalForce::add(const StructureState& state, const KeptForces<double>& forces,
-                     const interactions::StructureLinks* links, Wrench& total) const {
+                     const interactions::StructureLinks* links,
+                     std::span<interactions::InelasticElements* const> inelastic,
+                     Wrench& total) const {
   for (const Counted& counted : counted_) {
     double force = forces.at(counted.dof).acting;
     if (!state.extra_force.empty()) force += state.extra_force[counted.dof];
     if (!state.inelastic_force.empty()) force += state.inelastic_force[counted.dof];
+    for (const auto* elements : inelastic) force += elements->force_apart(counted.dof);
     add_force(counted, -force, total);
   }
   for (std::size_t b = 0; links != nullptr && b < links_.size(); ++b) {

@@ -42,7 +42,8 @@ class TotalForce {
   /// Adds this rank's part of R after the step to t_n; `forces`: those of the step; `links` may be
   /// null.
   void add(const StructureState& state, const KeptForces<double>& forces,
-           const interactions::StructureLinks* links, Wrench& total) const;
+           const interactions::StructureLinks* links,
+           std::span<interactions::InelasticElements* const> inelastic, Wrench& total) const;
 
  private:
   /// A dof that is counted, and where it is.

@@ -9,6 +9,7 @@
 #include "common/error.h"
 #include "laws/hysteretic_law.h"
 #include "observers/observed_run.h"
+#include "scene/law_kinds.h"
 
 namespace pounding {
 namespace {
@@ -16,46 +17,22 @@ namespace {
 const ResultFile law_table{"laws.csv", "the laws of the scene through cycles (-law_cycles)",
                            "law,elongation,force,stored_J,lost_J"};
 
-/// A law with the name of the part that follows it.
-struct NamedLaw {
-  std::string name;  ///< structure:group:component
-  Hysteresis law;
-};
-
-void add_springs(const Region& region, const std::string& name, std::vector<NamedLaw>& laws) {
-  const NonlinearSpring& spring = region.nonlinear;
-  constexpr const char* components[] = {"x", "y", "z", "about_x", "about_y", "about_z"};
-  for (std::size_t c = 0; c < spring.yield_force.size(); ++c) {
-    if (!(spring.yield_force[c] > 0) || spring.is_in_circle(c)) continue;
-    const bool bar = !is_spring(region.element);
-    const double stiffness = bar ? region.material.young * region.area : region.stiffness[c];
-    laws.push_back({name + ":" + (bar ? "strain" : components[c]), spring.law_of(c, stiffness, 1)});
-  }
-}
-
-void add_yielding(const Region& region, const std::string& name, std::vector<NamedLaw>& laws) {
-  for (const YieldingSection::Law& law : region.yielding.laws()) {
-    laws.push_back({name + ":" + law.name, *law.law});
-  }
-  if (region.yielding_shell.shear) {
-    laws.push_back({name + ":shear", *region.yielding_shell.shear});
-  }
-}
-
-std::vector<NamedLaw> laws_of(const Scene& scene) {
-  std::vector<NamedLaw> laws;
+/// Laws of all regions, named structure:group:part.
+std::vector<OwnLaw> laws_of(const Scene& scene) {
+  std::vector<OwnLaw> laws;
   for (const Structure& structure : scene.structures) {
     for (const Region& region : structure.regions) {
-      const std::string name = structure.name + ":" + region.group;
-      add_springs(region, name, laws);
-      add_yielding(region, name, laws);
+      for (OwnLaw& own : own_laws(region)) {
+        own.name = structure.name + ":" + region.group + ":" + own.name;
+        laws.push_back(std::move(own));
+      }
     }
   }
   return laws;
 }
 
 /// Rows of one law; its steps are a hundredth of the first corner, or of the amplitude's hundredth.
-void write_loops(const NamedLaw& named, const std::vector<double>& amplitudes, CsvFile& file) {
+void write_loops(const OwnLaw& named, const std::vector<double>& amplitudes, CsvFile& file) {
   const interactions::HystereticLaw law(named.law);
   std::vector<double> memory(law.memory_size(), 0.0);
   const auto first = [](const Skeleton& skeleton, const Skeleton& other) {
@@ -100,7 +77,7 @@ void write_law_loops(MPI_Comm comm, const Scene& scene) {
     if (std::ranges::any_of(scene.law_cycles, [](double x) { return x > most; })) {
       throw UserError("option -law_cycles: an amplitude above 1000 times the first corner");
     }
-    const std::vector<NamedLaw> laws = laws_of(scene);
+    const std::vector<OwnLaw> laws = laws_of(scene);
     if (laws.empty()) {
       throw UserError(
           "option -law_cycles: nothing in the scene yields by a law in one dimension; see "
@@ -108,7 +85,7 @@ void write_law_loops(MPI_Comm comm, const Scene& scene) {
     }
     create_output(scene.output);
     ResultTable file(scene, law_table);
-    for (const NamedLaw& law : laws) write_loops(law, scene.law_cycles, file);
+    for (const OwnLaw& law : laws) write_loops(law, scene.law_cycles, file);
     file.close();
     std::printf("laws: %zu in %s/%s\n", laws.size(), scene.output.c_str(), law_table.name.c_str());
   });

@@ -3,9 +3,11 @@
 #include <cmath>
 #include <compare>
 #include <cstdio>
+#include <functional>
 #include <limits>
 #include <set>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -18,81 +20,115 @@
 #include "model/element_middle.h"
 #include "observers/observed_run.h"
 #include "observers/run_statistics.h"
+#include "scene/law_kinds.h"
 #include "system/links.h"
 
 namespace pounding {
 namespace {
 
-constexpr int of_section = -2;
-constexpr int of_section_link = -3;
-
-/// A link that an item of the option may mean, as it travels between ranks.
 constexpr double far_point = 10;  ///< of an element from the place that loops_at names [m]
 
+/// A law that an item of the option may mean, as it travels between ranks.
 struct Candidate {
-  int item = 0;
   int component = 0;
-  int part = 0;             ///< of SpringPart; -1: a pair with filler; -2: of a section; -3: of
-                            ///< one in a reduced structure
-  int bar = 0;              ///< 1: a bar, which has one component
-  std::int64_t number = 0;  ///< of its element or pair
-  Vector3 place{};          ///< middle of the element [m]
+  bool is_dashpot = false;
+  std::int64_t number = 0;      ///< of its element or pair
+  Vector3 place{};              ///< middle of the element [m]
+  std::array<char, 24> part{};  ///< its name; none of a pair
+  int item = 0;
   int rank = 0;
-  int index = 0;  ///< among the links or rows there
+  int source = 0;  ///< among those of the rank
+  int index = 0;   ///< in it
 
-  bool is_dashpot() const { return part == static_cast<int>(interactions::SpringPart::dashpot); }
-  auto key() const { return std::tuple(item, number, component, is_dashpot()); }
+  void call(std::string_view name) { name.copy(part.data(), part.size() - 1); }
+  auto key() const { return std::tuple(item, number, component, is_dashpot); }
 };
 
-/// Links of this rank that an item means, wherever they are.
-void add_links(const Model& model, const Loop& loop, int item, int rank,
-               std::vector<Candidate>& found) {
-  for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    if (model.systems[s].name != loop.structure || !model.systems[s].links) continue;
-    const std::vector<Link>& links = model.systems[s].links->links();
-    for (std::size_t b = 0; b < links.size(); ++b) {
-      const interactions::LinkOrigin& origin = links[b].origin;
-      if (origin.region == nullptr || origin.region->group != loop.group ||
-          origin.part == interactions::SpringPart::gauge) {
-        continue;
-      }
-      const int component =
-          origin.component - (origin.section ? interactions::first_section_component : 0);
-      found.push_back({item, component,
-                       origin.section ? of_section_link : static_cast<int>(origin.part),
-                       origin.length > 0 ? 1 : 0, links[b].number,
-                       element_middle(model.meshes[s], loop.group, links[b].number), rank,
-                       static_cast<int>(b)});
+/// Links, elements or pairs whose laws can be recorded.
+struct Source {
+  const interactions::LinkRecords* records = nullptr;
+  std::function<void(std::vector<std::size_t>)> record;
+  /// Calls `take` with each of its laws that an item means, its index set.
+  std::function<void(const Loop&, const std::function<void(Candidate)>& take)> find;
+  std::vector<std::size_t> chosen{};
+};
+
+/// Links of this rank, wherever they are.
+void find_links(const Mesh& mesh, const std::vector<Link>& links, const Loop& loop,
+                const std::function<void(Candidate)>& take) {
+  for (std::size_t b = 0; b < links.size(); ++b) {
+    const interactions::LinkOrigin& origin = links[b].origin;
+    if (mesh.structure != loop.structure || origin.region == nullptr ||
+        origin.region->group != loop.group || origin.part == interactions::SpringPart::gauge) {
+      continue;
     }
+    Candidate found{origin.component, origin.part == interactions::SpringPart::dashpot,
+                    links[b].number, element_middle(mesh, loop.group, links[b].number)};
+    found.call(origin.length > 0 ? "axial"
+                                 : motion_names[static_cast<std::size_t>(origin.component)]);
+    found.index = static_cast<int>(b);
+    take(found);
   }
 }
 
-/// Laws of sections of this rank that an item means.
-void add_section_laws(const Model& model, const Solver& solver, const Loop& loop, int item,
-                      int rank, std::vector<Candidate>& found) {
-  for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    const interactions::InelasticElements* const elements = solver.inelastic(s);
-    if (model.systems[s].name != loop.structure || elements == nullptr) continue;
-    for (std::size_t k = 0; k < elements->parts().size(); ++k) {
-      const interactions::InelasticElements::Part& part = elements->parts()[k];
-      const ElementBlock& block = elements->block_of(part);
-      if (block.group != loop.group) continue;
-      const std::int64_t tag = block.tags[part.element];
-      found.push_back({item, static_cast<int>(part.number), of_section, 0, tag,
-                       element_middle(model.meshes[s], loop.group, tag), rank,
-                       static_cast<int>(k)});
-    }
+/// Parts of inelastic elements of this rank.
+void find_parts(const Mesh& mesh, const interactions::InelasticElements& elements, const Loop& loop,
+                const std::function<void(Candidate)>& take) {
+  for (std::size_t k = 0; k < elements.parts().size(); ++k) {
+    const interactions::InelasticElements::Part& part = elements.parts()[k];
+    const ElementBlock& block = elements.block_of(part);
+    if (mesh.structure != loop.structure || block.group != loop.group) continue;
+    const std::string name = elements.name_of(part);
+    const auto motion = std::ranges::find(motion_names, name);
+    const bool moves = motion != motion_names.end();
+    Candidate found{
+        moves ? static_cast<int>(motion - motion_names.begin()) : static_cast<int>(part.number),
+        false, block.tags[part.element], element_middle(mesh, block, part.element)};
+    found.call(name);
+    found.index = static_cast<int>(k);
+    take(found);
   }
 }
 
-void add_rows(const Scene& scene, const interactions::FillerRows& fillers, const Loop& loop,
-              int item, int rank, std::vector<Candidate>& found) {
-  std::int64_t number = 0;
+void find_rows(const Scene& scene, const interactions::FillerRows& fillers, const Loop& loop,
+               const std::function<void(Candidate)>& take) {
+  Candidate found;
   const std::vector<interactions::FillerPairs::Pair>& rows = fillers.pairs().all();
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (scene.contacts[rows[r].contact].name != loop.contact) continue;
-    found.push_back({item, 0, -1, 0, ++number, {}, rank, static_cast<int>(r)});
+    ++found.number;
+    found.index = static_cast<int>(r);
+    take(found);
   }
+}
+
+/// All sources of this rank.
+std::vector<Source> find_sources(const ObservedRun& run) {
+  std::vector<Source> sources;
+  const auto add = [&](auto& of, auto find) {
+    sources.push_back({&of.records(),
+                       [&of](std::vector<std::size_t> chosen) { of.record(std::move(chosen)); },
+                       std::move(find)});
+  };
+  for (std::size_t s = 0; s < run.model.systems.size(); ++s) {
+    const Mesh& mesh = run.model.meshes[s];
+    if (auto* const links = run.solver.links(s)) {
+      add(*links, [&mesh, &all = run.model.systems[s].links->links()](
+                      const Loop& loop, auto& take) { find_links(mesh, all, loop, take); });
+    }
+    for (auto* const elements : run.solver.inelastic(s)) {
+      add(*elements, [&mesh, elements](const Loop& loop, auto& take) {
+        find_parts(mesh, *elements, loop, take);
+      });
+    }
+  }
+  auto* const fillers = run.solver.fillers();
+  if (fillers != nullptr && fillers->pairs().rows().root() == rank_of(run.comm)) {
+    add(*fillers, [&run, fillers](const Loop& loop, auto& take) {
+      find_rows(run.scene, *fillers, loop, take);
+    });
+  }
+  return sources;
 }
 
 /// Candidates of all ranks, on all of them, in an order that does not depend on them.
@@ -137,32 +173,10 @@ void keep_nearest(const Loop& loop, int item, std::vector<Candidate>& all) {
       all, [&](const Candidate& link) { return link.item == item && !kept.contains(link.number); });
 }
 
-/// Names of the parts of a region's law.
-std::vector<std::string> part_names(const Scene& scene, const Model& model, const Loop& loop) {
-  for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    for (const auto& [region, law] : model.systems[s].laws) {
-      const bool meant = std::ranges::any_of(
-          model.meshes[s].blocks,
-          [&, of = region](const auto& b) { return b.region == of && b.group == loop.group; });
-      if (model.systems[s].name == loop.structure && meant) return law->parts();
-    }
-    if (model.systems[s].name != loop.structure) continue;
-    for (const Region& region : scene.structures[s].regions) {
-      if (region.group == loop.group && yields_by_links(region)) return region.yielding.names();
-    }
-  }
-  return {};
-}
-
-std::string name_of(const std::string& item, const Candidate& link,
-                    const std::vector<std::string>& parts) {
-  std::string name = item + "." + std::to_string(link.number);
-  const bool section = link.part == of_section || link.part == of_section_link;
-  if (section) return name + "." + parts[static_cast<std::size_t>(link.component)];
-  if (link.part < 0) return name;
-  const std::string component(
-      link.bar != 0 ? "axial" : motion_names[static_cast<std::size_t>(link.component)]);
-  return name + "." + component + (link.is_dashpot() ? ".dashpot" : "");
+std::string name_of(const std::string& item, const Candidate& law) {
+  const std::string part = law.part.data();
+  return item + "." + std::to_string(law.number) + (part.empty() ? "" : "." + part) +
+         (law.is_dashpot ? ".dashpot" : "");
 }
 
 /// Links that the scene wants recorded: finds them, has their steps record them, and brings
@@ -200,60 +214,44 @@ class Loops final : public Observer {
 }  // namespace
 
 Loops::Loops(const ObservedRun& run) : run_(run) {
-  const Scene& scene = run.scene;
-  const Model& model = run.model;
-  Solver& solver = run.solver;
+  const std::vector<Loop>& items = run.scene.loops;
   const int rank = rank_of(run.comm);
+  std::vector<Source> sources = find_sources(run);
   std::vector<Candidate> all;
-  for (std::size_t i = 0; i < scene.loops.size(); ++i) {
-    const Loop& loop = scene.loops[i];
-    const int item = static_cast<int>(i);
-    items_.push_back(loop.name);
-    if (loop.contact.empty()) {
-      add_links(model, loop, item, rank, all);
-      add_section_laws(model, solver, loop, item, rank, all);
-    } else if (solver.fillers() != nullptr && solver.fillers()->pairs().rows().root() == rank) {
-      add_rows(scene, *solver.fillers(), loop, item, rank, all);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    items_.push_back(items[i].name);
+    for (std::size_t k = 0; k < sources.size(); ++k) {
+      sources[k].find(items[i], [&](Candidate found) {
+        found.item = static_cast<int>(i);
+        found.rank = rank;
+        found.source = static_cast<int>(k);
+        all.push_back(found);
+      });
     }
   }
   all = of_all_ranks(run.comm, all);
-  std::vector<std::vector<std::string>> parts;  // of each item
-  for (std::size_t i = 0; i < scene.loops.size(); ++i) {
+  for (std::size_t i = 0; i < items.size(); ++i) {
     const int item = static_cast<int>(i);
     if (std::ranges::find(all, item, &Candidate::item) == all.end()) {
       throw UserError(
-          "option -loops: nothing in " + scene.loops[i].name +
+          "option -loops: nothing in " + items[i].name +
           " yields, slides, damps or acts in one direction only; name a group that does");
     }
-    keep_nearest(scene.loops[i], item, all);
-    parts.push_back(part_names(scene, model, scene.loops[i]));
+    keep_nearest(items[i], item, all);
   }
-  std::vector<std::vector<std::size_t>> chosen(model.systems.size() + 1);  // the last: fillers
-  std::vector<std::vector<std::size_t>> sections(model.systems.size());
-  for (const Candidate& link : all) {
-    const Loop& loop = scene.loops[static_cast<std::size_t>(link.item)];
-    if (link.rank == rank) {
-      std::size_t s = 0;
-      while (s < model.systems.size() && model.systems[s].name != loop.structure) ++s;
+  for (const Candidate& law : all) {
+    if (law.rank == rank) {
+      Source& source = sources[static_cast<std::size_t>(law.source)];
       mine_.push_back(static_cast<int>(names_.size()));
-      if (link.part == of_section) {
-        own_.push_back({&solver.inelastic(s)->records(), sections[s].size()});
-        sections[s].push_back(static_cast<std::size_t>(link.index));
-      } else {
-        own_.push_back(
-            {s < model.systems.size() ? &solver.links(s)->records() : &solver.fillers()->records(),
-             chosen[s].size()});
-        chosen[s].push_back(static_cast<std::size_t>(link.index));
-      }
+      own_.push_back({source.records, source.chosen.size()});
+      source.chosen.push_back(static_cast<std::size_t>(law.index));
     }
-    item_of_.push_back(link.item);
-    names_.push_back(name_of(loop.name, link, parts[static_cast<std::size_t>(link.item)]));
+    item_of_.push_back(law.item);
+    names_.push_back(name_of(items[static_cast<std::size_t>(law.item)].name, law));
   }
-  for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    if (!chosen[s].empty()) solver.links(s)->record(chosen[s]);
-    if (!sections[s].empty()) solver.inelastic(s)->record(sections[s]);
+  for (Source& source : sources) {
+    if (!source.chosen.empty()) source.record(std::move(source.chosen));
   }
-  if (!chosen.back().empty()) solver.fillers()->record(chosen.back());
   values_.assign(2 * own_.size(), 0.0);
 }
 

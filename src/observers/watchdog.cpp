@@ -9,6 +9,7 @@
 #include "modal/reduced_system.h"
 #include "observers/energy_ledger.h"
 #include "observers/run_statistics.h"
+#include "scene/law_kinds.h"
 
 namespace pounding {
 namespace {
@@ -154,7 +155,9 @@ ClosedLine close_line(MPI_Comm comm, const Model& model, const State& state,
   watch_divergence(model, state, closed.line, closed.energies);
   watch_identity(model, closed.line, closed.energies, energy.largest_term());
   const bool leaning = std::ranges::any_of(model.buildings, [](const Building& building) {
-    const auto yields = [](const Region& region) { return region.inelastic; };
+    const auto yields = [](const Region& region) {
+      return has_element_law(region) && !follows_law(region);
+    };
     return building.structure->p_delta && building.system->damping.beta > 0 &&
            std::ranges::any_of(building.structure->regions, yields);
   });

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <map>
 #include <tuple>
@@ -16,14 +15,9 @@
 #include "observers/field_plan.h"
 #include "observers/run_statistics.h"
 #include "observers/storeys.h"
-#include "system/links.h"
 
 namespace pounding {
 namespace {
-
-/// Numbers of the parts of springs, by component, and of bars, above those of sections.
-constexpr std::size_t of_springs = 100;
-constexpr std::size_t axial = 200;
 
 constexpr double never_yielded = -1;
 
@@ -33,22 +27,23 @@ const ResultFile yielding_table{"yielding.csv", "the laws of elements and how fa
 /// Numbers by which an element's law is known on every rank: structure, region, element, part.
 using LawKey = std::array<double, 4>;
 
-/// State of a law, of a link or of a part of inelastic elements, by its number among these.
-interactions::PartState law_state(const ObservedRun& run, std::size_t structure, bool is_link,
-                                  std::size_t number) {
-  if (is_link) {
-    const auto& links = *run.solver.links(structure);
-    return {.ductility = links.ductility(number), .lost = links.lost(number)};
-  }
-  const auto& elements = *run.solver.inelastic(structure);
-  return elements.state_of(elements.parts()[number]);
-}
+/// A law of an element of this rank that may yield.
+struct FoundLaw {
+  const interactions::InelasticElements* elements = nullptr;
+  interactions::InelasticElements::Part part;
 
-double law_ductility(const ObservedRun& run, std::size_t structure, bool is_link,
-                     std::size_t number) {
-  if (is_link) return run.solver.links(structure)->ductility(number);
-  const auto& elements = *run.solver.inelastic(structure);
-  return elements.ductility(elements.parts()[number]);
+  std::size_t region() const { return static_cast<std::size_t>(elements->block_of(part).region); }
+  std::int64_t element() const { return elements->block_of(part).tags[part.element]; }
+  interactions::PartState state() const { return elements->state_of(part); }
+  double ductility() const { return elements->ductility(part); }
+};
+
+std::vector<FoundLaw> yielding_laws(const ObservedRun& run, std::size_t structure) {
+  std::vector<FoundLaw> laws;
+  for (const auto* elements : run.solver.inelastic(structure)) {
+    for (const auto& part : elements->parts()) laws.push_back({elements, part});
+  }
+  return laws;
 }
 
 /// State of one law of one element at the end of a run.
@@ -114,17 +109,11 @@ class YieldTable final : public Observer {
   /// A law of an element of this rank.
   struct Own {
     LawKey key{};
-    std::size_t number = 0;  ///< among the parts of inelastic elements, or the links
-    bool is_link = false;
+    FoundLaw law;
     Vector3 place{};
     double since = never_yielded;
-
-    std::size_t structure() const { return static_cast<std::size_t>(key[0]); }
   };
 
-  interactions::PartState state_of(const Own& law) const {
-    return law_state(run_, law.structure(), law.is_link, law.number);
-  }
   std::string part_name(std::size_t structure, std::size_t region, std::size_t part) const;
   /// Rows of all ranks. Collective.
   std::vector<YieldRow> rows() const;
@@ -135,50 +124,6 @@ class YieldTable final : public Observer {
   std::vector<Own> own_;
   std::vector<Storey> storeys_;
 };
-
-/// A law of an element of this rank that may yield.
-struct FoundLaw {
-  std::size_t region = 0;
-  std::int64_t element = 0;  ///< its number in the mesh file
-  std::size_t part = 0;
-  std::size_t number = 0;  ///< among the parts of inelastic elements, or the links
-  bool is_link = false;
-  std::function<Vector3()> place;
-};
-
-/// Calls `visit` with each of a structure.
-template <typename Visit>
-void for_each_law(const ObservedRun& run, std::size_t s, Visit&& visit) {
-  const Mesh& mesh = run.model.meshes[s];
-  const auto& regions = run.scene.structures[s].regions;
-  const auto region_of = [&](const std::string& group) {
-    return static_cast<std::size_t>(std::ranges::find(regions, group, &Region::group) -
-                                    regions.begin());
-  };
-  if (const auto* const elements = run.solver.inelastic(s)) {
-    for (std::size_t k = 0; k < elements->parts().size(); ++k) {
-      const interactions::InelasticElements::Part& part = elements->parts()[k];
-      const ElementBlock& block = elements->block_of(part);
-      visit(FoundLaw{static_cast<std::size_t>(block.region), block.tags[part.element], part.number,
-                     k, false, [&] { return element_middle(mesh, block, part.element); }});
-    }
-  }
-  if (const auto* const links = run.solver.links(s)) {
-    const std::vector<Link>& all = run.model.systems[s].links->links();
-    for (std::size_t b = 0; b < all.size(); ++b) {
-      if (links->ductility(b) < 0) continue;
-      const interactions::LinkOrigin& origin = all[b].origin;
-      const std::size_t part =
-          origin.section
-              ? static_cast<std::size_t>(origin.component - interactions::first_section_component)
-          : origin.length > 0 ? axial
-                              : of_springs + static_cast<std::size_t>(origin.component);
-      const std::string& group = origin.region->group;
-      visit(FoundLaw{region_of(group), all[b].number, part, b, true,
-                     [&] { return element_middle(mesh, group, all[b].number); }});
-    }
-  }
-}
 
 Facts facts_of(const std::vector<YieldSum>& sums) {
   Facts facts;
@@ -212,14 +157,14 @@ Facts facts_of(const std::vector<YieldSum>& sums) {
 
 std::vector<double> yielding_elements(const ObservedRun& run, std::size_t structure) {
   std::map<std::pair<std::size_t, std::int64_t>, std::array<double, 3>> found;
-  for_each_law(run, structure, [&](const FoundLaw& law) {
-    const interactions::PartState state = law_state(run, structure, law.is_link, law.number);
-    if (state.ductility == 0) return;
-    auto& [ductility, damage, lost] = found[{law.region, law.element}];
+  for (const FoundLaw& law : yielding_laws(run, structure)) {
+    const interactions::PartState state = law.state();
+    if (state.ductility == 0) continue;
+    auto& [ductility, damage, lost] = found[{law.region(), law.element()}];
     ductility = std::max(ductility, state.ductility);
     damage = std::max(damage, state.damage);
     if (state.ductility > 1) lost += state.lost;  // round-off before
-  });
+  }
   std::vector<double> rows;
   for (const auto& [key, values] : found) {
     rows.insert(rows.end(), {static_cast<double>(key.first), static_cast<double>(key.second)});
@@ -231,22 +176,19 @@ std::vector<double> yielding_elements(const ObservedRun& run, std::size_t struct
 YieldTable::YieldTable(const ObservedRun& run)
     : run_(run), storeys_(find_storeys(run.comm, run.scene, run.model)) {
   for (std::size_t s = 0; s < run.model.systems.size(); ++s) {
-    for_each_law(run, s, [&](const FoundLaw& law) {
-      own_.push_back({{static_cast<double>(s), static_cast<double>(law.region),
-                       static_cast<double>(law.element), static_cast<double>(law.part)},
-                      law.number,
-                      law.is_link,
-                      law.place()});
-    });
+    for (const FoundLaw& law : yielding_laws(run, s)) {
+      own_.push_back({{static_cast<double>(s), static_cast<double>(law.region()),
+                       static_cast<double>(law.element()), static_cast<double>(law.part.number)},
+                      law,
+                      element_middle(run.model.meshes[s], law.elements->block_of(law.part),
+                                     law.part.element)});
+    }
   }
 }
 
 void YieldTable::observe(const CdLagrange& stepper) {
   for (Own& law : own_) {
-    if (law.since != never_yielded) continue;
-    if (law_ductility(run_, law.structure(), law.is_link, law.number) > 1) {
-      law.since = stepper.time();
-    }
+    if (law.since == never_yielded && law.law.ductility() > 1) law.since = stepper.time();
   }
 }
 
@@ -275,13 +217,9 @@ void YieldTable::load(const SavedState& saved) {
 
 std::string YieldTable::part_name(std::size_t structure, std::size_t region,
                                   std::size_t part) const {
-  if (part == axial) return "axial";
-  if (part >= of_springs) return std::string(motion_names[part - of_springs]);
-  const auto number = static_cast<int>(region);
   const auto& laws = run_.model.systems[structure].laws;
-  const auto law = std::ranges::find(laws, number, &interactions::RegionLaw::region);
-  if (law != laws.end()) return law->law->parts()[part];
-  return run_.scene.structures[structure].regions[region].yielding.names()[part];
+  const auto number = static_cast<int>(region);
+  return std::ranges::find(laws, number, &interactions::RegionLaw::region)->law->parts()[part];
 }
 
 std::vector<YieldRow> YieldTable::rows() const {
@@ -289,7 +227,7 @@ std::vector<YieldRow> YieldTable::rows() const {
   for (const Own& law : own_) {
     mine.insert(mine.end(), law.key.begin(), law.key.end());
     mine.insert(mine.end(), law.place.begin(), law.place.end());
-    const interactions::PartState state = state_of(law);
+    const interactions::PartState state = law.law.state();
     mine.insert(mine.end(), {law.since, state.ductility, state.lost});
   }
   const std::vector<double> table = gather_rows(run_.comm, mine);

@@ -75,17 +75,6 @@ struct YieldingSection {
   double axial_strength = 0;
   double axial_exponent = 1;
 
-  /// One of its laws, and the plane in which it acts.
-  struct Law {
-    std::string name;  ///< "shear_y" say
-    const Hysteresis* law = nullptr;
-    bool shear = false;
-    std::size_t axis = 0;  ///< 1: local y, 2: local z, along which or about which it acts
-  };
-  /// Laws in the order in which they are numbered.
-  std::vector<Law> laws() const;
-  /// Their names.
-  std::vector<std::string> names() const;
   bool any() const { return shear[0] || shear[1] || bending[0] || bending[1]; }
   /// The option that gave the first of them.
   const char* option() const {
@@ -161,19 +150,9 @@ struct NonlinearSpring {
     return yields() ? "<structure>_<group>_yield_force" : nullptr;
   }
   bool has_skeleton() const { return !law.positive.breaks.empty(); }
-  /// Whether a component follows more than kinematic hardening of two slopes.
-  bool is_hysteretic(std::size_t component) const {
-    return yield_force[component] > 0 && (has_skeleton() || law.rule != HystereticRule::kinematic);
-  }
-  /// The law of a component that yields at a force of its own; `stiffness` before [N/m], `length`
-  /// of a bar, 1 else [m].
-  Hysteresis law_of(std::size_t component, double stiffness, double length) const {
-    if (has_skeleton()) return scaled(law, length, 1);
-    Hysteresis result = law;
-    const double force = yield_force[component];
-    result.lasting_energy *= length;
-    result.positive = result.negative = {{{force / stiffness, force}}, hardening * stiffness};
-    return result;
+  /// Whether a component yields at a force of its own, by a law in one dimension.
+  bool yields_alone(std::size_t component) const {
+    return yield_force[component] > 0 && !is_in_circle(component);
   }
   bool yields() const {
     for (std::size_t c = 0; c < yield_force.size(); ++c) {

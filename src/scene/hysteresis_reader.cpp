@@ -303,7 +303,6 @@ void read_yielding_section(OptionReader& options, const Names& names, Region& re
              "-" + option_name("<structure>_<group>_shear_rule", names) + " or -" +
                  option_name("<structure>_<group>_bending_rule", names),
              laws);
-  region.inelastic = region.yielding.any();
 }
 
 void read_yielding_membrane(OptionReader& options, const Names& names, Region& region) {
@@ -319,7 +318,6 @@ void read_yielding_membrane(OptionReader& options, const Names& names, Region& r
   }
   read_paths(options, names, "-" + option_name(rule, names), laws);
   read_cracking(options, names, region);
-  region.inelastic = region.yielding_shell.any();
 }
 
 }  // namespace pounding

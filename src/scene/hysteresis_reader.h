@@ -12,12 +12,11 @@ namespace pounding {
 void read_hysteresis(OptionReader& options, const OptionReader::Names& names,
                      const std::array<double, 6>& first_slopes, NonlinearSpring& spring);
 
-/// Laws of the section of a beam, whose material and section are read already; marks it inelastic
-/// where there are any. Throws UserError.
+/// Laws of the section of a beam, whose material and section are read already. Throws UserError.
 void read_yielding_section(OptionReader& options, const OptionReader::Names& names, Region& region);
 
-/// Law of a shell in shear in its plane, whose material and thickness are read already; marks it
-/// inelastic where there is one. Throws UserError.
+/// Law of a shell in shear in its plane or by cracks, whose material and thickness are read
+/// already. Throws UserError.
 void read_yielding_membrane(OptionReader& options, const OptionReader::Names& names,
                             Region& region);
 

@@ -23,7 +23,7 @@ void refuse_couplings(const OptionReader& options, const Structure& structure) {
     const std::string remedy = "not in a structure with -" + option_name(model, {structure.name}) +
                                " modal; leave it out, or give -" +
                                option_name(model, {structure.name}) + " full";
-    if (region.inelastic && !is_beam(region.element)) {  // links hold the law of beams
+    if (region.yielding_shell.any()) {
       options.forbid(law_option(region), names, remedy);
     }
     options.forbid("<structure>_<group>_bending_axial", names, remedy);

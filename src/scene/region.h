@@ -91,12 +91,9 @@ struct Region {
   NonlinearSpring nonlinear;          ///< springs and bars
   YieldingSection yielding;           ///< beams
   YieldingShell yielding_shell;       ///< shells
-  /// An element law adds to the forces K u of its elements; see InelasticElements. Not in reduced
-  /// structures, see yields_by_links.
-  bool inelastic = false;
-  std::optional<Rayleigh> damping;  ///< in place of the structure's
-  double stiffness_factor = 1;      ///< which its numbers have already, see scale_stiffness
-  double damping_factor = 1;        ///< on its Rayleigh damping, or its part of that of a mode
+  std::optional<Rayleigh> damping;    ///< in place of the structure's
+  double stiffness_factor = 1;        ///< which its numbers have already, see scale_stiffness
+  double damping_factor = 1;          ///< on its Rayleigh damping, or its part of that of a mode
   /// Displacement [m] and velocity [m/s] of its nodes at t = 0, in place of the structure's.
   std::optional<Vector3> initial_displacement;
   std::optional<Vector3> initial_velocity;
@@ -197,12 +194,6 @@ inline bool follows_law(const Region& region) {
 inline bool is_nonlinear(const Region& region) {
   return follows_law(region) || region.nonlinear.option() != nullptr || region.yielding.any() ||
          region.yielding_shell.any();
-}
-
-/// Beams of a reduced structure whose sections yield: its modes hold them as elastic, and links the
-/// difference.
-inline bool yields_by_links(const Region& region) {
-  return region.yielding.any() && !region.inelastic;
 }
 
 /// The option that makes a region nonlinear.

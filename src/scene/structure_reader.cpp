@@ -251,9 +251,6 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   structure.soil = read_soil(options, structure);
   if (structure.soil) structure.regions.push_back(soil_region(*structure.soil));
   make_mat_rigid(structure);
-  for (Region& region : structure.regions) {
-    region.inelastic = region.inelastic && !structure.modal;
-  }
   return structure;
 }
 

@@ -12,6 +12,7 @@
 #include "common/parallel.h"
 #include "statics/unilateral_rows.h"
 #include "system/factor_plan.h"
+#include "system/inelastic_laws.h"
 #include "system/linear_system.h"
 
 namespace pounding {
@@ -165,6 +166,11 @@ AssembledStatics::AssembledStatics(const LinearSystem& system, const Mesh& mesh,
     std::ranges::copy_if(others, std::back_inserter(linear_links_), carries);
     std::erase_if(others, carries);
     add_links(others, -1, first, matrix_.get());
+  }
+  if (held == Held::elements && system.has_laws(true)) {
+    add_law_stiffness(system, mesh, -1, matrix_.get());
+    POUNDING_PETSC(MatAssemblyBegin(matrix_.get(), MAT_FINAL_ASSEMBLY));
+    POUNDING_PETSC(MatAssemblyEnd(matrix_.get(), MAT_FINAL_ASSEMBLY));
   }
   std::vector<double> added = system.lumped_mass;
   for (double& value : added) value *= shift;

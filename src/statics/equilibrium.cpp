@@ -199,9 +199,13 @@ class Search {
     std::vector<double> product;
     int yielded = 0;
     for (std::size_t s = 0; s < systems_.size(); ++s) {
-      law_force_[s] = forces_of_laws(systems_[s].laws, meshes_[s], displacement_[s]);
-      const bool links = links_[s].add_forces(displacement_[s], law_force_[s]);
-      if (links || std::ranges::any_of(law_force_[s], [](double g) { return g != 0; })) yielded = 1;
+      std::ranges::fill(law_force_[s], 0.0);
+      for (const bool apart : {false, true}) {
+        if (add_law_forces(systems_[s], apart, meshes_[s], displacement_[s], law_force_[s])) {
+          yielded = 1;
+        }
+      }
+      if (links_[s].add_forces(displacement_[s], law_force_[s])) yielded = 1;
       stiffness_[s]->apply(displacement_[s], product);
       for (std::size_t i = 0; i < product.size(); ++i) {
         residual_[s][i] = weight_[s][i] + forces[s][i] - product[i] - law_force_[s][i];
@@ -277,8 +281,10 @@ class Search {
     const Fields of_links = tried_.on_dofs(rows_.contacts(), rows_.size());
     for (std::size_t s = 0; s < systems_.size(); ++s) {
       result.law_force.emplace_back();
-      if (yielded_ && !systems_[s].laws.empty()) {
-        result.law_force.back() = forces_of_laws(systems_[s].laws, meshes_[s], displacement_[s]);
+      if (yielded_ && systems_[s].has_laws(false)) {
+        std::vector<double>& force = result.law_force.back();
+        force.assign(displacement_[s].size(), 0.0);
+        add_law_forces(systems_[s], false, meshes_[s], displacement_[s], force);
       }
       result.gravity_potential -=
           std::inner_product(weight_[s].begin(), weight_[s].end(), displacement_[s].begin(), 0.0);
@@ -316,7 +322,7 @@ class Search {
   Fields weight_;                                            ///< and loads as they are at rest
   std::vector<RestLinks> links_;                             ///< per structure
   Fields displacement_;
-  Fields law_force_;           ///< g of `displacement_`, of elements and links that yield
+  Fields law_force_;           ///< g of `displacement_`, of elements that yield
   bool yielded_ = false;       ///< any of them, on any rank
   bool ever_yielded_ = false;  ///< in any iterate
   std::vector<Trial> trials_;  ///< the last ones, where elements yield

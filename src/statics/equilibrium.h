@@ -38,7 +38,7 @@ struct Equilibrium {
 ///
 ///     K u_0 + g(u_0) = M g + p + R^T f,      0 <= f _|_ w0 + R u_0 + c f >= 0
 ///
-/// g(u_0) the forces beside K u_0 of elements and links that yield, whose history goes from nothing
+/// g(u_0) the forces beside K u_0 of elements that yield, whose history goes from nothing
 /// to u_0 at once: weight and loads come together, in proportion. By the proximal point method
 /// (Rockafellar, SIAM J. Control Optim. 14 (1976), 877), which needs no stiffness that holds by
 /// itself, so that blocks which only rest on each other pass:

@@ -10,12 +10,27 @@
 namespace pounding {
 namespace {
 
-bool is_one_way_link(const Link& link) {
-  return !link.origin.section && link.origin.region != nullptr && is_one_way(*link.origin.region) &&
-         !link.origin.region->nonlinear.yields(static_cast<std::size_t>(link.origin.component));
+/// Law of a link, whether or not K holds its tangent already.
+std::unique_ptr<interactions::LinkLaw> law_at_rest(const Link& link) {
+  interactions::LinkOrigin origin = link.origin;
+  origin.in_stiffness = false;
+  constexpr double any_step = 1;  // s: nothing at rest depends on it
+  return interactions::law_of(origin, any_step);
+}
+
+/// Whether a link yields by friction or on a circle, with others.
+bool slides(const interactions::LinkOrigin& origin) {
+  return origin.region != nullptr && is_spring(origin.region->element) &&
+         (origin.region->nonlinear.friction > 0 ||
+          origin.region->nonlinear.is_in_circle(static_cast<std::size_t>(origin.component)));
 }
 
 constexpr double on_its_line = 1e-13;  ///< round-off of a force
+
+bool is_one_way_link(const Link& link) {
+  return link.origin.region != nullptr && is_one_way(*link.origin.region) &&
+         !link.origin.region->nonlinear.yields(static_cast<std::size_t>(link.origin.component));
+}
 
 }  // namespace
 
@@ -94,21 +109,6 @@ void UnilateralRows::add_force(int row, double f, std::span<std::vector<double>>
   for (std::size_t s = 0; s < forces.size(); ++s) rows_.add_force(row, f, s, forces[s]);
 }
 
-std::unique_ptr<interactions::LinkLaw> law_at_rest(const Link& link) {
-  interactions::LinkOrigin origin = link.origin;
-  origin.in_stiffness = false;
-  constexpr double any_step = 1;  // s: nothing at rest depends on it
-  return interactions::law_of(origin, any_step);
-}
-
-bool slides(const interactions::LinkOrigin& origin) {
-  if (origin.section || origin.region == nullptr || !is_spring(origin.region->element)) {
-    return false;
-  }
-  const NonlinearSpring& law = origin.region->nonlinear;
-  return law.friction > 0 || law.is_in_circle(static_cast<std::size_t>(origin.component));
-}
-
 std::vector<LinkTerms> link_terms(const LinearSystem& system, bool all) {
   std::vector<LinkTerms> bars;
   if (!system.links) return bars;
@@ -142,11 +142,6 @@ RestLinks::Rest RestLinks::rest_at(const std::vector<double>& displacement) cons
   Rest rest{{}, interactions::LawMemory(laws_)};
   for (const LinkTerms& link : terms_) rest.now.push_back(link.elongation(displacement));
   if (groups_) groups_->yield(laws_, rest.now, rest.memory);
-  for (std::size_t b = 0; b < terms_.size(); ++b) {
-    if (slides(terms_[b].link->origin)) continue;
-    std::ranges::fill(rest.memory[b], 0.0);
-    laws_[b]->rest(rest.now[b], rest.memory[b]);
-  }
   return rest;
 }
 
@@ -155,10 +150,7 @@ bool RestLinks::add_forces(const std::vector<double>& displacement, std::span<do
   const Rest rest = rest_at(displacement);
   for (std::size_t b = 0; b < terms_.size(); ++b) {
     const LinkTerms& link = terms_[b];
-    const bool slider = slides(link.link->origin);
-    if (link.one_way || !(link.stiffness > 0) || !(laws_[b]->loses_plastic_work() || slider)) {
-      continue;
-    }
+    if (link.one_way || !(link.stiffness > 0) || !slides(link.link->origin)) continue;
     const double now = rest.now[b];
     const double straight = link.stiffness * now;
     const double more = laws_[b]->force(now, now, now, rest.memory[b]) - straight;

@@ -80,18 +80,13 @@ struct LinkTerms {
   }
 };
 
-/// Tension-only bars, compression-only springs and yielding elements of this rank: links that hold
-/// a force at rest, which dashpots do not; or `all`. They borrow the system's links. Local.
+/// Tension-only bars, compression-only springs and bearings that slide or yield on a circle of this
+/// rank: links that hold a force at rest, which dashpots do not; or `all`. They borrow the system's
+/// links. Local.
 std::vector<LinkTerms> link_terms(const LinearSystem& system, bool all = false);
 
-/// Law of a link, whether or not K holds its tangent already.
-std::unique_ptr<interactions::LinkLaw> law_at_rest(const Link& link);
-
-/// Whether a link yields by friction or on a circle, with others.
-bool slides(const interactions::LinkOrigin& origin);
-
-/// Springs, bars and sections of this rank that yield, at rest: their history goes from nothing to
-/// the rest at once. It borrows the system's links. Local.
+/// Bearings of this rank that slide or yield on a circle, at rest: their history goes from nothing
+/// to the rest at once. It borrows the system's links. Local.
 class RestLinks {
  public:
   explicit RestLinks(const LinearSystem& system);

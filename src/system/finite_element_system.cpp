@@ -313,8 +313,8 @@ LinearSystem build_system(const Structure& structure, const Mesh& mesh, Stiffnes
   // Modes want every link at its stiffest: the linear elements alone are of no use to them then.
   const bool for_modes = with_matrix && std::ranges::none_of(structure.regions, follows_law);
   Assembly(structure, mesh, !by_element || for_modes, system).run();
-  system.laws = inelastic_laws(structure, mesh);
-  system.inelastic = dofs_of_laws(system.laws, mesh);
+  if (!structure.modal) system.laws = inelastic_laws(structure, mesh);
+  system.inelastic = dofs_of_laws(system.laws, false, mesh);
   system.stiffness_method = "assembled";
   if (by_element) {
     auto product =

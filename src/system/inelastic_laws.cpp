@@ -18,10 +18,12 @@
 #include "laws/cracking_shell.h"
 #include "laws/element_law.h"
 #include "mesh/mesh.h"
+#include "scene/law_kinds.h"
 #include "scene/scene.h"
 #include "system/each_element.h"
 #include "system/element_forces.h"
 #include "system/motion_laws.h"
+#include "system/trace.h"
 
 namespace pounding {
 namespace {
@@ -32,11 +34,9 @@ using Law = std::shared_ptr<interactions::ElementLaw>;
 constexpr std::size_t beam_size = 12;
 constexpr std::size_t of_node = 6;  ///< components
 
-using Part = YieldingSection::Law;
-
 /// `part` of a beam between two nodes.
-SectionMotion motion_of(const Part& part, const Segment& segment, const Matrix3& frame,
-                        const ElementProperties& p) {
+LawMotion motion_of(const OwnLaw& part, const Segment& segment, const Matrix3& frame,
+                    const ElementProperties& p) {
   const double h = segment.length;
   Vector3 along{}, about{};  // of the sway, and of rotations
   const std::size_t turns = part.shear ? 3 - part.axis : part.axis;
@@ -55,31 +55,19 @@ SectionMotion motion_of(const Part& part, const Segment& segment, const Matrix3&
       shape[node * of_node + 3 + d] = turn * about[d];
     }
   }
-  const Hysteresis own = scaled(*part.law, h, 1);
-  if (!part.shear) return {std::move(shape), rigidity / h, own};
-  const double bends = 12 * rigidity / (h * h * h);
-  const ShearFlexibility phi = shear_flexibility(p, h);
-  return {std::move(shape), bends / (1 + (part.axis == 1 ? phi.y : phi.z)), in_series(own, bends)};
+  Hysteresis own = scaled(part.law, h, 1);
+  if (part.shear) own = in_series(own, 12 * rigidity / (h * h * h));
+  return {std::move(shape), std::make_shared<const HystereticLaw>(own), 1, !part.shear};
 }
 
 /// Throws std::domain_error where the element cannot follow them.
-std::vector<SectionMotion> motions_of(std::span<const Part> parts,
-                                      std::span<const double> coordinates,
-                                      const ElementProperties& properties) {
+std::vector<LawMotion> motions_of(std::span<const OwnLaw> parts,
+                                  std::span<const double> coordinates,
+                                  const ElementProperties& properties) {
   const Segment segment = segment_between(coordinates);
   const Matrix3 frame = local_frame(segment.direction, properties.z_axis);
-  std::vector<SectionMotion> found;
-  for (const Part& part : parts) found.push_back(motion_of(part, segment, frame, properties));
-  return found;
-}
-
-std::vector<LawMotion> with_memories(std::vector<SectionMotion> sections,
-                                     std::span<const Part> parts) {
   std::vector<LawMotion> found;
-  for (std::size_t m = 0; m < sections.size(); ++m) {
-    found.push_back({std::move(sections[m].shape),
-                     std::make_shared<const HystereticLaw>(sections[m].law), 1, !parts[m].shear});
-  }
+  for (const OwnLaw& part : parts) found.push_back(motion_of(part, segment, frame, properties));
   return found;
 }
 
@@ -131,22 +119,21 @@ void for_each_of_region(const Structure& structure, const Mesh& mesh, int region
 /// for a skeleton that falls. Local.
 Law yielding_beams(const Structure& structure, const Mesh& mesh, int region) {
   const YieldingSection& section = structure.regions[region].yielding;
-  const std::vector<Part> parts = section.laws();
-  std::vector<const Hysteresis*> laws;
-  for (const Part& part : parts) laws.push_back(part.law);
-  auto beams = std::make_shared<MotionLaws>(section.names(), laws);
+  const std::vector<OwnLaw> parts = own_laws(structure.regions[region]);
+  auto beams = std::make_shared<MotionLaws>(parts, false);
   for_each_of_region(structure, mesh, region, [&](ElementType, const auto& x, const auto& own) {
-    beams->add(with_memories(motions_of(parts, x, own), parts), axial_of(section, x, own));
+    beams->add(motions_of(parts, x, own), axial_of(section, x, own));
   });
   return beams;
 }
 
 /// Calls `visit(law, number of the element in its law, dofs)` with every element of this rank that
-/// follows a law.
+/// follows a law, one apart or not.
 template <typename Visit>
-void for_each_law_element(const std::vector<interactions::RegionLaw>& laws, const Mesh& mesh,
-                          Visit&& visit) {
-  for (const auto& [region, law] : laws) {
+void for_each_law_element(const std::vector<interactions::RegionLaw>& laws, bool apart,
+                          const Mesh& mesh, Visit&& visit) {
+  for (const auto& [region, law, is_apart] : laws) {
+    if (is_apart != apart) continue;
     std::size_t element = 0;
     for (const ElementBlock& block : mesh.blocks) {
       if (block.region != region) continue;
@@ -195,7 +182,7 @@ class CrackingShells final : public interactions::ElementLaw {
       const double less = own.area * (acting[c] - sound[c]);
       for (std::size_t i = 0; i < size; ++i) force[i] += less * own.strains[c * size + i];
     }
-    return {own.area * (work / 2 - law_.stored(memory)), true};
+    return {own.area * (work / 2 - law_.stored(memory)), true, true};
   }
 
   std::vector<std::string> parts() const override { return {"cracking"}; }
@@ -275,10 +262,9 @@ LawMotion shear_motion(ElementType type, std::span<const double> coordinates,
 /// bending, drilling. 1 and 2 are the axes of the shell's forces (shell_force_axes). Throws
 /// UserError for an element that cannot be. Local.
 Law yielding_shells(const Structure& structure, const Mesh& mesh, int region) {
-  const Hysteresis* const law = &*structure.regions[region].yielding_shell.shear;
-  auto shells = std::make_shared<MotionLaws>(std::vector<std::string>{"shear"},
-                                             std::span<const Hysteresis* const>(&law, 1));
-  const auto shear = std::make_shared<const HystereticLaw>(*law);
+  const std::vector<OwnLaw> laws = own_laws(structure.regions[region]);
+  auto shells = std::make_shared<MotionLaws>(laws, false);
+  const auto shear = std::make_shared<const HystereticLaw>(laws.front().law);
   for_each_of_region(structure, mesh, region,
                      [&](ElementType type, const auto& x, const auto& properties) {
                        shells->add({shear_motion(type, x, properties, shear)});
@@ -286,8 +272,46 @@ Law yielding_shells(const Structure& structure, const Mesh& mesh, int region) {
   return shells;
 }
 
+/// Law of the springs or bars of a region that yield, each component by its own,
+///
+///     g = b N(b . u),      b . u the elongation or relative rotation along or about its axis
+///
+/// All of N where K does not hold them, N less its first line beside the modes of a reduced
+/// structure. No damping of K acts on it. Throws UserError for an element that cannot be.
+/// Local.
+Law yielding_springs(const Structure& structure, const Mesh& mesh, int number) {
+  const bool bar = is_bar(structure.regions[number].element);
+  const std::vector<OwnLaw> laws = own_laws(structure.regions[number]);
+  auto springs = std::make_shared<MotionLaws>(laws, !structure.modal);
+  stiffness::ElementWork coordinates;
+  for (const ElementBlock& block : mesh.blocks) {
+    const ElementLayout layout = element_layout(block.type);
+    for (std::size_t e = 0; block.region == number && e < block.count(); ++e) {
+      Segment segment;
+      if (bar) segment = segment_between(gather_coordinates(mesh, block, e, coordinates));
+      std::vector<LawMotion> motions;
+      for (const OwnLaw& own : laws) {
+        std::vector<double> shape(layout.size(), 0.0);
+        for (int node = 0; node < layout.nodes; ++node) {
+          double* const to = &shape[node * layout.components];
+          const double sign = node + 1 == layout.nodes ? 1 : -1;
+          if (!bar) to[own.axis] = sign;
+          for (std::size_t d = 0; bar && d < 3; ++d) to[d] = sign * segment.direction[d];
+        }
+        const Hysteresis law = scaled(own.law, bar ? segment.length : 1, 1);
+        motions.push_back({std::move(shape), std::make_shared<const HystereticLaw>(law)});
+      }
+      springs->add(std::move(motions));
+    }
+  }
+  return springs;
+}
+
 Law law_of_region(const Structure& structure, const Mesh& mesh, int region) {
   const Region& own = structure.regions[region];
+  if (is_spring(own.element) || is_bar(own.element)) {
+    return yielding_springs(structure, mesh, region);
+  }
   if (!is_shell(own.element)) return yielding_beams(structure, mesh, region);
   return own.yielding_shell.cracking ? cracking_shells(structure, mesh, region)
                                      : yielding_shells(structure, mesh, region);
@@ -312,28 +336,24 @@ Hysteresis in_series(const Hysteresis& law, double elastic) {
   return result;
 }
 
-std::vector<SectionMotion> section_motions(const Region& region, const Vector3& first,
-                                           const Vector3& second) {
-  const std::array<double, 6> ends{first[0], first[1], first[2], second[0], second[1], second[2]};
-  return motions_of(region.yielding.laws(), ends, element_properties(region));
-}
-
 std::vector<interactions::RegionLaw> inelastic_laws(const Structure& structure, const Mesh& mesh) {
   std::vector<interactions::RegionLaw> laws;
   for (std::size_t r = 0; r < structure.regions.size(); ++r) {
-    if (!structure.regions[r].inelastic) continue;
+    if (!has_element_law(structure.regions[r])) continue;
+    const bool apart = structure.modal || follows_law(structure.regions[r]);
     const auto region = static_cast<int>(r);
     on_every_rank(mesh.comm, [&] {
-      laws.push_back({region, law_of_region(structure, mesh, region)});
+      laws.push_back({region, law_of_region(structure, mesh, region), apart});
     });
   }
   return laws;
 }
 
-std::vector<char> dofs_of_laws(const std::vector<interactions::RegionLaw>& laws, const Mesh& mesh) {
-  if (laws.empty()) return {};
+std::vector<char> dofs_of_laws(const std::vector<interactions::RegionLaw>& laws, bool apart,
+                               const Mesh& mesh) {
+  if (std::ranges::find(laws, apart, &interactions::RegionLaw::apart) == laws.end()) return {};
   std::vector<char> acted_on(mesh.owned_dofs, 0);
-  for_each_law_element(laws, mesh,
+  for_each_law_element(laws, apart, mesh,
                        [&](const interactions::ElementLaw& law, std::size_t element,
                            std::span<const LocalIndex> dofs) {
                          for (std::size_t i = 0; i < dofs.size(); ++i) {
@@ -344,24 +364,61 @@ std::vector<char> dofs_of_laws(const std::vector<interactions::RegionLaw>& laws,
   return acted_on;
 }
 
-std::vector<double> forces_of_laws(const std::vector<interactions::RegionLaw>& laws,
-                                   const Mesh& mesh, const std::vector<double>& displacement) {
-  std::vector<double> forces(mesh.owned_dofs, 0.0);
-  if (laws.empty()) return forces;
-  const std::vector<double> all = with_ghosts(mesh, displacement);
+bool add_law_forces(const LinearSystem& system, bool apart, const Mesh& mesh,
+                    const std::vector<double>& displacement, std::span<double> force) {
+  const std::vector<char> acted_on = dofs_of_laws(system.laws, apart, mesh);
+  if (acted_on.empty()) return false;
+  std::optional<Trace> trace;  // of a body in generalised coordinates, and its places
+  std::vector<LocalIndex> places;
+  std::vector<double> all;
+  if (system.generalised) {
+    for (std::size_t dof = 0; dof < acted_on.size(); ++dof) {
+      if (acted_on[dof] != 0) places.push_back(static_cast<LocalIndex>(dof));
+    }
+    trace.emplace(system, mesh, points_of(mesh, places), false);
+    std::vector<double> values(places.size());
+    trace->apply(displacement.data(), values.data(), 1);
+    all.assign(mesh.dof_count, 0.0);
+    for (std::size_t k = 0; k < places.size(); ++k) all[places[k]] = values[k];
+  } else {
+    all = with_ghosts(mesh, displacement);
+  }
+  bool yields = false;
+  std::vector<double> g_of(trace ? mesh.owned_dofs : 0, 0.0);
+  const std::span<double> sum = trace ? std::span(g_of) : force;
   for_each_law_element(
-      laws, mesh,
+      system.laws, apart, mesh,
       [&](const interactions::ElementLaw& law, std::size_t element,
           std::span<const LocalIndex> dofs) {
         std::array<double, max_element_size> u{}, g{};
         for (std::size_t i = 0; i < dofs.size(); ++i) u[i] = dofs[i] < 0 ? 0 : all[dofs[i]];
         std::vector<double> memory(law.memory_size(), 0.0);
-        law.respond(element, {u.data(), dofs.size()}, memory, {g.data(), dofs.size()});
+        yields |=
+            law.respond(element, {u.data(), dofs.size()}, memory, {g.data(), dofs.size()}).yields;
         for (std::size_t i = 0; i < dofs.size(); ++i) {
-          if (dofs[i] >= 0 && dofs[i] < mesh.owned_dofs) forces[dofs[i]] += g[i];
+          if (dofs[i] >= 0 && dofs[i] < mesh.owned_dofs) sum[dofs[i]] += g[i];
         }
       });
-  return forces;
+  for (std::size_t k = 0; k < places.size(); ++k) trace->add_force(k, g_of[places[k]], force);
+  return yields;
+}
+
+void add_law_stiffness(const LinearSystem& system, const Mesh& mesh, double sign, Mat matrix) {
+  const std::vector<PetscInt> numbers = stiffness::global_numbers(mesh);
+  for_each_law_element(system.laws, true, mesh,
+                       [&](const interactions::ElementLaw& law, std::size_t element,
+                           std::span<const LocalIndex> dofs) {
+                         std::vector<double> tangent(dofs.size() * dofs.size(), 0.0);
+                         law.add_tangent(element, sign, tangent);
+                         std::vector<PetscInt> rows, columns;
+                         for (const LocalIndex dof : dofs) {
+                           columns.push_back(dof < 0 ? -1 : numbers[dof]);
+                           rows.push_back(dof < mesh.owned_dofs ? columns.back() : -1);
+                         }
+                         const auto n = static_cast<PetscInt>(dofs.size());
+                         POUNDING_PETSC(MatSetValues(matrix, n, rows.data(), n, columns.data(),
+                                                     tangent.data(), ADD_VALUES));
+                       });
 }
 
 }  // namespace pounding

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -123,6 +124,10 @@ struct LinearSystem {
   Mat stiffest_matrix() const { return stiffest().matrix(); }
   /// Factor of K for the fastest motions [-].
   double stiffening() const { return uniform_damping ? uniform_damping->at_once() : 1; }
+  /// Some elements follow laws apart, see RegionLaw.
+  bool has_laws(bool apart) const {
+    return std::ranges::find(laws, apart, &interactions::RegionLaw::apart) != laws.end();
+  }
   /// Forces beside K u, alpha M v and beta K v.
   bool has_extra_damping() const { return extra_damping != nullptr; }
   /// iota of a direction [-].

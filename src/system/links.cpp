@@ -9,7 +9,6 @@
 #include "common/parallel.h"
 #include "elements/element_traits.h"
 #include "mesh/location.h"
-#include "system/inelastic_laws.h"
 #include "system/support_shapes.h"
 
 namespace pounding {
@@ -28,15 +27,12 @@ std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh
     if (!interactions::has_links(structure.regions[block.region])) continue;
     count += block.global_count;
     const Region& region = structure.regions[block.region];
-    found->hold_stiffness_ =
-        found->hold_stiffness_ || follows_law(region) || yields_by_links(region);
+    found->hold_stiffness_ = found->hold_stiffness_ || follows_law(region);
     for (std::size_t e = 0; e < block.count(); ++e) {
       if (block.type == ElementType::soil) {
         found->add_soil(structure, mesh, block, e);
       } else if (is_spring(block.type)) {
         found->add_springs(structure, mesh, block, e);
-      } else if (yields_by_links(region)) {
-        found->add_section(structure, mesh, block, e);
       } else {
         found->add_bar(structure, mesh, block, e);
       }
@@ -98,28 +94,6 @@ void Links::add_bar(const Structure& structure, const Mesh& mesh, const ElementB
   for (const auto& [component, part] : interactions::spring_links(region)) {
     const bool held = reduced && part == interactions::SpringPart::stiffness;
     link.origin = {&region, component, length, beta, held, part};
-    keep(mesh, block, element, link);
-  }
-}
-
-void Links::add_section(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
-                        std::size_t element) {
-  const Region& region = structure.regions[block.region];
-  const LocalIndex* nodes = &block.connectivity[2 * element];
-  int component = interactions::first_section_component;
-  for (SectionMotion& motion :
-       section_motions(region, mesh.position(nodes[0]), mesh.position(nodes[1]))) {
-    Link link;
-    link.number = block.tags[element];
-    link.origin = {&region, component++, 0, 0, true, interactions::SpringPart::stiffness};
-    link.origin.section = std::make_shared<const Hysteresis>(std::move(motion.law));
-    for (std::size_t i = 0; i < motion.shape.size(); ++i) {
-      const LocalIndex node = nodes[i / 6];
-      const int c = static_cast<int>(i % 6);
-      link.place[i] = mesh.dof(node, c);
-      link.weight[i] = motion.shape[i];
-      if (link.place[i] < 0) link.held.push_back({node, c, link.weight[i]});
-    }
     keep(mesh, block, element, link);
   }
 }
@@ -216,15 +190,7 @@ void Links::keep(const Mesh& mesh, const ElementBlock& block, std::size_t elemen
 }
 
 void Links::find_trace(const LinearSystem& system, const Mesh& mesh) {
-  points_.clear();
-  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    for (int c = 0; c < 6; ++c) {
-      const LocalIndex dof = mesh.dof(node, c);
-      if (dof >= 0 && std::binary_search(dofs_.begin(), dofs_.end(), dof)) {
-        points_.push_back({mesh.file_node[node], c});
-      }
-    }
-  }
+  points_ = points_of(mesh, dofs_);
   trace_ = std::make_unique<Trace>(system, mesh, points_, true);
   for (Link& link : links_) {
     link.supports.clear();
@@ -243,7 +209,7 @@ void Links::find_trace(const LinearSystem& system, const Mesh& mesh) {
 std::vector<TracePoint> section_points(const Structure& structure, const GlobalMesh& mesh) {
   std::vector<TracePoint> points;
   for (const ElementSet& set : mesh.regions) {
-    if (!yields_by_links(structure.regions[set.region])) continue;
+    if (!structure.regions[set.region].yielding.any()) continue;
     for (const GlobalIndex node : set.connectivity) {
       for (int c = 0; c < 6; ++c) points.push_back({node, c});
     }
@@ -256,15 +222,15 @@ std::vector<TracePoint> link_points(const Structure& structure, const GlobalMesh
   for (const ElementSet& set : mesh.regions) {
     const Region& region = structure.regions[set.region];
     if (!interactions::has_links(region)) continue;
-    const bool pulls_at_all = region.foundation || yields_by_links(region);
     const auto springs = interactions::spring_links(region);
     for (const GlobalIndex node : set.connectivity) {
       for (int c = 0; c < 6; ++c) {
         const bool pulls =
-            pulls_at_all ||
+            region.foundation ||
             (is_spring(set.type)
-                 ? std::ranges::find(springs, c, &interactions::SpringLink::component) !=
-                       springs.end()
+                 ? region.nonlinear.yields(static_cast<std::size_t>(c)) ||
+                       std::ranges::find(springs, c, &interactions::SpringLink::component) !=
+                           springs.end()
                  : c < 3);
         if (pulls) points.push_back({node, c});
       }

@@ -25,9 +25,9 @@ struct HeldEnd {
 
 /// A link between two nodes, or from one to the ground. This rank owns those that can move.
 struct Link {
-  static constexpr std::size_t most_places = 12;
+  static constexpr std::size_t most_places = 6;
   /// Places in the trace of all links, -1 where the end is held: a bar has three of each end, soil
-  /// up to six of its node, the section of a beam six of each end.
+  /// up to six of its node.
   std::array<int, most_places> place;
   /// b: of each place in the elongation, that of the second end less that of the first [m, rad].
   std::array<double, most_places> weight{};
@@ -41,11 +41,11 @@ struct Link {
 };
 
 /// Links of a structure: devices between two nodes, or from one to the ground, with a law that is
-/// no part of K u. Today these are the bars that resist stretching only or yield, compression-only
-/// springs along z, springs that yield, sections of beams that yield in reduced structures, the
-/// dashpots of springs, one for each component, and of bars, the
-/// dashpots and masses of soil in the six motions of a mat, and three dashpots at every node of
-/// absorbing faces. Links that share a node that can move live on one rank, with all that moves
+/// no part of K u. Today these are the bars that resist stretching only, compression-only springs
+/// along z, springs that yield on a circle, the dashpots of springs, one for each component, and of
+/// bars, the dashpots and masses of soil in the six motions of a mat, and three dashpots at every
+/// node of absorbing faces. Springs and bars that yield by a law of e_n alone are none: see
+/// InelasticElements. Links that share a node that can move live on one rank, with all that moves
 /// with their nodes (see `coupled_nodes`). Constant during a run; their state is with
 /// StructureLinks.
 class Links {
@@ -61,8 +61,7 @@ class Links {
   const Trace& trace() const { return *trace_; }
   const std::vector<LocalIndex>& dofs() const { return dofs_; }  ///< of the mesh, per place of it
   const std::vector<TracePoint>& points() const { return points_; }  ///< likewise, in file order
-  /// Some link of some rank holds stiffness that is no part of K: it acts in one direction only, or
-  /// yields.
+  /// Some link of some rank, or spring or bar that yields, holds stiffness that is no part of K.
   bool hold_stiffness() const { return hold_stiffness_; }
   /// A wave enters through some link of some rank.
   bool driven() const { return driven_; }
@@ -73,9 +72,6 @@ class Links {
   void refuse_unpressed(const Structure& structure) const;
   void add_bar(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
                std::size_t element);
-  /// The laws of the section of a beam, beside modes that hold it as elastic.
-  void add_section(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
-                   std::size_t element);
   void add_springs(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
                    std::size_t element);
   void add_soil(const Structure& structure, const Mesh& mesh, const ElementBlock& block,

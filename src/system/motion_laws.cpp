@@ -28,10 +28,10 @@ double AxialWeakening::left(std::span<const double> displacement) const {
   return std::max(least_strength, 1 - std::pow(part, exponent));
 }
 
-MotionLaws::MotionLaws(std::vector<std::string> names, std::span<const Hysteresis* const> laws)
-    : names_(std::move(names)), begin_{0} {
-  for (const Hysteresis* const law : laws) {
-    begin_.push_back(begin_.back() + interactions::HystereticLaw(*law).memory_size());
+MotionLaws::MotionLaws(std::span<const OwnLaw> laws, bool whole) : whole_(whole), begin_{0} {
+  for (const OwnLaw& own : laws) {
+    names_.push_back(own.name);
+    begin_.push_back(begin_.back() + interactions::HystereticLaw(own.law).memory_size());
   }
 }
 
@@ -63,28 +63,41 @@ interactions::ElementLaw::Response MotionLaws::respond(std::size_t element,
     const std::span<double> own = memory.subspan(begin_[m], begin_[m + 1] - begin_[m]);
     const double elongation = dot(along, displacement);
     law.advance(elongation, own, motion.weakened ? left : 1);
-    if (law.is_elastic(own)) continue;
-    const double less = motion.measure * (law.force(own) - law.tangent() * elongation);
+    const bool elastic = law.is_elastic(own);
+    if (elastic && !whole_) continue;
+    const double held = whole_ ? 0 : law.tangent() * elongation;
+    const double less = motion.measure * (law.force(own) - held);
     for (std::size_t i = 0; i < force.size(); ++i) force[i] += less * along[i];
     response.offset += motion.measure * (law.force(own) * elongation / 2 - law.stored(own));
     response.acts = true;
+    response.yields = response.yields || !elastic;
   }
   return response;
 }
 
+void MotionLaws::add_tangent(std::size_t element, double factor, std::span<double> matrix) const {
+  for (std::size_t m = 0; whole_ && m < names_.size(); ++m) {
+    const Motion& motion = motions_[element * names_.size() + m];
+    const double stiffness = factor * motion.measure * motion.law->tangent();
+    const double* const shape = &shapes_[motion.shape];
+    const std::size_t dofs = shapes_.size() / motions_.size();
+    for (std::size_t n = 0; n < matrix.size(); ++n) {
+      matrix[n] += stiffness * shape[n / dofs] * shape[n % dofs];
+    }
+  }
+}
+
 double MotionLaws::ductility(std::size_t element, std::size_t number,
                              std::span<const double> memory) const {
-  return motions_[element * names_.size() + number].law->ductility(
-      memory.subspan(begin_[number], begin_[number + 1] - begin_[number]));
+  return motions_[element * names_.size() + number].law->ductility(own(number, memory));
 }
 
 interactions::PartState MotionLaws::part(std::size_t element, std::size_t number,
                                          std::span<const double> memory) const {
-  const Motion& motion = motions_[element * names_.size() + number];
-  const interactions::HystereticLaw& law = *motion.law;
-  const auto own = memory.subspan(begin_[number], begin_[number + 1] - begin_[number]);
-  return {law.elongation(own), law.force(own), law.ductility(own), motion.measure * law.lost(own),
-          motion.measure * (law.lost(own) + law.stored(own))};
+  const auto& [law, shape, measure, weakened] = motions_[element * names_.size() + number];
+  const auto own = this->own(number, memory);
+  return {law->elongation(own), law->force(own), law->ductility(own), measure * law->lost(own),
+          measure * (law->lost(own) + law->stored(own))};
 }
 
 }  // namespace pounding

@@ -8,6 +8,7 @@
 
 #include "laws/element_law.h"
 #include "laws/hysteretic_law.h"
+#include "scene/law_kinds.h"
 
 namespace pounding {
 
@@ -38,11 +39,13 @@ struct AxialWeakening {
 /// S_m the energy that the law holds; of a law by volume, N_m, k_m and S_m are those of all of it.
 /// Where elements have an axial force N, some of the laws follow their strength by
 /// 1 - (|N| / N_y)^a, a thousandth at least. K less all of the k_m b_m b_m^T must be positive
-/// semidefinite for the stable step to be that of K.
+/// semidefinite for the stable step to be that of K. Where K holds nothing of them g has all of
+/// N_m, and the stable step is that of K with all of the k_m b_m b_m^T.
 class MotionLaws final : public interactions::ElementLaw {
  public:
-  /// Laws by name, the same ones of each element to come; only the rules of `laws` count.
-  MotionLaws(std::vector<std::string> names, std::span<const Hysteresis* const> laws);
+  /// Laws of each element to come, of which only the names and rules count. `whole`: K holds
+  /// nothing of them.
+  MotionLaws(std::span<const OwnLaw> laws, bool whole);
 
   /// Adds an element with one motion per name. `axial`: of every element, or of none.
   void add(std::vector<LawMotion> own, std::optional<AxialWeakening> axial = {});
@@ -51,6 +54,7 @@ class MotionLaws final : public interactions::ElementLaw {
   bool acts_on(std::size_t element, std::size_t dof) const override;
   Response respond(std::size_t element, std::span<const double> displacement,
                    std::span<double> memory, std::span<double> force) const override;
+  void add_tangent(std::size_t element, double factor, std::span<double> matrix) const override;
   std::vector<std::string> parts() const override { return names_; }
   double ductility(std::size_t element, std::size_t number,
                    std::span<const double> memory) const override;
@@ -66,7 +70,12 @@ class MotionLaws final : public interactions::ElementLaw {
     bool weakened = false;
   };
 
+  std::span<const double> own(std::size_t part, std::span<const double> memory) const {
+    return memory.subspan(begin_[part], begin_[part + 1] - begin_[part]);
+  }
+
   std::vector<std::string> names_;
+  bool whole_;
   std::vector<Motion> motions_;        ///< shape (elements, parts)
   std::vector<double> shapes_;         ///< one after another, as long as their elements have dofs
   std::vector<AxialWeakening> axial_;  ///< per element, or empty

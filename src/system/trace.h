@@ -89,4 +89,7 @@ class Trace {
   std::size_t response_place_ = 0;  ///< which one
 };
 
+/// The places of some owned dofs, increasing numbers.
+std::vector<TracePoint> points_of(const Mesh& mesh, const std::vector<LocalIndex>& dofs);
+
 }  // namespace pounding

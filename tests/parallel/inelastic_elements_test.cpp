@@ -118,7 +118,7 @@ struct BodyRun {
       found.push_back({region, std::make_unique<FlowingElement>(damped.structure, built.mesh,
                                                                 region, strength)});
     }
-    built.system.inelastic = dofs_of_laws(found, built.mesh);
+    built.system.inelastic = dofs_of_laws(found, false, built.mesh);
     return found;
   }
   /// The ledger after some steps.
