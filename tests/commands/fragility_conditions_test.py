@@ -76,7 +76,7 @@ class Conditions(unittest.TestCase):
         states = {state: np.quantile(needed["best", state], 0.84) for state in ("sound", "cracked")}
         self.assertLess(abs(float(moved["state"]["high"]) / max(states.values()) - 1), 1e-8)
         page = (self.place / "out" / "fragility.html").read_text()
-        self.assertIn('href="conditions/upper_cracked/fragility.html"', page)
+        self.assertIn("conditions/upper_cracked/fragility.html", page)
         again = self.fragility("--collect").stdout
         self.assertIn("So that no joint closes", again)
 

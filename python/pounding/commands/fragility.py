@@ -14,14 +14,16 @@ where it stopped.
 
 import argparse
 import re
+import subprocess
 import time
 from contextlib import contextmanager
 from pathlib import Path
 
 from pounding.arguments import positive, ranks
-from pounding.fragility import conditions, design, envelope, motions, report, rules, study
+from pounding.fragility import conditions, design, envelope, motions, report, rules, study, submittal
 from pounding.fragility.analysis import Analysis
 from pounding.fragility.runs import Runner
+from pounding.plot.report import print_pdf, require_browser
 from pounding.results import ResultError
 from pounding.runs import RunError, program, require_room
 from pounding.study import alone_in
@@ -60,6 +62,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--runner", choices=("auto", "ensemble", "single"), default="auto",
                         help="members at once, each on its own, or at once where the scene allows it (default: auto)")
     parser.add_argument("--samples", metavar="N", type=positive(int), help="in place of those of the study")
+    parser.add_argument("--pdf", action="store_true", help="print the submittal, or the page, as PDF as well, with chromium")
     parser.add_argument("--out", metavar="DIR", type=Path, help="folder of all (default: `output` of the study)")
     only = parser.add_mutually_exclusive_group()
     only.add_argument("--part", metavar="i/n", type=part, help="run this part of the members and stop")
@@ -73,6 +76,8 @@ def run(options: argparse.Namespace) -> int:
     if options.samples:
         found.samples = max(2, options.samples)
     folder = options.out or found.output
+    if options.pdf:
+        require_browser("--pdf")
     require_room(options.ranks, options.jobs)
     program()
     with alone(folder, options):
@@ -81,9 +86,12 @@ def run(options: argparse.Namespace) -> int:
 
 def carry_out(found: study.Study, folder: Path, options: argparse.Namespace) -> int:
     """One study, or one in each of its conditions and their envelope."""
+    submittal.read(found)
     in_conditions = conditions.find(found)
     if not in_conditions:
-        members_of(found, folder, options)
+        one = members_of(found, folder, options)
+        if one:
+            submitted(found, {conditions.Condition(conditions.ALONE, conditions.ALONE, found): one}, folder, options)
         return 0
     told, analyses = [], {}
     for number, condition in enumerate(in_conditions, 1):
@@ -104,7 +112,17 @@ def carry_out(found: study.Study, folder: Path, options: argparse.Namespace) -> 
         page, text = envelope.write(found, analyses, folder)
         print("\n" + text)
         print(f"see {page}")
+        submitted(found, analyses, folder, options)
     return 0
+
+
+def submitted(found: study.Study, analyses: dict, folder: Path, options: argparse.Namespace) -> None:
+    """Writes the submittal where the study has one, and prints it on paper where that is asked for."""
+    page = submittal.write(found, analyses, folder)
+    if page:
+        print(f"see {page}")
+    if options.pdf:
+        print(f"see {print_pdf(page or folder / 'fragility.html', require_browser('--pdf'), subprocess.run)}")
 
 
 def members_of(found: study.Study, folder: Path, options: argparse.Namespace,
@@ -146,7 +164,7 @@ def members_of(found: study.Study, folder: Path, options: argparse.Namespace,
                                "run what is missing")
     ruled, note = rules.find(found, plan, runner.scene(True), folder, options.jobs)
     notes += [note] if note else []
-    analysis = Analysis(found, plan, gathered, runner.equipment)
+    analysis = Analysis(found, plan, gathered, runner.equipment, notes, runner.scouted[True].inputs)
     page, text = report.write(analysis, full, ruled, notes, folder)
     print("\n" + text)
     print(f"see {page}")

@@ -5,7 +5,6 @@ folder DIR-without or, of run/plant, apart, if it is there. Where there is none 
 it. --pdf prints report.pdf with Chromium.
 """
 
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -18,7 +17,6 @@ from .process import called, parser_of
 
 NAME = called("run/plot")
 FAULTS = (results.ResultError, twin.NoTwin, subprocess.TimeoutExpired)
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
 
 def told(name: str) -> None:
@@ -33,9 +31,7 @@ def main() -> int:
     parser.add_argument("--without", metavar="DIR", type=Path, help="result folder of the same model without pounding")
     parser.add_argument("--pdf", action="store_true", help="print report.pdf as well, with chromium")
     options = parser.parse_args()
-    browser = next(filter(None, map(shutil.which, BROWSERS)), None)
-    if options.pdf and not browser:
-        raise OSError(f"--pdf: none of {', '.join(BROWSERS)} is there; print report.html from any browser instead")
+    browser = report.require_browser("--pdf") if options.pdf else None
     run = results.load(options.folder)
     with understood(options.folder):
         run.without, why = twin.find(run, options.without)

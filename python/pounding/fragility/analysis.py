@@ -29,6 +29,8 @@ class Analysis:
     design: Design
     outcomes: Outcomes
     equipment: list = field(default_factory=list)
+    notes: list = field(default_factory=list)  # doubts and remarks, a line each
+    inputs: dict = field(default_factory=dict)  # files that the members read, with their hashes
 
     def __post_init__(self):
         self.fitted = {}

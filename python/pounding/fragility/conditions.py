@@ -82,7 +82,7 @@ def number_of_motions(axes: dict) -> int:
 
 def find(study: Study) -> list:
     """The conditions of a study; none where it names neither soils nor states. Throws StudyError."""
-    reader = Reader({key: value for key, value in study.named.items() if value is not None}, study.path, "",
+    reader = Reader({key: study.named[key] for key in ("soils", "states") if study.named[key] is not None}, study.path, "",
                      ("soils", "states"))
     if not reader.values:
         return []

@@ -1,12 +1,11 @@
 """The answer of a study over all of its soils and states: the largest of each number, and the condition that governs it."""
 
-from html import escape
 from pathlib import Path
 
 import numpy as np
 
 from pounding.fragility import Fragility, hclpf, moments, widened
-from pounding.plot.markup import answer_box, html_figure, html_table, write_page
+from pounding.plot.markup import answer_box, figure_parts, html_table, paragraphs, write_page
 from pounding.plot.style import WIDTH, WITH, WITHOUT, g_axis, log_scale, plt, save
 from pounding.tables import markdown, write_csv
 
@@ -221,12 +220,9 @@ def write(study: Study, analyses: dict, folder: Path) -> tuple:
     parts = [("Joint that would be needed [m]", tables["joint"]), ("Each soil and state", tables["conditions"]),
              ("What moves the answer", tables["sensitivity"]), ("Largest probability of each event", tables["probability"]),
              ("Capacity of high confidence and low probability of failure (HCLPF)", tables["hclpf"])]
-    content = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))
-    content += "".join(html_figure(folder, page) for page in pages)
-    for caption, rows in parts:
-        content += f"<h2>{escape(caption)}</h2>\n" + html_table("", *_cells(rows), text=(0,))
-    links = ", ".join(f'<a href="conditions/{escape(condition.folder)}/fragility.html">{escape(condition.title)}</a>'
-                      for condition in one.conditions)
-    content += f"<p>The study in each condition: {links}.</p>\n"
+    box = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))
+    shown = [*figure_parts(folder, pages), *((caption, html_table("", *_cells(rows), text=(0,))) for caption, rows in parts)]
+    each = ", ".join(f"conditions/{condition.folder}/fragility.html" for condition in one.conditions)
+    after = paragraphs([f"The study in each condition: {each}."])
     text = "\n".join(lines) + "\n\n" + "\n".join(markdown(caption, *_cells(rows)) for caption, rows in parts[:3])
-    return write_page(folder / "fragility.html", study.title, content, f"study {study.path.name}"), text
+    return write_page(folder / "fragility.html", study.title, shown, answer=box, after=after, under=f"study {study.path.name}"), text

@@ -13,7 +13,7 @@ from pounding.scenes import SceneError, flatten
 from .study_file import Reader, StudyError, beside, load
 
 KEYS = ("title", "scene", "output", "options", "reduction", "seed", "samples", "confidence", "motions", "levels",
-        "gaps", "apart", "joints", "soils", "states", "uncertainty", "exchange", "field_factors", "factors", "capacities",
+        "gaps", "apart", "joints", "soils", "states", "submittal", "uncertainty", "exchange", "field_factors", "factors", "capacities",
         "full_order", "frequencies", "dampings", "show")
 DAMPINGS = (0.02, 0.03, 0.04, 0.05, 0.07)
 SYNTHETIC = {"duration": "25", "envelope": "2,15"}
@@ -98,7 +98,7 @@ class Study:
     frequencies: list = field(default_factory=list)
     dampings: list = field(default_factory=list)
     show: dict = field(default_factory=dict)
-    named: dict = field(default_factory=dict)  # `soils` and `states` as the file has them, see conditions.py
+    named: dict = field(default_factory=dict)  # `soils`, `states` and `submittal` as the file has them
     uncertainty: float | None = None  # beta_U of capacities, given by the user
 
     @property
@@ -335,5 +335,5 @@ def read(path: Path) -> Study:
         reader.number("apart", max(1.0, 20 * gaps[-1]), gaps[-1]), joints, exchange, field_factors, _factors(reader),
         _capacities(reader, frequencies, dampings), full.number("share", 0.0, -1e-12, 1.0 + 1e-12),
         full.options("options"), full.number("noise", 1e-3, 0.0), frequencies, dampings,
-        _show(reader, gaps, levels), {key: reader.values.get(key) for key in ("soils", "states")},
+        _show(reader, gaps, levels), {key: reader.values.get(key) for key in ("soils", "states", "submittal")},
         reader.number("uncertainty", None, 0.0) if "uncertainty" in reader.values else None)

@@ -1,5 +1,6 @@
 """The report of a run: the answer first, then what was found, what was computed, and where it all comes from."""
 
+import shutil
 from pathlib import Path
 
 from pounding.results import Missing, Result
@@ -7,6 +8,8 @@ from pounding.scenes import SceneError, read_scene
 from . import (answer, contact_figures, design_spectra, equipment, floor_figures, force_figures, model_tables, origin_tables,
                result_tables, spectra_figures, view)
 from .markup import html_figures, html_view, paragraphs, write_page
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
 
 class _Drawn:
@@ -83,6 +86,14 @@ def write(result: Result, why: str = "", told=lambda name: None) -> tuple:
     path = write_page(result.folder / "report.html", origin_tables.title(result), parts, answer=box, before=before,
                       under=origin_tables.line(result))
     return drawn.count, drawn.skipped, path
+
+
+def require_browser(option: str) -> str:
+    """A browser that prints pages. Throws OSError."""
+    browser = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if not browser:
+        raise OSError(f"{option}: none of {', '.join(BROWSERS)} is there; print the page from any browser instead")
+    return browser
 
 
 def print_pdf(page: Path, browser: str, run) -> Path:

@@ -1,0 +1,187 @@
+"""The submittal of a study: question, answer, tables and figures that a review asks for, assumptions and what is not
+covered, on one page that prints to fifteen sheets at most."""
+
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from pounding.finished import digest
+from pounding.fragility import binomial_interval, widened
+from pounding.plot import design_spectra
+from pounding.plot.markup import answer_box, figure_parts, folded, html_table, paragraphs, write_page
+from pounding.tables import write_csv
+
+from .analysis import CONTACT
+from .envelope import Envelope, _cells, governs
+from .study import Study, given_options
+from .study_file import Reader
+
+KEYS = ("question", "design", "beyond", "not_covered")
+# Rows of docs/measurements/verification.md by options of the scene that use what they verify.
+FEATURES = {r"contacts": ("unmatched faces", "slab pounding"), r"\w+_soil_mat": ("soil",), r"\w+_soil_table": ("soil table",),
+            r"\w+_gap_deviation": ("gap field",), r"\w+_friction": ("friction",), r"\w+_damping_uniform": ("uniform damping",),
+            r"\w+_model": ("modal reduction",), r"\w+_p_delta": ("p delta",), r"supports": ("support motion",),
+            r"preload": ("static start",), r"\w+_filler": ("filler",), r"\w+_crushing": ("crushing",),
+            r"spectra_\w+": ("floor spectra",)}
+
+
+@dataclass(frozen=True)
+class Submittal:
+    """What the study says of it: the question, the design level and one beyond it [m/s2], what is not covered."""
+
+    question: str
+    design: float
+    beyond: float
+    not_covered: list = field(default_factory=list)
+
+
+def read(study: Study) -> Submittal | None:
+    """The block `submittal` of a study; None where it has none. Throws StudyError."""
+    values = study.named.get("submittal")
+    if values is None:
+        return None
+    reader = Reader(values, study.path, "submittal", KEYS)
+    design, beyond = (reader.number(key, default, 0.0) for key, default in (("design", study.levels[0]), ("beyond", study.levels[-1])))
+    for key, level in (("design", design), ("beyond", beyond)):
+        if level not in study.levels:
+            reader.fail(key, f"is none of the study's levels {', '.join(f'{one:g}' for one in study.levels)}")
+    lines = reader.values.get("not_covered") or []
+    if not isinstance(lines, list):
+        reader.fail("not_covered", "is no list of sentences")
+    question = str(reader.values.get("question") or f"Do the buildings of {study.title} touch, and what follows?")
+    return Submittal(question, design, beyond, [str(line) for line in lines])
+
+
+def answers(one: Envelope, told: Submittal) -> list:
+    """The answer at the design level and beyond it."""
+    lines, study = [], one.study
+    for words, level in dict.fromkeys((("at design level", told.design), ("beyond design", told.beyond))):
+        at = study.levels.index(level)
+        needed, place = one.governing([np.quantile(each.needed()[:, at], 0.84) for each in one.analyses.values()])
+        shares = []
+        for gap in study.gaps:
+            count, where = one.governing([int(each.hits(CONTACT, gap)[:, at].sum()) for each in one.analyses.values()])
+            shares.append(f"in a joint of {1e3 * gap:g} mm they touch in {count} of {study.samples} cases"
+                          + (f" ({governs(where)})" if len(one.conditions) > 1 and count else ""))
+        lines.append(f"{words.capitalize()} ({level:g} m/s²) {'; '.join(shares)}; a joint of {1e3 * needed:.3g} mm is wide enough "
+                     f"for 84 % of the cases" + (f" ({governs(place)})." if len(one.conditions) > 1 else "."))
+    return lines
+
+
+def open_points(one: Envelope) -> list:
+    """Doubts, refused motions and contradictions, each once: they stand on the first sheet."""
+    lines = [note for each in one.analyses.values() for note in each.notes if note.startswith("Doubt:") or "refused" in note]
+    wrong = sum(each.contradictions() for each in one.analyses.values())
+    lines += [f"Open: {wrong} members touch otherwise than the runs apart say."] if wrong else []
+    worst = max(float(abs(each.outcomes.residual).max()) for each in one.analyses.values())
+    lines += [f"Open: the energy balance of a member is off by {worst:.2g} of its largest term."] if worst > 1e-9 else []
+    return list(dict.fromkeys(lines))
+
+
+def spectra_rows(one: Envelope, told: Submittal) -> list:
+    """Envelope over soils and states of the 84 % spectra, widened, with pounding and without, at both levels."""
+    found, rows = one.first.outcomes, []
+    at = np.array([f for f in design_spectra.SHOWN if found.frequency[0] <= f <= found.frequency[-1]], float)
+    for channel_at, channel in enumerate(one.first.channels):
+        if channel not in one.first.main(found.spectra):
+            continue
+        for level in dict.fromkeys((told.design, told.beyond)):
+            for gap in (one.gap, None):
+                high = one.spectra(gap, level)[:, channel_at, one.damping].max(0)
+                wide = np.exp(np.interp(np.log(at), np.log(found.frequency), np.log(np.maximum(widened(found.frequency, high), 1e-300))))
+                rows.append({"floor": found.channels[channel], "level [m/s²]": level,
+                             "joint": "apart" if gap is None else f"{1e3 * gap:g} mm",
+                             **{f"{f:g} Hz": f"{value:.3g}" for f, value in zip(at, wide)}})
+    return rows
+
+
+def equipment_rows(one: Envelope, told: Submittal) -> list:
+    """How many members each item fails in, with and without pounding, at both levels, on the worst soil and in the worst
+    state, and the interval of that share."""
+    rows, study = [], one.study
+    for item in [*study.capacities, *one.first.equipment]:
+        row = {"item": item.name}
+        for words, level in dict.fromkeys((("design", told.design), ("beyond", told.beyond))):
+            at = study.levels.index(level)
+            for gap, joint in ((one.gap, "joint"), (None, "apart")):
+                count = max(int(each.hits(item, gap)[:, at].sum()) for each in one.analyses.values())
+                low, high = binomial_interval(np.array([count]), study.samples, study.confidence)
+                row[f"{words}, {joint}"] = f"{count} of {study.samples} ({100 * low[0]:.0f}-{100 * high[0]:.0f} %)"
+        rows.append(row)
+    return rows
+
+
+def assumptions(one: Envelope) -> list:
+    """Rows of subject and assumption, from the options of the study and its scene."""
+    study = one.study
+    options = {**given_options(study.scene), **study.options, **study.reduction}
+    motions = [f"{name}: {len(axis.records or axis.seeds)} {'records' if axis.records else f'synthetic motions to {Path(axis.target).name}'}"
+               for name, axis in study.axes.items()]
+    damping = sorted(f"{name}: {value}" for name, value in options.items() if re.fullmatch(r"\w+_(damping_(uniform|ratio|alpha|beta)|modal_damping)", name))
+    modes = sorted(f"{name}: {value}" for name, value in options.items() if name.endswith(("modal_vectors", "modal_cutoff")))
+    rows = [("Motions", "; ".join(motions) + f"; components of a sample correlated by less than {study.correlation:g}"),
+            ("Levels", ", ".join(f"{level:g}" for level in study.levels) + " m/s² (peak ground acceleration)"),
+            ("Soils", ", ".join(dict.fromkeys(condition.soil for condition in one.conditions))),
+            ("States", ", ".join(dict.fromkeys(condition.state for condition in one.conditions))),
+            ("Coherence", "supports move by a coherency model" if study.named.get("coherence") else "all supports move alike"),
+            ("Joint", ", ".join(f"{1e3 * gap:g} mm" for gap in study.gaps) + "; " + "; ".join(
+                f"{name}: deviation {'drawn' if joint.deviation else 'none'}, field {'drawn' if joint.field else 'none'}"
+                for name, joint in study.joints.items())),
+            ("Drawn beside the motion", ", ".join(one_of.name for one_of in study.factors) or "nothing"),
+            ("Damping", "; ".join(damping) or "none"), ("Reduction", "; ".join(modes) or "none: full order")]
+    if study.share:
+        rows.append(("Error of the reduction", f"{100 * study.share:g} % of the members repeated at full order, see full_order.csv"))
+    return rows
+
+
+def verification_rows(options: dict, page: Path) -> list:
+    """Rows of the verification page whose subject the scene's options use; none where the page is not there."""
+    names = {row for pattern, rows in FEATURES.items() for name, value in options.items()
+             if re.fullmatch(pattern, name) and value not in ("none", "full", "false", "0") for row in rows}
+    if not page.is_file():
+        return []
+    cells = [[cell.strip() for cell in line.strip("|\n ").split("|")] for line in page.read_text(encoding="utf-8").splitlines()
+             if line.startswith("| ")]
+    return [{"problem": row[0], "reference": row[2], "largest error (allowed)": row[3]} for row in cells
+            if len(row) == 5 and row[0] in names]
+
+
+def write(study: Study, analyses: dict, folder: Path) -> Path | None:
+    """Writes submittal.html beside the study's page, and its tables as CSV; None of a study without a submittal."""
+    told = read(study)
+    if told is None:
+        return None
+    one = Envelope(study, analyses)
+    spectra, items = spectra_rows(one, told), equipment_rows(one, told)
+    for name, rows in (("submittal_spectra", spectra), ("submittal_equipment", items)):
+        if rows:
+            write_csv(folder / f"{name}.csv", rows)
+    options = {**given_options(study.scene), **study.options, **study.reduction}
+    page = Path(__file__).resolve().parents[3] / "docs" / "measurements" / "verification.md"
+    inputs = {path: found for each in analyses.values() for path, found in each.inputs.items()}
+    inputs[str(study.path)] = digest(study.path)
+    touched = any(each.hits(CONTACT, gap).any() for each in analyses.values() for gap in study.gaps)
+    points = open_points(one)
+    missing = [] if study.named.get("coherence") else ["Motions that differ from mat to mat (coherence)."]
+    missing += [f"Other {word} than the one given." for word, key in (("soils", "soil"), ("states of the concrete", "state"))
+                if len({condition.place[key] for condition in one.conditions}) == 1]
+    joint = [row for row in one.joint_rows() if row["pga [m/s2]"] in (told.design, told.beyond)]
+    parts = [("The joint that is needed [m]", html_table("", *_cells(joint), text=(0,))),
+             (f"Floor spectra for design: 84 % of the cases, the envelope of soils and states, widened by 15 %, "
+              f"{100 * one.first.outcomes.damping[one.damping]:g} % damping [m/s²]", html_table("", *_cells(spectra), text=(0, 2))),
+             *figure_parts(folder, one.draw_spectra(folder)),
+             ("Equipment that fails: cases on the worst soil and in the worst state", html_table("", *_cells(items), text=(0,))),
+             *figure_parts(folder, one.draw_sensitivity(one.sensitivity_rows(), folder)),
+             ("Assumptions", html_table("", ["subject", "assumption"], assumptions(one), text=(0, 1))),
+             ("Not covered", paragraphs([*told.not_covered, *missing])),
+             ("Verification of what is used", html_table("", *_cells(verification_rows(options, page)), text=(0, 1, 2))),
+             ("Annex: files and their hashes", html_table("", ["file", "SHA-256"], sorted(
+                 (Path(path).name, found[:16]) for path, found in inputs.items()), text=(0,), hashes=(1,))),
+             ("Annex: options", folded("options of the study beside its scene", [html_table(
+                 "", ["option", "value"], sorted((name, value) for name, value in {**study.options, **study.reduction}.items()), text=(0, 1))]))]
+    box = answer_box([told.question, *answers(one, told)], touched)
+    before = paragraphs(points or ["No doubt and no open check."], "Doubts and open checks", "note")
+    return write_page(folder / "submittal.html", f"{study.title}: submittal", parts, answer=box, before=before,
+                      under=f"study {study.path.name}")
