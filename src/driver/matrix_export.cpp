@@ -259,12 +259,12 @@ class Export {
 /// Dashpots whose force is no matrix times the rates of their ends.
 void refuse_dashpots(const Structure& structure) {
   for (const Region& region : structure.regions) {
-    const bool power = region.nonlinear.dashpot_exponent != 1;
-    if (!power && !region.nonlinear.has_series()) continue;
-    throw UserError("option -export_matrices: structure " + structure.name + ": the dashpots of " +
-                    region.group +
-                    (power ? " go by a power of the rate" : " are in series with springs") +
-                    ", which no matrix holds");
+    if (!(has_power | has_series)(region)) continue;
+    throw UserError(
+        "option -export_matrices: structure " + structure.name + ": the dashpots of " +
+        region.group +
+        (has_power(region) ? " go by a power of the rate" : " are in series with springs") +
+        ", which no matrix holds");
   }
 }
 
@@ -272,8 +272,7 @@ void refuse_dashpots(const Structure& structure) {
 
 void export_matrices(MPI_Comm comm, const Scene& scene, const Model& model) {
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    const bool by_links = model.systems[s].links && model.systems[s].links->hold_stiffness();
-    if (by_links || !model.systems[s].laws.empty()) {
+    if (std::ranges::any_of(scene.structures[s].regions, is_nonlinear)) {
       throw UserError(
           "option -export_matrices: structure " + model.systems[s].name +
           " has tension-only bars, compression-only springs or elements that yield, which no "

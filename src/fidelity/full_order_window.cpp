@@ -331,8 +331,8 @@ std::string without_window(const Scene& scene) {
       return "the damping ratios of modes of " + structure.name + " are none of its full order";
     }
     for (const Region& region : structure.regions) {
-      if (follows_law(region) || (has_element_law(region) && structure.modal) ||
-          region.nonlinear.has_series() || region.nonlinear.dashpot_exponent != 1) {
+      const LawTrait in_modes = structure.modal ? has_element_law : LawTrait{};
+      if ((follows_law | has_power | has_series | in_modes)(region)) {
         return "group " + region.group + " of " + structure.name + " is not linear";
       }
     }

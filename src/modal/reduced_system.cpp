@@ -156,6 +156,7 @@ LinearSystem build_reduced_system(MPI_Comm comm, int owner, const Structure& str
   system.links = Links::build(structure, mesh);
   if (system.links) system.links->find_trace(system, mesh);
   system.laws = inelastic_laws(structure, mesh);
+  system.has_laws_beside = std::ranges::any_of(structure.regions, follows_law | has_element_law);
   return system;
 }
 

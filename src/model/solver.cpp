@@ -184,8 +184,7 @@ std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSys
     // nothing bounds the motion by a wave from below, supports of its own or loads, nor about a
     // rest that yielded.
     if (system.supports || system.loads || !system.rest_law_force.empty() ||
-        system.has_laws(true) ||
-        (system.links && (system.links->hold_stiffness() || system.links->driven())) ||
+        system.has_laws_beside || (system.links && system.links->driven()) ||
         !(energy_margins[s] > 0)) {
       bounds[s].rate_norm = std::numeric_limits<double>::infinity();
       continue;

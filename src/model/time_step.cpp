@@ -44,8 +44,7 @@ void choose_automatically(const Scene& scene, const StepLimits& limits, Model& m
 
 /// Dashpots in series with springs make vibrations that modes, which leave them out, do not show.
 bool hides_vibrations(const Structure& structure) {
-  return std::ranges::any_of(structure.regions,
-                             [](const Region& region) { return region.nonlinear.has_series(); });
+  return std::ranges::any_of(structure.regions, has_series);
 }
 
 /// Upper bound of the part that those springs have in omega^2 while their dashpots hold: largest

@@ -25,8 +25,7 @@ bool has_history(const ForceItem& force) {
 /// Refuses a total of a reduced structure whose links are beside modes that hold them at their
 /// stiffest.
 void refuse_relieved(const ForceItem& force, const LinearSystem& system) {
-  const bool apart = system.has_laws(true) || (system.links && system.links->hold_stiffness());
-  if (!system.generalised || !apart) return;
+  if (!system.generalised || !system.has_laws_beside) return;
   throw UserError("option -" + force.name + "_kind: structure " + force.structure +
                   " is reduced and has elements that yield or act in one direction only; give -" +
                   force.structure + "_model full, or -loops for these elements");

@@ -103,7 +103,7 @@ void look_at_region(const std::string& structure, const Region& region, Doubts& 
   if (is_shell(region.element)) {
     doubts.look_at(owner, thickness, region.thickness);
   }
-  if (region.yielding_shell.any() && region.drilling_factor > most_beside_yielding) {
+  if (has_element_law(region) && region.drilling_factor > most_beside_yielding) {
     doubts.add(
         owner +
         ": it yields or cracks, and the stiffness against turning about its normal does not: "
@@ -175,13 +175,13 @@ void look_at_links(const Structure& structure, const Region& region, Doubts& dou
                ", across its plane: it holds only by the pressure of the motion; give -gravity and "
                "-preload static");
   }
-  if (region.nonlinear.has_series() && structure.starts_displaced()) {
+  if (has_series(region) && structure.starts_displaced()) {
     doubts.add(owner +
                "its dashpots in series with springs start let go, as long after the displacement "
                "was given: these springs carry nothing of it");
   }
   if (structure.modal && structure.modal->damping_ratios.empty() && structure.damping.beta > 0 &&
-      region.nonlinear.option() != nullptr) {
+      region.nonlinear.yields()) {
     doubts.add(owner +
                "yields in modes, whose stiffness damping (beta) acts on it as well: it moves less "
                "than at full order; give -" +

@@ -74,15 +74,6 @@ struct YieldingSection {
   /// N_y [N] and a: an axial force N leaves 1 - (|N| / N_y)^a of the strength in bending; 0: all.
   double axial_strength = 0;
   double axial_exponent = 1;
-
-  bool any() const { return shear[0] || shear[1] || bending[0] || bending[1]; }
-  /// The option that gave the first of them.
-  const char* option() const {
-    if (shear[0]) return "<structure>_<group>_shear_skeleton_y";
-    if (shear[1]) return "<structure>_<group>_shear_skeleton_z";
-    return bending[0] ? "<structure>_<group>_bending_skeleton_y"
-                      : "<structure>_<group>_bending_skeleton_z";
-  }
 };
 
 /// A law in another unit of elongation: each elongation times `length`, forces times `strength`.
@@ -102,12 +93,6 @@ struct ShellCracking {
 struct YieldingShell {
   std::optional<Hysteresis> shear;  ///< stress [Pa] over the shear strain in the plane
   std::optional<ShellCracking> cracking;
-
-  bool any() const { return shear || cracking; }
-  /// The option that gave it.
-  const char* option() const {
-    return shear ? "<structure>_<group>_shear_skeleton" : "<structure>_<group>_cracking_force";
-  }
 };
 
 /// Nonlinear behaviour of springs and bars, beyond their stiffness, as the user gives it.
@@ -130,10 +115,6 @@ struct NonlinearSpring {
   /// strain. Without breaks the skeleton is that of yield force and hardening.
   Hysteresis law;
 
-  /// Some dashpot is in series with a spring.
-  bool has_series() const {
-    return std::ranges::any_of(dashpot_stiffness, [](double stiffness) { return stiffness > 0; });
-  }
   bool has_circle() const { return circle[0] != circle[1]; }
   bool is_in_circle(std::size_t component) const {
     return has_circle() &&
@@ -143,22 +124,13 @@ struct NonlinearSpring {
   bool yields(std::size_t component) const {
     return yield_force[component] > 0 || (friction > 0 && is_in_circle(component));
   }
-  /// The option by which its force is no longer that of its stiffness; null: it is.
-  const char* option() const {
-    if (friction > 0) return "<structure>_<group>_sliding_friction";
-    if (has_skeleton()) return "<structure>_<group>_skeleton";
-    return yields() ? "<structure>_<group>_yield_force" : nullptr;
-  }
   bool has_skeleton() const { return !law.positive.breaks.empty(); }
   /// Whether a component yields at a force of its own, by a law in one dimension.
   bool yields_alone(std::size_t component) const {
     return yield_force[component] > 0 && !is_in_circle(component);
   }
   bool yields() const {
-    for (std::size_t c = 0; c < yield_force.size(); ++c) {
-      if (yields(c)) return true;
-    }
-    return false;
+    return friction > 0 || std::ranges::any_of(yield_force, [](double force) { return force > 0; });
   }
 };
 

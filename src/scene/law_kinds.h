@@ -8,6 +8,42 @@
 
 namespace pounding {
 
+struct LawKind;
+
+/// A question to the laws of a region: whether one of them has this property, or one of several.
+struct LawTrait {
+  unsigned bits = 0;
+
+  bool operator()(const Region& region) const { return of(region) != nullptr; }
+  /// The first kind of law of a region that has it; null: none.
+  const LawKind* of(const Region& region) const;
+};
+
+constexpr LawTrait operator|(LawTrait a, LawTrait b) {
+  return {a.bits | b.bits};
+}
+
+/// Elements whose force is not K u, whether or not K holds their first slope.
+inline constexpr LawTrait is_nonlinear{1};
+/// Elements whose stiffness, or some of it, is no part of K.
+inline constexpr LawTrait follows_law{2};
+/// Elements whose force in one direction is none.
+inline constexpr LawTrait is_one_way{4};
+/// Elements whose force follows from their displacements and history alone, see InelasticElements.
+inline constexpr LawTrait has_element_law{8};
+/// Elements that cannot be in a reduced structure.
+inline constexpr LawTrait is_full_order{16};
+/// Dashpots whose force is no matrix times the rates of their ends.
+inline constexpr LawTrait has_power{32};
+inline constexpr LawTrait has_series{64};
+
+/// A kind of law that elements have beside K u, an option each: a line of a list in law_kinds.cpp.
+struct LawKind {
+  const char* option;
+  bool (*is_of)(const Region&);
+  LawTrait traits;
+};
+
 /// Law in one dimension that a motion of an element follows by its elongation and history alone.
 struct OwnLaw {
   std::string name;      ///< of the motion: "axial", "rx", "shear_y" say
@@ -18,9 +54,5 @@ struct OwnLaw {
 
 /// Laws of the elements of a region, in the order in which they are numbered.
 std::vector<OwnLaw> own_laws(const Region& region);
-
-/// Elements that follow an element law, see InelasticElements: those with laws of their own, and
-/// shells that crack.
-bool has_element_law(const Region& region);
 
 }  // namespace pounding

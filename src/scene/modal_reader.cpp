@@ -23,13 +23,10 @@ void refuse_couplings(const OptionReader& options, const Structure& structure) {
     const std::string remedy = "not in a structure with -" + option_name(model, {structure.name}) +
                                " modal; leave it out, or give -" +
                                option_name(model, {structure.name}) + " full";
-    if (region.yielding_shell.any()) {
-      options.forbid(law_option(region), names, remedy);
-    }
-    options.forbid("<structure>_<group>_bending_axial", names, remedy);
+    if (const auto* law = is_full_order.of(region)) options.forbid(law->option, names, remedy);
     if (is_nonlinear(region) && structure.uniform_damping) {
       options.forbid(
-          law_option(region), names,
+          is_nonlinear.of(region)->option, names,
           "not with -" + option_name(model, {structure.name}) + " modal and -" + structure.name +
               "_damping_uniform, which would damp slack and yielding elements; leave one of "
               "the three out");

@@ -174,35 +174,9 @@ struct Region {
   }
 };
 
-/// Elements whose force in one direction is none: tension-only bars, compression-only springs.
-inline bool is_one_way(const Region& region) {
-  return region.element == ElementType::tension_bar || region.compression_only;
-}
-
 /// Beams that bend by shear as well.
 inline bool is_flexible_in_shear(const Region& region) {
   return region.element == ElementType::beam && region.section->shear_area_y > 0;
-}
-
-/// Elements whose stiffness, or some of it, is no part of K: one-way ones, springs and bars that
-/// yield.
-inline bool follows_law(const Region& region) {
-  return is_one_way(region) || region.nonlinear.yields();
-}
-
-/// Elements whose force is not K u, whether or not K holds their first slope.
-inline bool is_nonlinear(const Region& region) {
-  return follows_law(region) || region.nonlinear.option() != nullptr || region.yielding.any() ||
-         region.yielding_shell.any();
-}
-
-/// The option that makes a region nonlinear.
-inline const char* law_option(const Region& region) {
-  if (region.yielding.any()) return region.yielding.option();
-  if (region.yielding_shell.any()) return region.yielding_shell.option();
-  if (region.compression_only) return "<structure>_<group>_compression_only";
-  const char* const option = region.nonlinear.option();
-  return option != nullptr ? option : "<structure>_<group>_tension_only";
 }
 
 }  // namespace pounding

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "common/types.h"
+#include "scene/law_kinds.h"
 #include "scene/option_row.h"
-#include "scene/region.h"
 #include "scene/soil.h"
 #include "scene/uniform_damping.h"
 

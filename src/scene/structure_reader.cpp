@@ -177,7 +177,7 @@ void forbid_laws(const OptionReader& options, const Structure& structure) {
                      "not with -" + structure.name + "_matrices");
     }
     if (!structure.matrices.empty() && is_nonlinear(region)) {
-      options.refuse(law_option(region), {structure.name, region.group},
+      options.refuse(is_nonlinear.of(region)->option, {structure.name, region.group},
                      "not with -" + structure.name + "_matrices");
     }
   }

@@ -139,9 +139,10 @@ void require_plain(const OptionReader& options, const Scene& scene, const Suppor
   if (!structure.modal->basis_file.empty()) refuse_with("_modal_basis");
   for (const Region& region : structure.regions) {
     if (is_nonlinear(region)) {
-      refuse_groups(options, support,
-                    "structure " + structure.name + " is reduced: not with -" +
-                        option_name(law_option(region), {structure.name, region.group}));
+      refuse_groups(
+          options, support,
+          "structure " + structure.name + " is reduced: not with -" +
+              option_name(is_nonlinear.of(region)->option, {structure.name, region.group}));
     }
   }
 }

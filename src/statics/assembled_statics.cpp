@@ -167,7 +167,7 @@ AssembledStatics::AssembledStatics(const LinearSystem& system, const Mesh& mesh,
     std::erase_if(others, carries);
     add_links(others, -1, first, matrix_.get());
   }
-  if (held == Held::elements && system.has_laws(true)) {
+  if (held == Held::elements && system.has_laws_beside) {
     add_law_stiffness(system, mesh, -1, matrix_.get());
     POUNDING_PETSC(MatAssemblyBegin(matrix_.get(), MAT_FINAL_ASSEMBLY));
     POUNDING_PETSC(MatAssemblyEnd(matrix_.get(), MAT_FINAL_ASSEMBLY));

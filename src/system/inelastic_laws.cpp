@@ -366,8 +366,8 @@ std::vector<char> dofs_of_laws(const std::vector<interactions::RegionLaw>& laws,
 
 bool add_law_forces(const LinearSystem& system, bool apart, const Mesh& mesh,
                     const std::vector<double>& displacement, std::span<double> force) {
+  if (!system.has_laws(apart)) return false;
   const std::vector<char> acted_on = dofs_of_laws(system.laws, apart, mesh);
-  if (acted_on.empty()) return false;
   std::optional<Trace> trace;  // of a body in generalised coordinates, and its places
   std::vector<LocalIndex> places;
   std::vector<double> all;

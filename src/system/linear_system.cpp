@@ -30,6 +30,7 @@ LinearSystem describe_system(const Structure& structure, const Mesh& mesh) {
   system.initial_velocity = structure.initial_velocity;
   system.gravity = structure.gravity;
   system.global_dofs = mesh.global_dofs;
+  system.has_laws_beside = std::ranges::any_of(structure.regions, follows_law);
   return system;
 }
 

@@ -124,6 +124,9 @@ struct LinearSystem {
   Mat stiffest_matrix() const { return stiffest().matrix(); }
   /// Factor of K for the fastest motions [-].
   double stiffening() const { return uniform_damping ? uniform_damping->at_once() : 1; }
+  /// Elements that yield or act in one direction only resist with what K does not hold, or with
+  /// less than the modes do.
+  bool has_laws_beside = false;
   /// Some elements follow laws apart, see RegionLaw.
   bool has_laws(bool apart) const {
     return std::ranges::find(laws, apart, &interactions::RegionLaw::apart) != laws.end();

@@ -26,8 +26,6 @@ std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh
   for (const ElementBlock& block : mesh.blocks) {
     if (!interactions::has_links(structure.regions[block.region])) continue;
     count += block.global_count;
-    const Region& region = structure.regions[block.region];
-    found->hold_stiffness_ = found->hold_stiffness_ || follows_law(region);
     for (std::size_t e = 0; e < block.count(); ++e) {
       if (block.type == ElementType::soil) {
         found->add_soil(structure, mesh, block, e);
@@ -209,7 +207,7 @@ void Links::find_trace(const LinearSystem& system, const Mesh& mesh) {
 std::vector<TracePoint> section_points(const Structure& structure, const GlobalMesh& mesh) {
   std::vector<TracePoint> points;
   for (const ElementSet& set : mesh.regions) {
-    if (!structure.regions[set.region].yielding.any()) continue;
+    if (!is_beam(set.type) || !has_element_law(structure.regions[set.region])) continue;
     for (const GlobalIndex node : set.connectivity) {
       for (int c = 0; c < 6; ++c) points.push_back({node, c});
     }

@@ -61,8 +61,6 @@ class Links {
   const Trace& trace() const { return *trace_; }
   const std::vector<LocalIndex>& dofs() const { return dofs_; }  ///< of the mesh, per place of it
   const std::vector<TracePoint>& points() const { return points_; }  ///< likewise, in file order
-  /// Some link of some rank, or spring or bar that yields, holds stiffness that is no part of K.
-  bool hold_stiffness() const { return hold_stiffness_; }
   /// A wave enters through some link of some rank.
   bool driven() const { return driven_; }
 
@@ -80,7 +78,6 @@ class Links {
   /// Keeps a link whose places are local dofs as yet, if this rank owns those that can move.
   void keep(const Mesh& mesh, const ElementBlock& block, std::size_t element, const Link& link);
 
-  bool hold_stiffness_ = false;
   bool driven_ = false;
   std::vector<Link> links_;
   std::vector<LocalIndex> dofs_;    ///< per place of the trace, increasing
