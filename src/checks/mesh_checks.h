@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "checks/doubts.h"
+#include "common/doubts.h"
 #include "mesh/connectivity.h"
 #include "mesh/global_mesh.h"
 #include "scene/scene.h"

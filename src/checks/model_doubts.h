@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "checks/doubts.h"
+#include "common/doubts.h"
 #include "mesh/global_mesh.h"
 #include "model/model.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "checks/doubts.h"
+#include "common/doubts.h"
 #include "motion/synthetic.h"
 #include "observers/recorder.h"
 #include "observers/run_statistics.h"

@@ -6,7 +6,7 @@
 
 #include <mpi.h>
 
-#include "checks/doubts.h"
+#include "common/doubts.h"
 #include "mesh/global_mesh.h"
 #include "model/model.h"
 

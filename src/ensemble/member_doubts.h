@@ -7,7 +7,7 @@
 
 #include <mpi.h>
 
-#include "checks/doubts.h"
+#include "common/doubts.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/member_scene.h"
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
+
+#include "common/doubts.h"
 
 namespace pounding {
 namespace {
@@ -42,50 +43,43 @@ constexpr Plausible likely_gravity{"gravity", 1.5, 30, "m/s2", "is it in g or cm
 constexpr Plausible gyration{"radius of gyration", 1e-3, 20, "m",
                              "do area and inertias have one unit of length?"};
 
-/// Collects lines; a material or section that several groups share is looked at once.
-class Doubts {
+/// Looks at values; a material or section that several groups share is looked at once.
+class SceneDoubts : public Doubts {
  public:
-  void add(const std::string& line) { lines_.push_back(line); }
+  using Doubts::Doubts;
 
-  void look_at(const std::string& owner, const Plausible& range, double value) {
+  void look_at(const std::string& owner, const Plausible& range, double value) const {
     if (value >= range.low && value <= range.high) return;
-    std::ostringstream text;
-    text << owner << ": " << range.what << " " << value << " " << range.unit << " is outside "
-         << range.low << " to " << range.high << " " << range.unit << "; " << range.hint;
-    add(text.str());
+    add(owner, "{} {} {} is outside {} to {} {}; {}",
+        {range.what, value, range.unit, range.low, range.high, range.unit, range.hint});
   }
 
   void look_at(const Material& material) {
     const std::string owner = "material " + material.name;
-    if (seen_.insert(owner).second) {
-      look_at(owner, young, material.young);
-      if (material.density > 0) {
-        look_at(owner, density, material.density);
-      } else {
-        add(owner + ": no density, its beams and bars weigh nothing but their mass_per_length");
-      }
-      look_at(owner, poisson, material.poisson);
+    if (!seen_.insert(owner).second) return;
+    look_at(owner, young, material.young);
+    if (material.density > 0) {
+      look_at(owner, density, material.density);
+    } else {
+      add(owner, "no density, its beams and bars weigh nothing but their mass_per_length");
     }
+    look_at(owner, poisson, material.poisson);
   }
 
   void look_at(const Section& section) {
     const std::string owner = "section " + section.name;
-    if (seen_.insert(owner).second) {
-      look_at(owner + ", sqrt(inertia_y / area)", gyration,
-              std::sqrt(section.inertia_y / section.area));
-      look_at(owner + ", sqrt(inertia_z / area)", gyration,
-              std::sqrt(section.inertia_z / section.area));
-    }
+    if (!seen_.insert(owner).second) return;
+    look_at(owner + ", sqrt(inertia_y / area)", gyration,
+            std::sqrt(section.inertia_y / section.area));
+    look_at(owner + ", sqrt(inertia_z / area)", gyration,
+            std::sqrt(section.inertia_z / section.area));
   }
 
-  const std::vector<std::string>& lines() const { return lines_; }
-
  private:
-  std::vector<std::string> lines_;
   std::set<std::string> seen_;
 };
 
-void look_at_region(const std::string& structure, const Region& region, Doubts& doubts) {
+void look_at_region(const std::string& structure, const Region& region, SceneDoubts& doubts) {
   const std::string owner = structure + ", group " + region.group;
   doubts.look_at(owner, bearing_friction, region.nonlinear.friction);
   if (region.nonlinear.radius > 0) {
@@ -94,7 +88,7 @@ void look_at_region(const std::string& structure, const Region& region, Doubts& 
   const bool dashpot_alone = is_bar(region.element) && !(region.area > 0);
   if (!has_extent(region.element) || dashpot_alone) return;
   if (const std::string_view caution = traits_of(region.element).caution; !caution.empty()) {
-    doubts.add(owner + ": " + std::string(caution));
+    doubts.add(owner, "{}", {caution});
   }
   doubts.look_at(region.material);
   if (region.section) {
@@ -104,10 +98,9 @@ void look_at_region(const std::string& structure, const Region& region, Doubts& 
     doubts.look_at(owner, thickness, region.thickness);
   }
   if (has_element_law(region) && region.drilling_factor > most_beside_yielding) {
-    doubts.add(
-        owner +
-        ": it yields or cracks, and the stiffness against turning about its normal does not: "
-        "it carries shear along edges that do not turn; give drilling_factor 0.01");
+    doubts.add(owner,
+               "it yields or cracks, and the stiffness against turning about its normal does not: "
+               "it carries shear along edges that do not turn; give drilling_factor 0.01");
   }
   if (is_bar(region.element)) {
     doubts.look_at(owner, bar_area, region.area);
@@ -118,7 +111,7 @@ void look_at_region(const std::string& structure, const Region& region, Doubts& 
   }
 }
 
-void look_at_contact(const Contact& contact, Doubts& doubts) {
+void look_at_contact(const Contact& contact, SceneDoubts& doubts) {
   const std::string owner = "contact " + contact.name;
   doubts.look_at(owner, contact_friction, contact.friction);
   if (contact.crushes()) {
@@ -128,67 +121,66 @@ void look_at_contact(const Contact& contact, Doubts& doubts) {
   }
 }
 
-void look_at_support(const Scene& scene, const Support& support, Doubts& doubts) {
+void look_at_support(const Scene& scene, const Support& support, SceneDoubts& doubts) {
   const std::string owner = "support " + support.name;
   doubts.look_at(owner, delay, support.delay);
   if (support.delay > 0 && support.delay >= scene.end_time) {
-    std::ostringstream text;
-    text << owner << ": the motion arrives after " << support.delay << " s, the run ends at "
-         << scene.end_time << " s: it is at rest all the time";
-    doubts.add(text.str());
+    doubts.add(owner,
+               "the motion arrives after {} s, the run ends at {} s: it is at rest all the time",
+               {support.delay, scene.end_time});
   }
 }
 
 /// Strength and direction of gravity.
-void look_at_direction(const Structure& structure, Doubts& doubts) {
+void look_at_direction(const Structure& structure, SceneDoubts& doubts) {
   const auto& [x, y, z] = structure.gravity;
   const double strength = std::hypot(x, y, z);
   if (strength == 0) return;
   doubts.look_at("structure " + structure.name, likely_gravity, strength);
   if (z > 0) {
-    doubts.add("structure " + structure.name +
-               ": its gravity acts upwards, along z; -z is downwards");
+    doubts.add("structure " + structure.name, "its gravity acts upwards, along z; -z is downwards");
   }
 }
 
 /// Gravity without a static start: a held structure that gets its weight at once swings about its
 /// sag.
-void look_at_gravity(const Structure& structure, Doubts& doubts) {
+void look_at_gravity(const Structure& structure, SceneDoubts& doubts) {
   bool dropped = false;
   for (std::size_t d = 0; d < 3; ++d) {
     dropped = dropped || (structure.gravity[d] != 0 && is_held(structure, d));
   }
   if (!dropped) return;
-  doubts.add("structure " + structure.name +
-             ": gravity acts at once at t = 0 on a structure that is held: a drop test, it swings "
+  doubts.add("structure " + structure.name,
+             "gravity acts at once at t = 0 on a structure that is held: a drop test, it swings "
              "about its sagging by as much again; give -preload static, leave gravity out, or let "
              "this die away before -spectra_start and the motion");
 }
 
 /// A region that holds by the pressure on it, where no weight does; dashpots in series with springs
 /// whose structure starts displaced; springs that yield in modes.
-void look_at_links(const Structure& structure, const Region& region, Doubts& doubts) {
-  const std::string owner = "structure " + structure.name + ", group " + region.group + ": ";
+void look_at_links(const Structure& structure, const Region& region, SceneDoubts& doubts) {
+  const std::string owner = "structure " + structure.name + ", group " + region.group;
   const auto across = static_cast<std::size_t>(region.nonlinear.circle[2]);
   if (region.nonlinear.friction > 0 && structure.gravity[across] == 0) {
-    doubts.add(owner + "slides, but no gravity acts along " + "xyz"[across] +
-               ", across its plane: it holds only by the pressure of the motion; give -gravity and "
-               "-preload static");
+    doubts.add(owner,
+               "slides, but no gravity acts along {}, across its plane: it holds only by the "
+               "pressure of the motion; give -gravity and -preload static",
+               {std::string(1, "xyz"[across])});
   }
   if (has_series(region) && structure.starts_displaced()) {
-    doubts.add(owner +
+    doubts.add(owner,
                "its dashpots in series with springs start let go, as long after the displacement "
                "was given: these springs carry nothing of it");
   }
   if (structure.modal && structure.modal->damping_ratios.empty() && structure.damping.beta > 0 &&
       region.nonlinear.yields()) {
-    doubts.add(owner +
+    doubts.add(owner,
                "yields in modes, whose stiffness damping (beta) acts on it as well: it moves less "
-               "than at full order; give -" +
-               structure.name + "_modal_damping or -" + structure.name + "_model full");
+               "than at full order; give -{}_modal_damping or -{}_model full",
+               {structure.name, structure.name});
   }
   if (region.compression_only && is_spring(region.element) && !(structure.gravity[2] < 0)) {
-    doubts.add(owner +
+    doubts.add(owner,
                "pushes up only, but no gravity presses down on it: it lifts off at once and holds "
                "nothing; give -gravity and -preload static");
   }
@@ -206,7 +198,8 @@ bool is_held(const Structure& structure, std::size_t direction) {
 }
 
 std::vector<std::string> scene_doubts(const Scene& scene) {
-  Doubts doubts;
+  std::vector<std::string> lines;
+  SceneDoubts doubts(lines);
   for (const Structure& structure : scene.structures) {
     for (const Region& region : structure.regions) {
       look_at_region("structure " + structure.name, region, doubts);
@@ -223,7 +216,7 @@ std::vector<std::string> scene_doubts(const Scene& scene) {
   }
   for (const Contact& contact : scene.contacts) look_at_contact(contact, doubts);
   for (const Support& support : scene.supports) look_at_support(scene, support, doubts);
-  return doubts.lines();
+  return lines;
 }
 
 }  // namespace pounding

@@ -82,10 +82,10 @@ std::string help_text(const std::string& about) {
 }
 
 std::string help_json() {
-  using Json = nlohmann::ordered_json;
+  using Value = nlohmann::ordered_json;
   constexpr std::array kinds{"text", "names", "choice", "boolean", "integer", "real", "reals"};
-  const auto bound = [](double number) { return std::isfinite(number) ? Json(number) : Json(); };
-  Json options = Json::array();
+  const auto bound = [](double number) { return std::isfinite(number) ? Value(number) : Value(); };
+  Value options = Value::array();
   for (const OptionRow& row : option_table()) {
     const Preset& preset = row.preset;
     options.push_back({{"name", row.pattern},
@@ -93,7 +93,7 @@ std::string help_json() {
                        {"kind", kinds[static_cast<std::size_t>(row.kind)]},
                        {"unit", row.unit},
                        {"required", preset.required},
-                       {"default", preset.has_value ? Json(preset.text) : Json()},
+                       {"default", preset.has_value ? Value(preset.text) : Value()},
                        {"absent", preset.has_value ? "" : preset.text},
                        {"range", row.range.text()},
                        {"low", bound(row.range.low)},
