@@ -181,13 +181,10 @@ class Ensemble {
       limits.stable = std::min(limits.stable, own.stable);
       limits.resolved = faster(limits.resolved, own.resolved);
       if (scene_.time_step > own.stable) {
-        char text[160];
-        std::snprintf(
-            text, sizeof text,
-            "option -time_step %g s: above its stable time step %g s; give a smaller one, "
-            "or leave it out",
-            scene_.time_step, own.stable);
-        throw UserError(table_.place(m) + text);
+        throw UserError(table_.place(m) +
+                        sentence("option -time_step {} s: above its stable time step {} s; give a "
+                                 "smaller one, or leave it out",
+                                 {scene_.time_step, own.stable}));
       }
     }
     choose_time_step(scene_, limits, shared_);
@@ -216,9 +213,7 @@ class Ensemble {
     for (std::string& line : identity_of_files(comm_, read_.resolved, table_, opened)) {
       layout_.identity.push_back(std::move(line));
     }
-    char step[60];
-    std::snprintf(step, sizeof step, "time step %.17g s", shared_.time_step);
-    layout_.identity.emplace_back(step);
+    layout_.identity.push_back(sentence("time step {:.17g} s", {shared_.time_step}));
   }
 
   /// Prints the doubts that single runs of the members would have. Collective.
@@ -239,22 +234,19 @@ class Ensemble {
     double available = available_memory();
     MPI_Bcast(&available, 1, MPI_DOUBLE, 0, comm_);
     if (wanted <= available) return;
-    char text[300];
-    std::snprintf(text, sizeof text,
-                  "option -ensemble: eight histories of %zu channels on each of %d ranks take %.1f "
-                  "GB, %.1f are free; give a larger -output_interval, fewer probes, or fewer ranks",
-                  layout_.channels.size(), size_of(comm_), wanted / 1e9, available / 1e9);
-    throw UserError(text);
+    throw UserError(sentence(
+        "option -ensemble: eight histories of {} channels on each of {} ranks take {:.1f} GB, "
+        "{:.1f} are free; give a larger -output_interval, fewer probes, or fewer ranks",
+        {layout_.channels.size(), size_of(comm_), wanted / 1e9, available / 1e9}));
   }
 
   void print_plan() const {
-    std::printf(
-        "ensemble %s: %zu members, %zu at a time on each rank; time step %.6g s, %lld steps\n",
-        table_.file.c_str(), members_.size(), batch_size, shared_.time_step,
-        static_cast<long long>(shared_.steps));
-    std::printf("  %s\n", step_source_text(scene_, shared_).c_str());
-    std::printf("  histories in memory: %.0f MB per rank\n",
-                BatchRecorder::memory(layout_.channels.size(), times_) / 1e6);
+    print(sentence(
+        "ensemble {}: {} members, {} at a time on each rank; time step {:.6g} s, {} steps\n  {}\n"
+        "  histories in memory: {:.0f MB} per rank\n",
+        {table_.file, members_.size(), batch_size, shared_.time_step, shared_.steps,
+         step_source_text(scene_, shared_),
+         BatchRecorder::memory(layout_.channels.size(), times_)}));
   }
 
   void open_file() {

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <sstream>
 #include <stdexcept>
 
 #include "common/error.h"
+#include "common/facts.h"
 #include "common/parallel.h"
 #include "observers/recorder.h"
 
@@ -61,10 +61,8 @@ void Recorder::check_history(const Hdf5Reader& history) const {
   }
   const double whole = history.rows("records", 0, 1)[0];
   if (!(whole >= static_cast<double>(records))) {
-    std::ostringstream text;
-    text << continued_ << ": " << whole << " of its records are whole, the checkpoint needs "
-         << records;
-    throw std::runtime_error(text.str());
+    throw std::runtime_error(sentence("{}: {} of its records are whole, the checkpoint needs {}",
+                                      {continued_, whole, records}));
   }
   if (records > 0 && !channels_.empty()) {
     refuse_unless(history.rows("velocity", records - 1, 1) == last_velocity_);

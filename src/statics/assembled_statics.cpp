@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <optional>
 
 #include "common/dense_matrix.h"
 #include "common/error.h"
+#include "common/facts.h"
 #include "common/parallel.h"
 #include "statics/unilateral_rows.h"
 #include "system/factor_plan.h"
@@ -323,16 +323,9 @@ void AssembledStatics::solve_restricted(std::vector<double>& x) const {
 }
 
 std::string AssembledStatics::method() const {
-  char text[120];
-  if (factorised_) {
-    std::snprintf(text, sizeof text, "factorised, %.3g MB", factor_memory_ / 1e6);
-  } else {
-    std::snprintf(text, sizeof text,
-                  "conjugate gradients with multigrid, %lld products for %lld "
-                  "solutions",
-                  static_cast<long long>(iterations_), static_cast<long long>(solutions_));
-  }
-  return text;
+  if (factorised_) return sentence("factorised, {:.3g MB}", {factor_memory_});
+  return sentence("conjugate gradients with multigrid, {} products for {} solutions",
+                  {iterations_, solutions_});
 }
 
 std::unique_ptr<StaticStiffness> make_static_stiffness(const LinearSystem& system, const Mesh& mesh,

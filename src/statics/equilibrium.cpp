@@ -6,11 +6,11 @@
 #include <memory>
 #include <numeric>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "common/dense_matrix.h"
 #include "common/error.h"
+#include "common/facts.h"
 #include "common/parallel.h"
 #include "statics/assembled_statics.h"
 #include "statics/tried_rows.h"
@@ -108,12 +108,12 @@ class Search {
       for (std::size_t s = 0; s < systems_.size(); ++s) {
         const std::optional<RestLinks::Slid> slid = links_[s].slid(displacement_[s]);
         if (!slid) continue;
-        std::ostringstream text;
-        text << "option -preload static: element " << slid->link->number << " of group '"
-             << slid->link->origin.region->group << "' of structure " << systems_[s].name
-             << " slides at rest, where it bears " << slid->force
-             << " N along an axis; give a larger yield force or friction, or leave -preload out";
-        throw UserError(text.str());
+        throw UserError(sentence(
+            "option -preload static: element {} of group '{}' of structure {} slides at rest, "
+            "where "
+            "it bears {} N along an axis; give a larger yield force or friction, or leave -preload "
+            "out",
+            {slid->link->number, slid->link->origin.region->group, systems_[s].name, slid->force}));
       }
     });
   }
@@ -249,19 +249,17 @@ class Search {
   [[noreturn]] void refuse(double left) const {
     const std::vector<double> squares = squares_of_residual();
     const auto worst = std::max_element(squares.begin(), squares.end()) - squares.begin();
-    std::ostringstream text;
-    text << "option -preload static: structure " << systems_[static_cast<std::size_t>(worst)].name
-         << " finds no rest under its weight and loads, " << left << " of it is left after "
-         << iterations_
-         << " iterations: " << (ever_yielded_ ? "its yielding elements carry less, or " : "")
-         << "nothing holds it, or less than 0.1 Hz; clamp it, give it springs or a "
-            "contact below"
-         << (any_open_at_rest_
-                 ? " (a contact with a positive gap is open at rest: give -<contact>_gap "
-                   "0, or -<contact>_gap_at unloaded)"
-                 : "")
-         << ", look at the units of mesh and materials, or leave -preload out";
-    throw UserError(text.str());
+    throw UserError(sentence(
+        "option -preload static: structure {} finds no rest under its weight and loads, {} of it "
+        "is "
+        "left after {} iterations: {}nothing holds it, or less than 0.1 Hz; clamp it, give it "
+        "springs or a contact below{}, look at the units of mesh and materials, or leave -preload "
+        "out",
+        {systems_[static_cast<std::size_t>(worst)].name, left, iterations_,
+         ever_yielded_ ? "its yielding elements carry less, or " : "",
+         any_open_at_rest_ ? " (a contact with a positive gap is open at rest: give -<contact>_gap "
+                             "0, or -<contact>_gap_at unloaded)"
+                           : ""}));
   }
 
   Equilibrium describe() {

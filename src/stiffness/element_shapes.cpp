@@ -188,14 +188,7 @@ void CommonValues::agree(MPI_Comm comm) {
   }
   std::vector<double> mine;
   for (const auto& [low, high] : ranges_) mine.insert(mine.end(), {low, high});
-  const auto count = static_cast<int>(mine.size());
-  std::vector<int> counts(size_of(comm));
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
-  std::vector<int> starts(counts.size(), 0);
-  for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
-  std::vector<double> all(starts.back() + counts.back());
-  MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(),
-                 MPI_DOUBLE, comm);
+  const std::vector<double> all = gather_rows(comm, mine);
   for (std::size_t i = 0; i < all.size(); i += 2) add_range(all[i], all[i + 1]);
   too_many_ = false;
 }
