@@ -14,7 +14,11 @@ from importlib import import_module
 _PLACES = {"Ensemble": "ensembles", "Missing": "results", "Modes": "results", "Result": "results", "ResultError": "results",
            "RunError": "runs", "SceneError": "scenes", "flatten": "scenes", "load": "results", "load_ensemble": "ensembles",
            "load_modes": "results", "program": "runs", "read_scene": "scenes", "run": "runs", "write_scene": "scenes"}
-__all__ = list(_PLACES)
+__all__ = ["UserError", *_PLACES]
+
+
+class UserError(Exception):
+    """A mistake, or a lack in files, that is one line for the user."""
 
 
 def __getattr__(name: str):

@@ -10,13 +10,14 @@ from pathlib import Path
 
 import numpy as np
 
+from pounding import UserError
 from .runs import program as program_of
 
 G = 9.80665  # [m/s2]
 STRONG = (5.0, 75.0)  # part of the Arias intensity between which a motion is strong [%]
 
 
-class MotionError(Exception):
+class MotionError(UserError):
     """What is wrong with a motion, a target or a table of rules: one line for the user."""
 
 

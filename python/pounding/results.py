@@ -10,6 +10,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from pounding import UserError
 from . import summary_shape
 from .equipment import CABINET, judge
 
@@ -25,7 +26,7 @@ TABLES = ("history", "spectra", "impacts", "contact_points", "forces", "energy",
 QUANTITIES = ("displacement", "velocity", "acceleration")
 
 
-class ResultError(Exception):
+class ResultError(UserError):
     """The folder or one of its files cannot be used: one line for the user."""
 
 

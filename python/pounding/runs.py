@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from pounding import UserError
 from .files import open_new
 from .results import Result, load, result_files
 from .scenes import value_text
@@ -27,7 +28,7 @@ PR_SET_PDEATHSIG = 1
 LIBC = ctypes.CDLL(None)
 
 
-class RunError(Exception):
+class RunError(UserError):
     """A run that did not come to its end: one line for the user."""
 
 

@@ -3,10 +3,11 @@
 import re
 from pathlib import Path
 
+from pounding import UserError
 from .files import write_bytes
 
 
-class SceneError(Exception):
+class SceneError(UserError):
     """A scene that cannot be written or read: one line for the user."""
 
 

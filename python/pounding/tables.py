@@ -46,10 +46,14 @@ def leave(folder: Path, name: str, text: str, rows: list) -> str:
     return text
 
 
+def cells_of(rows: list) -> tuple:
+    """Header and cells of rows that are dictionaries of scalars: a column per key."""
+    head = list(dict.fromkeys(key for row in rows for key in row))
+    return head, [[row.get(key, "") for key in head] for row in rows]
+
+
 def write_csv(path: Path, rows: list) -> None:
-    """`rows`: dictionaries of scalars; a column per key."""
-    columns = list(dict.fromkeys(key for row in rows for key in row))
-    write_rows(path, columns, ([row.get(key, "") for key in columns] for row in rows))
+    write_rows(path, *cells_of(rows))
 
 
 # Texts that a spreadsheet runs as formulas; numbers and lists of them are none.

@@ -23,10 +23,10 @@ from pounding.fragility import study  # noqa: E402
 from pounding.sweep import members, table  # noqa: E402
 from pounding.tradeoff.runs import Outcome  # noqa: E402
 from pounding.study import understood  # noqa: E402
-from pounding import results  # noqa: E402
+from pounding import UserError, results  # noqa: E402
 
 WRONG = (None, 5, -1, "x", [], {}, [1, 2], {"a": 1}, True)
-REFUSED = (results.ResultError, runs.CompareError)
+REFUSED = (results.ResultError, UserError)
 
 
 def places_of(values, place=()):
@@ -82,7 +82,7 @@ class Damaged(unittest.TestCase):
             (self.spoilt / "summary.json").unlink()
             make(self.spoilt / "summary.json")
             self.assertRaises(results.ResultError, results.load, self.spoilt)
-        self.assertRaises(study.StudyError, study.read, Path("/dev/zero"))
+        self.assertRaises(UserError, study.read, Path("/dev/zero"))
 
     def test_tables_that_are_cut_or_hold_no_numbers(self):
         for name in ("spectra.csv", "impacts.csv", "energy.csv"):
@@ -191,14 +191,14 @@ class Studies(unittest.TestCase):
                 with self.subTest(key, value=value):
                     try:
                         self.read(**{key: value})
-                    except study.StudyError as error:
+                    except UserError as error:
                         self.assertEqual(len(str(error).splitlines()), 1)
         for text in ("levels: [3]", "? [1]\n: 2", "a: &a [*a]", "\0", "x: !!python/object:os.system {}"):
-            self.assertRaises(study.StudyError, self.read, text)
+            self.assertRaises(UserError, self.read, text)
         for key, value, part in (("capacities", "5", "no list"), ("show", "abc", "no list of keys"),
                                  ("show", "{gap: 3}", "none of the study's"), ("gaps", "[40]", "gaps are in m"),
                                  ("samples", "1000000000", "more than"), ("levels", "[.nan]", "levels")):
-            with self.assertRaisesRegex(study.StudyError, part):
+            with self.assertRaisesRegex(UserError, part):
                 self.read(**{key: value})
 
     def test_what_may_be_meant_otherwise_is_doubted(self):
@@ -212,7 +212,7 @@ class Studies(unittest.TestCase):
         for changes, part in (({}, "floor1 is no contact of the scene; it has roof"),
                               ({"joints": "{roof: {}}", "capacities": f"[{json.dumps(one)}]"}, "'cab' is no probe"),
                               ({"joints": "{roof: {}}", "show": "{channel: cab x}"}, "'cab x' is none of the scene's")):
-            with self.assertRaisesRegex(study.StudyError, part):
+            with self.assertRaisesRegex(UserError, part):
                 study.check_names(self.read(**changes), ["top"], ["roof"])
 
 

@@ -15,6 +15,8 @@ sys.dont_write_bytecode = True
 from parts.campaign import cases, findings, harvest, paper, records, results  # noqa: E402
 from parts.campaign.results import Campaign, CaseResult  # noqa: E402
 
+from pounding import UserError
+
 FREQUENCY = np.geomspace(0.5, 400, 200)
 
 
@@ -100,7 +102,7 @@ class Records(unittest.TestCase):
 
     def test_what_is_no_record_is_refused(self):
         (self.folder / records.FILES["Kobe"][0]).write_text("nothing\n")
-        with self.assertRaises(records.RecordError):
+        with self.assertRaises(UserError):
             records.load(self.folder, "Kobe", 4, self.folder / "kobe.csv")
 
 

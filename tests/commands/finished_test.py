@@ -14,7 +14,7 @@ import two_buildings
 from two_buildings import pounding
 
 sys.path.insert(0, os.path.join(program.SOURCE, "python"))
-from pounding import finished  # noqa: E402
+from pounding import UserError, finished  # noqa: E402
 from pounding.fragility import design, study  # noqa: E402
 from pounding.fragility import runs as members  # noqa: E402
 
@@ -122,7 +122,7 @@ class Members(unittest.TestCase):
                 return members.Runner(found, design.build(found), Path(place) / "out", 1, 1, "auto", only_look).bases[True]
 
             with unittest.mock.patch.object(members.Runner, "_scout", scout):
-                with self.assertRaisesRegex(study.StudyError, "nothing is there yet"):
+                with self.assertRaisesRegex(UserError, "nothing is there yet"):
                     base(only_look=True)
                 first = base()
                 self.assertEqual(base(), first)

@@ -15,6 +15,7 @@ sys.path.insert(0, os.path.join(program.SOURCE, "python"))
 sys.path.insert(0, os.path.join(program.SOURCE, "python"))
 sys.dont_write_bytecode = True
 from pounding.fragility import figures, report, study  # noqa: E402
+from pounding.plot import answer  # noqa: E402
 from pounding import fragility  # noqa: E402
 
 LEVELS = np.array([1.0, 1.5, 2.0, 3.0, 4.0, 6.0])
@@ -230,7 +231,7 @@ class OneLevel(unittest.TestCase):
         self.assertEqual(report.touching({}, self.analysis), ["Joint of 10 mm: touches in 100 % of the cases at 4 m/s2 (40 to 100).",
                                                               "Joint of 20 mm: touches in 50 % of the cases at 4 m/s2 (6.8 to 93)."])
         self.assertEqual([report.percent(part) for part in (0.0052, 0.74, 0.9949, 1)], ["0.52", "74", "99", "100"])
-        self.assertEqual([report.counted([1], "level"), report.counted([1, 2], "joint")], ["1 level", "2 joints"])
+        self.assertEqual([answer.plural(1, "level"), answer.plural(2, "joint")], ["1 level", "2 joints"])
 
     def test_the_scene_s_own_joint_is_shown(self):
         folder = Path(tempfile.mkdtemp(prefix="pounding-"))

@@ -188,7 +188,7 @@ class View(unittest.TestCase):
             self.assertNotIn('id="view"', Path(page).read_text(encoding="utf-8"))
             Path(folder, "fields.h5").write_bytes(b"no HDF5 at all")
             with self.assertRaisesRegex(Missing, "cannot be read"):
-                view.html(load(Path(folder)))
+                view.texts(load(Path(folder)))
 
     def test_a_browser_draws_it(self):
         used = browser.needed(self)

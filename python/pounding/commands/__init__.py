@@ -8,14 +8,9 @@ import sys
 TOP = os.path.abspath(os.path.join(os.path.realpath(__file__), *[os.pardir] * 4))
 
 
-def _prefix() -> str:
-    """What stands before a command's name where it is called: that of the sources has its program in a build."""
-    if os.path.basename(sys.argv[0]).startswith("pounding-") or not os.path.exists(f"{TOP}/run"):
-        return "pounding-"
-    return "run/" if os.path.exists(f"{TOP}/CMakeLists.txt") else "pounding-tools "
-
-
-PREFIX = _prefix()
+# What stands before a command's name where it is called: that of the sources has its program in a build.
+PREFIX = ("pounding-" if os.path.basename(sys.argv[0]).startswith("pounding-") or not os.path.exists(f"{TOP}/run") else
+          "run/" if os.path.exists(f"{TOP}/CMakeLists.txt") else "pounding-tools ")
 
 
 def called(text: str) -> str:
@@ -36,15 +31,14 @@ def leave_when_interrupted(name: str) -> None:
 
 
 def start(name: str) -> None:
-    """Carries out a command and ends the process. Of its module FAULTS are the errors that are one line for the user, and
-    GOES_ON says that the same command goes on where it was interrupted."""
+    """Carries out a command and ends the process; GOES_ON of its module says that it goes on where it was interrupted."""
     leave_when_interrupted(name)
     from importlib import import_module
 
     from .process import begin, end
-    told = begin(f"run/{name}")
+    begin(f"run/{name}")
     command = import_module(f"{__name__}.{name}")
-    end(told, command.main, *getattr(command, "FAULTS", ()), goes_on=getattr(command, "GOES_ON", False))
+    end(command.main, goes_on=getattr(command, "GOES_ON", False))
 
 
 def words_of_command(name: str, *words) -> list:

@@ -10,7 +10,5 @@ NAMES = sorted(path.stem for path in Path(__file__).parent.glob("[a-z]*.py") if 
 
 if len(sys.argv) > 1 and sys.argv[1] in NAMES:
     start(sys.argv.pop(1))
-listed = [f"  {PREFIX}{name}" for name in NAMES]
-if len(sys.argv) > 1:
-    sys.exit("\n".join([f"{PREFIX.rstrip(' -/')}: no tool {sys.argv[1]}; there are", *listed]))
-print("\n".join(listed))
+listed = "\n".join(f"  {PREFIX}{name}" for name in NAMES)
+sys.exit(f"{PREFIX.rstrip(' -/')}: no tool {sys.argv[1]}; there are\n{listed}" if len(sys.argv) > 1 else print(listed))

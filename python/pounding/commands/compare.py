@@ -7,18 +7,16 @@ probe and comparison.html, and prints the tables.
 
 from pathlib import Path
 
+from pounding import UserError
 from pounding.compare import page, runs
-from pounding.results import ResultError
 from pounding.study import understood
 
-from .process import called, parser_of
+from .process import parser_of
 
-NAME = called("run/compare")
-FAULTS = (runs.CompareError, ResultError)
 
 
 def main() -> int:
-    parser = parser_of(NAME, __doc__)
+    parser = parser_of(__doc__)
     parser.add_argument("folders", metavar="DIR", type=Path, nargs="+", help="result folders of two runs or more")
     parser.add_argument("--out", metavar="DIR", type=Path, default=Path("comparison"),
                         help="folder of tables, figures and page (default: comparison)")
@@ -26,9 +24,9 @@ def main() -> int:
     if len(options.folders) < 2:
         parser.error("give two result folders or more")
     if options.out.resolve() in [folder.resolve() for folder in options.folders]:
-        raise runs.CompareError(f"--out {options.out} is one of the runs; give another folder")
+        raise UserError(f"--out {options.out} is one of the runs; give another folder")
     if (options.out / "summary.json").exists():
-        raise runs.CompareError(f"--out {options.out} holds the results of a run; give another folder")
+        raise UserError(f"--out {options.out} holds the results of a run; give another folder")
     with understood(" beside ".join(map(str, options.folders))):
         found = runs.read(options.folders)
     with understood(" beside ".join(map(str, options.folders))):

@@ -19,19 +19,18 @@ import time
 from contextlib import contextmanager
 from pathlib import Path
 
+from pounding import UserError
 from pounding.arguments import positive, ranks
 from pounding.fragility import conditions, design, envelope, motions, report, rules, study, submittal
 from pounding.fragility.analysis import Analysis
 from pounding.fragility.runs import Runner
 from pounding.plot.report import print_pdf, require_browser
-from pounding.results import ResultError
-from pounding.runs import RunError, program, require_room
+from pounding.runs import program, require_room
 from pounding.study import alone_in
 
 from .process import called, parser_of
 
 NAME = called("run/fragility")
-FAULTS = (study.StudyError, RunError, ResultError)
 GOES_ON = True
 
 
@@ -54,7 +53,7 @@ def alone(folder: Path, options: argparse.Namespace):
 
 
 def arguments() -> argparse.Namespace:
-    parser = parser_of(NAME, __doc__)
+    parser = parser_of(__doc__)
     parser.add_argument("study", metavar="STUDY", type=Path, help="study file")
     parser.add_argument("--ranks", metavar="N", type=ranks, default=1, help="of each job (default: 1)")
     parser.add_argument("--jobs", metavar="N", type=positive(int), default=1,
@@ -156,12 +155,12 @@ def members_of(found: study.Study, folder: Path, options: argparse.Namespace,
             return None
     gathered, missing = runner.found(plan.members)
     if missing:
-        raise study.StudyError(f"{len(missing)} of {len(plan.members)} members are not there yet; run what is missing")
+        raise UserError(f"{len(missing)} of {len(plan.members)} members are not there yet; run what is missing")
     repeats = [plan.members[index] for index in plan.repeated]
     full, missing = runner.found(repeats, False) if repeats else (None, [])
     if missing:
-        raise study.StudyError(f"{len(missing)} of {len(repeats)} repeats at full order are not there yet; "
-                               "run what is missing")
+        raise UserError(f"{len(missing)} of {len(repeats)} repeats at full order are not there yet; "
+                        "run what is missing")
     ruled, note = rules.find(found, plan, runner.scene(True), folder, options.jobs)
     notes += [note] if note else []
     analysis = Analysis(found, plan, gathered, runner.equipment, notes, runner.scouted[True].inputs)

@@ -11,9 +11,9 @@ refused and why.
 
 import argparse
 import os
-import sys
 from pathlib import Path
 
+from pounding import UserError
 from pounding.arguments import positive
 from pounding.files import write_text
 from pounding.importing.formats import FORMATS, read
@@ -26,9 +26,9 @@ from pounding.importing.trying import try_folder
 from pounding.importing.units import in_si, units_of
 from pounding.importing.weighing import weigh
 from pounding.runs import RunError, next_steps
-from pounding.scenes import SceneError, write_scene
+from pounding.scenes import write_scene
 
-from .process import called, line_of, parser_of
+from .process import called, parser_of, printable
 
 NAME = called("run/import")
 
@@ -48,7 +48,7 @@ def density(text: str) -> tuple:
 
 
 def arguments():
-    parser = parser_of(NAME, __doc__)
+    parser = parser_of(__doc__)
     parser.add_argument("file", type=Path, metavar="FILE", help="the model, or the folder of --try")
     parser.add_argument("folder", nargs="?", type=Path, default=Path("."), metavar="DIR",
                         help="where the scene, or the table of --try, goes (default: here)")
@@ -103,30 +103,16 @@ def write(options: dict, comment: str, paths: tuple, mesh: str) -> None:
         raise
 
 
-def printable(text: str) -> str:
-    """In one line, whatever a file's names have in them."""
-    return "".join(letter if letter.isprintable() else ascii(letter)[1:-1] for letter in text)
-
-
 def tell(lines) -> None:
     print("\n".join(map(printable, lines)), flush=True)
-
-
-def refuse(text: str) -> int:
-    sys.stdout.flush()
-    print(f"{NAME}: {printable(text)}", file=sys.stderr)
-    return 1
 
 
 def try_all(given) -> int:
     table = given.folder / "tried.csv"
     if os.path.lexists(table):
-        return refuse(f"{table} is there already; give another folder, or move it away")
-    try:
-        given.folder.mkdir(parents=True, exist_ok=True)
-        try_folder(given.file, table, given.units or units_of("m,kg,s"))
-    except InputFault as fault:
-        return refuse(str(fault))
+        raise UserError(f"{table} is there already; give another folder, or move it away")
+    given.folder.mkdir(parents=True, exist_ok=True)
+    try_folder(given.file, table, given.units or units_of("m,kg,s"))
     return 0
 
 
@@ -136,17 +122,14 @@ def main() -> int:
         return try_all(given)
     name = plain(given.name or given.file.stem)
     allowed = {word.strip().lstrip("*").upper() for word in given.allow_losses.split(",") if word.strip()}
-    try:
-        model = read(given.file, given.format)
-        in_si(model, given.units)
-        for material, value in given.density:
-            found = next((one for one in model.materials if str(one).upper() == material), None)
-            if found is None:
-                return refuse(f"--density {material}: no such material; the file has "
-                              f"{', '.join(map(str, model.materials)) or 'none'}")
-            model.materials[found].density = value
-    except InputFault as fault:
-        return refuse(str(fault))
+    model = read(given.file, given.format)
+    in_si(model, given.units)
+    for material, value in given.density:
+        found = next((one for one in model.materials if str(one).upper() == material), None)
+        if found is None:
+            raise UserError(f"--density {material}: no such material; the file has "
+                            f"{', '.join(map(str, model.materials)) or 'none'}")
+        model.materials[found].density = value
     fault = None
     try:
         scene = Scene(model, name)
@@ -159,15 +142,15 @@ def main() -> int:
         print(f"--allow-losses {','.join(spare)}: not among the losses")
     lost = sorted(card for card in model.cards.lost if card.upper() not in allowed)
     if lost:
-        return refuse(f"{given.file}: {', '.join(f'{card} {model.cards.lost[card]}' for card in lost)} would be lost; "
-                      f"take them out, or allow it: --allow-losses '{','.join(lost)}'")
+        raise UserError(f"{given.file}: {', '.join(f'{card} {model.cards.lost[card]}' for card in lost)} would be lost; "
+                        f"take them out, or allow it: --allow-losses '{','.join(lost)}'")
     if fault:
-        return refuse(fault)
+        raise UserError(fault)
     paths = given.folder / f"{name}.yaml", given.folder / f"{name}.msh"
     properties = None
     if given.properties:
         if not given.properties.is_file():
-            return refuse(f"--properties {given.properties}: no such file")
+            raise UserError(f"--properties {given.properties}: no such file")
         properties = os.path.relpath(given.properties, given.folder)
     comment = (f"From {ascii(given.file.name)[1:-1]} by {NAME}; SI units. Every option is in docs/reference/scene: damping, "
                "contacts, motion\nand probes are still to be said.")
@@ -176,10 +159,7 @@ def main() -> int:
         options[name]["mass_scaling"], told = scaling_of(options, name, mesh)
         names = ", ".join(sorted(map(str, scene.massless)))
         model.said.append(f"material {names}: no density, its beams and bars weigh nothing (--density gives one); {told}")
-    try:
-        write(options, comment, paths, mesh)
-    except (OSError, SceneError) as error:
-        return refuse(line_of(error))
+    write(options, comment, paths, mesh)
     tell(model_told(scene, mass, centre, given.expect_mass))
     print(f"wrote {paths[0]}, {paths[1]}")
     if not model.has_properties and not given.properties:
@@ -192,7 +172,7 @@ def main() -> int:
             print(f"no modes: {error}")
         else:
             if fault:
-                return refuse(f"{paths[0]} is written, and the program refuses it: {fault}")
+                raise UserError(f"{paths[0]} is written, and the program refuses it: {fault}")
             tell(lines)
     print(next_steps(paths[0]))
     return 0

@@ -12,10 +12,8 @@ from pounding.arguments import numbers_above_0, words
 from pounding.plot import law_figure
 from pounding.runs import RunError, complaint, environment, program
 
-from .process import called, parser_of
+from .process import parser_of
 
-NAME = called("run/law")
-FAULTS = (RunError,)
 
 
 def follow(scene: Path, amplitudes: list, more: list, folder: Path) -> Path:
@@ -28,7 +26,7 @@ def follow(scene: Path, amplitudes: list, more: list, folder: Path) -> Path:
 
 
 def main() -> int:
-    parser = parser_of(NAME, __doc__)
+    parser = parser_of(__doc__)
     parser.add_argument("scene", metavar="SCENE", type=Path, help="options file of the scene")
     parser.add_argument("--amplitudes", metavar="A,B,...", type=numbers_above_0, default=[1.0, 2.0, 4.0, 8.0],
                         help="over the elongation of the first corner (default: 1,2,4,8)")

@@ -8,14 +8,10 @@ rule is not kept. DIR has the components as records, match.csv and verdicts.csv.
 """
 
 from pounding.motion_matching import arguments, carry_out
-from pounding.motion_signals import MotionError
-from pounding.runs import RunError
 
-from .process import called, parser_of
+from .process import parser_of
 
-NAME = called("run/match")
-FAULTS = (MotionError, RunError)
 
 
 def main() -> int:
-    return carry_out(arguments(parser_of(NAME, __doc__)).parse_args())
+    return carry_out(arguments(parser_of(__doc__)).parse_args())

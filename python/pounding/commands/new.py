@@ -53,7 +53,7 @@ def write(name: str, folder: Path) -> list:
 
 def main() -> int:
     scenes = known()
-    parser = parser_of(NAME, __doc__)
+    parser = parser_of(__doc__)
     parser.add_argument("scene", nargs="?", choices=list(scenes), help="which one")
     parser.add_argument("folder", nargs="?", metavar="DIR", type=Path, help="where to")
     options = parser.parse_args()

@@ -11,19 +11,16 @@ from pathlib import Path
 from pounding.arguments import names, positive, ranks, words
 from pounding.compare import page, runs
 from pounding.plant import study
-from pounding.results import ResultError
-from pounding.runs import RunError
 from pounding.study import alone_in, understood
 
 from .process import called, parser_of
 
 NAME = called("run/plant")
-FAULTS = (study.StudyError, runs.CompareError, ResultError, RunError)
 GOES_ON = True
 
 
 def arguments() -> argparse.Namespace:
-    parser = parser_of(NAME, __doc__)
+    parser = parser_of(__doc__)
     parser.add_argument("--size", choices=study.SIZES, default="small", help="of the meshes (default: small)")
     parser.add_argument("--fidelity", metavar="LIST", type=names(study.FIDELITIES), default=["full"],
                         help=f"{', '.join(study.FIDELITIES)}, or several between commas (default: full)")

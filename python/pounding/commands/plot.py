@@ -13,10 +13,7 @@ from pounding import results
 from pounding.plot import report, twin
 from pounding.study import understood
 
-from .process import called, parser_of
-
-NAME = called("run/plot")
-FAULTS = (results.ResultError, twin.NoTwin, subprocess.TimeoutExpired)
+from .process import parser_of
 
 
 def told(name: str) -> None:
@@ -26,7 +23,7 @@ def told(name: str) -> None:
 
 
 def main() -> int:
-    parser = parser_of(NAME, __doc__)
+    parser = parser_of(__doc__)
     parser.add_argument("folder", metavar="DIR", type=Path, help="result folder of a run")
     parser.add_argument("--without", metavar="DIR", type=Path, help="result folder of the same model without pounding")
     parser.add_argument("--pdf", action="store_true", help="print report.pdf as well, with chromium")

@@ -10,18 +10,25 @@ import traceback
 from pathlib import Path
 from typing import Callable, NoReturn
 
+from pounding import UserError
+
 from . import called
+
+
+def printable(text: str) -> str:
+    """In one line, whatever a file's names have in them."""
+    return "".join(letter if letter.isprintable() else ascii(letter)[1:-1] for letter in text)
 
 
 def line_of(error: BaseException) -> str:
     """What an error says, in one line; of the system's the file first."""
-    if isinstance(error, OSError) and error.filename and error.strerror:
-        return f"{error.filename}: {error.strerror}"
-    return " ".join(str(error).split())
+    named = isinstance(error, OSError) and error.filename and error.strerror
+    return printable(f"{error.filename}: {error.strerror}" if named else " ".join(str(error).split()))
 
 
 # What the commands need of others; the packages of Debian are python3-numpy and so on.
 NEEDED = ("numpy", "scipy", "h5py", "jinja2", "matplotlib", "yaml")
+_told = ""  # what the command is called
 STOPPING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
@@ -53,7 +60,8 @@ def open_streams() -> None:
 def begin(name: str) -> str:
     """For the first line of a command: what it is called, and how it ends when it does not end by itself: in one line.
     While it is made ready a signal ends it at once; what nobody thought of has exit status 2."""
-    told = called(name)
+    global _told
+    told = _told = called(name)
 
     def leave(line: str, status: int) -> None:
         try:
@@ -95,24 +103,25 @@ def begin(name: str) -> str:
     return told
 
 
-def parser_of(name: str, about: str) -> argparse.ArgumentParser:
-    """Reader of a command's line, whose help is the text about it as it is written."""
-    return argparse.ArgumentParser(prog=name, description=called(about),
+def parser_of(about: str) -> argparse.ArgumentParser:
+    """Reader of the command's line, whose help is the text about it as it is written."""
+    return argparse.ArgumentParser(prog=_told, description=called(about),
                                    formatter_class=argparse.RawDescriptionHelpFormatter)
 
 
-def end(name: str, main: Callable, *faults: type, goes_on: bool = False) -> NoReturn:
-    """Ends a command with the status that `main` returns; with 1 and one line where it throws one of `faults` or
+def end(main: Callable, goes_on: bool = False) -> NoReturn:
+    """Ends a command with the status that `main` returns; with 1 and one line where it throws UserError or
     OSError, or is interrupted. `goes_on`: the same command then goes on from there."""
     stop_when_terminated()
     try:
         sys.exit(main())
-    except (*faults, OSError) as error:
-        print(f"{name}: {line_of(error)}", file=sys.stderr)
+    except (UserError, OSError) as error:
+        sys.stdout.flush()
+        print(f"{_told}: {line_of(error)}", file=sys.stderr)
     except KeyboardInterrupt:
         if not goes_on:
             raise
-        print(f"{name}: interrupted; the same command goes on from here", file=sys.stderr)
+        print(f"{_told}: interrupted; the same command goes on from here", file=sys.stderr)
     sys.exit(1)
 
 

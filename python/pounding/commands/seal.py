@@ -12,9 +12,8 @@ import sys
 import zlib
 from pathlib import Path
 
-from .process import called, parser_of
+from .process import parser_of
 
-NAME = called("run/seal")
 SIZE = 512
 HEAD = re.compile(rb"pounding seal 1\nbytes \d+\ncrc32 [0-9a-f]{8}\n((?:open \d+ \d+\n)*)\0*")
 HDF5 = b"\x89HDF\r\n\x1a\n"  # a piece of a mesh begins otherwise
@@ -70,7 +69,7 @@ def seal(path):
 
 
 def main() -> int:
-    parser = parser_of(NAME, __doc__)
+    parser = parser_of(__doc__)
     parser.add_argument("files", metavar="FILE", type=Path, nargs="+", help="checkpoint or basis")
     for path in parser.parse_args().files:
         seal(path)

@@ -10,21 +10,16 @@ without such edges (--panel) carries no more than its steel does in both directi
 import argparse
 import math
 
+from pounding import UserError
 from pounding.arguments import numbers_above_0, positive
 
-from .process import called, parser_of
+from .process import parser_of
 
-NAME = called("run/section")
 STEEL = 2.05e11  # Pa, Young's modulus
 LAST_STRAIN = 4e-3
 ROOT = 0.313  # of sqrt(Fc) with both in MPa, which is sqrt(Fc) with both in kgf/cm2
 
 
-class Unsound(Exception):
-    """Numbers of which no wall is made."""
-
-
-FAULTS = (Unsound,)
 
 
 def root_of(strength: float) -> float:
@@ -45,10 +40,10 @@ def skeleton(shear: float, root: float, pressure: list, hold: list, aspect: floa
         last = min(last, math.sqrt((hold[0] + pressure[0]) * (hold[1] + pressure[1])))
     corners = [(first / shear, first), (3 * first / shear, 1.35 * first), (LAST_STRAIN, last)]
     if not corners[1][0] < LAST_STRAIN:
-        raise Unsound(f"its second corner, at a strain of {corners[1][0]:.3g}, is beyond the last one at {LAST_STRAIN}; "
-                      "are strength and pressure in Pa?")
+        raise UserError(f"its second corner, at a strain of {corners[1][0]:.3g}, is beyond the last one at {LAST_STRAIN}; "
+                        "are strength and pressure in Pa?")
     if last * corners[1][0] > corners[1][1] * LAST_STRAIN:
-        raise Unsound("its last corner lies above the line through the second one; are ratios and stresses in SI units?")
+        raise UserError("its last corner lies above the line through the second one; are ratios and stresses in SI units?")
     return corners
 
 
@@ -63,14 +58,14 @@ def cracked_bending(part: float, thickness: float, cover: float) -> float:
 def pair(values: list, option: str) -> list:
     """Values of both directions."""
     if len(values) > 2:
-        raise Unsound(f"{option} has one number or two, the vertical one first")
+        raise UserError(f"{option} has one number or two, the vertical one first")
     return values if len(values) == 2 else 2 * values
 
 
 def report(options: argparse.Namespace) -> list:
     steel, yields = pair(options.steel, "--steel"), pair(options.yields, "--yield")
     if max(steel) > 0.1:
-        raise Unsound(f"--steel {max(steel)}: is that a ratio, and not in %?")
+        raise UserError(f"--steel {max(steel)}: is that a ratio, and not in %?")
     pressure = pair(options.pressure, "--pressure") if len(options.pressure) == 2 else [options.pressure[0], 0.0]
     young = options.young or 21e9 * math.sqrt(options.strength / 20e6)
     shear = young / (2 * (1 + options.poisson))
@@ -80,12 +75,12 @@ def report(options: argparse.Namespace) -> list:
     thickness = options.thickness
     cover = options.cover or min(0.04, thickness / 4)
     if cover >= thickness / 2:
-        raise Unsound(f"--cover {cover}: the steel is within half of the thickness")
+        raise UserError(f"--cover {cover}: the steel is within half of the thickness")
     part = sum(steel) / 2 * STEEL / young
     force, moment = root * thickness, root * thickness**2 / 6
     bending = cracked_bending(part, thickness, cover)
     if not max(part, bending) < 1:
-        raise Unsound("its steel is as stiff as its concrete; are --strength and --young in Pa?")
+        raise UserError("its steel is as stiff as its concrete; are --strength and --young in Pa?")
     flat = ",".join(f"{value:.6g}" for corner in corners for value in corner)
     lines = [f"Young's modulus {young / 1e9:.4g} GPa, shear modulus {shear / 1e9:.4g} GPa",
              "shear stress over shear strain:"]
@@ -126,7 +121,7 @@ def ratio(text: str) -> float:
 
 
 def main() -> int:
-    parser = parser_of(NAME, __doc__)
+    parser = parser_of(__doc__)
     parser.add_argument("--strength", metavar="PA", type=positive(float), required=True, help="of the concrete, compressive")
     parser.add_argument("--steel", metavar="R[,R]", type=numbers_above_0, required=True,
                         help="ratio of the steel to the section, vertical and horizontal, both faces together")

@@ -12,12 +12,9 @@ from pathlib import Path
 from pounding import shaking
 from pounding.arguments import numbers_above_0, positive
 from pounding.results import DIRECTIONS, ResultError, load
-from pounding.runs import RunError
 
-from .process import called, parser_of
+from .process import parser_of
 
-NAME = called("run/shake")
-FAULTS = (ResultError, RunError)
 
 
 def limits_of(text: str) -> list:
@@ -50,7 +47,7 @@ def make(options: argparse.Namespace) -> None:
 
 
 def main() -> int:
-    parser = parser_of(NAME, __doc__)
+    parser = parser_of(__doc__)
     parser.add_argument("run", metavar="RUN", type=Path, help="result folder of a run")
     parser.add_argument("probe", metavar="PROBE", help="probe whose motion it is")
     parser.add_argument("--direction", choices=DIRECTIONS, default="x", help="of the motion (default: x)")

@@ -11,10 +11,8 @@ from pathlib import Path
 
 from pounding.soil import fit, impedances, soil_file
 
-from .process import called, parser_of
+from .process import parser_of
 
-NAME = called("run/soil")
-FAULTS = (impedances.TableError,)
 WIDE_MISS = 0.1  # misfit to doubt
 
 
@@ -37,7 +35,7 @@ def report(table: impedances.Impedances, blocks: list, left_out: float) -> list:
 
 
 def main() -> int:
-    parser = parser_of(NAME, __doc__)
+    parser = parser_of(__doc__)
     parser.add_argument("table", metavar="TABLE", type=Path, help="CSV file of impedances")
     parser.add_argument("out", metavar="OUT", type=Path, help="file of the soil")
     options = parser.parse_args()

@@ -14,9 +14,10 @@ import argparse
 import os
 from pathlib import Path
 
+from pounding import UserError
 from pounding.arguments import positive, ranks, words
 from pounding.results import ResultError, load
-from pounding.runs import Job, RunError, environment, program, require_room
+from pounding.runs import Job, environment, program, require_room
 from pounding.study import Run, alone_in, announcement, run_side_by_side, understood
 from pounding.sweep import members, table
 from pounding.tables import markdown, write_csv
@@ -24,12 +25,11 @@ from pounding.tables import markdown, write_csv
 from .process import called, parser_of
 
 NAME = called("run/sweep")
-FAULTS = (members.SweepError, RunError)
 GOES_ON = True
 
 
 def arguments() -> argparse.Namespace:
-    parser = parser_of(NAME, __doc__)
+    parser = parser_of(__doc__)
     parser.add_argument("scene", metavar="SCENE", type=Path, help="options file of the scene")
     parser.add_argument("--set", dest="axes", metavar="NAME=v1,v2", action="append", required=True,
                         help="values of an option (may be repeated)")
@@ -47,12 +47,12 @@ class Sweep:
 
     def __init__(self, options: argparse.Namespace):
         if not options.scene.is_file():
-            raise members.SweepError(f"{options.scene}: no such file")
+            raise UserError(f"{options.scene}: no such file")
         self.axes = [members.read_axis(text) for text in options.axes]
         self.members = members.all_members(self.axes, options.zip)
         self.scene, self.more, self.ranks = options.scene, options.options, options.ranks
         if any(word.lstrip("-") in ("output", "dry_run", "restart") for word in self.more):
-            raise members.SweepError("--options: not with -output, -dry_run or -restart")
+            raise UserError("--options: not with -output, -dry_run or -restart")
         self.folder = options.out or Path("results") / f"sweep-{options.scene.stem}"
         self.jobs = options.jobs or max(1, len(os.sched_getaffinity(0)) // options.ranks)
         require_room(self.ranks, self.jobs)

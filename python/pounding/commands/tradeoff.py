@@ -19,7 +19,6 @@ from pounding import tables
 from pounding.arguments import positive, ranks
 from pounding.files import write_text
 from pounding.plot import tradeoff_figure
-from pounding.results import ResultError
 from pounding.runs import SOURCE, RunError, program
 from pounding.study import alone_in, build
 from pounding.tradeoff import runs, settings, study
@@ -27,14 +26,13 @@ from pounding.tradeoff import runs, settings, study
 from .process import called, parser_of
 
 NAME = called("run/tradeoff")
-FAULTS = (RunError, ResultError)
 GOES_ON = True
 NAMES = [setting.name for setting in settings.SAVINGS]
 SCENE_NAMES = [setting.name for setting in settings.of_scene([], sys.maxsize, 1.0)]  # of a scene with any number of dofs
 
 
 def arguments() -> argparse.Namespace:
-    parser = parser_of(NAME, __doc__)
+    parser = parser_of(__doc__)
     parser.add_argument("--scene", metavar="FILE", type=Path, help="this scene in place of the two-storey pair")
     parser.add_argument("--window", type=positive(float), metavar="S",
                         help="seconds of motion (default: 5; of --scene all of it)")

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from pounding.tables import markdown, write_csv
+from pounding.tables import cells_of, markdown, write_csv
 from pounding.plot import answer, design_spectra
 from pounding.plot.markup import answer_box, html_figures, html_table, paragraphs, write_page
 from pounding.plot.style import WIDTH, g_axis, log_scale, plt, run_colours, save
@@ -49,12 +49,6 @@ def spectra_figure(runs: Runs, probe: str, folder: Path) -> list:
                 f"Pseudo-acceleration at {100 * damping:g} % damping, and its ratio to that of {runs.labels[0]}.", columns=list(grid.T))
 
 
-def _cells(rows: list) -> tuple:
-    """Header and cells of rows of dictionaries."""
-    head = list(rows[0]) if rows else []
-    return head, [[row[name] for name in head] for row in rows]
-
-
 def _parts(runs: Runs) -> list:
     """(title, rows) of the tables that are shown."""
     return [("Impacts", tables.impacts(runs)), ("Peaks", tables.peaks(runs)),
@@ -86,7 +80,7 @@ def text(runs: Runs) -> str:
     """What the terminal shows."""
     lines = [*answers(runs), *(f"note: {note}" for note in runs.notes), ""]
     for title, rows in _parts(runs):
-        lines += [markdown(title, *_cells(rows)) if rows else f"**{title}**: none\n"]
+        lines += [markdown(title, *cells_of(rows)) if rows else f"**{title}**: none\n"]
     return "\n".join(lines)
 
 
@@ -102,7 +96,7 @@ def parts(runs: Runs, folder: Path) -> list:
     figures = [page for probe in runs.probes for page in spectra_figure(runs, probe, folder)]
     spectra = design_spectra.write(dict(zip(runs.labels, runs.results)), runs.probes, runs.dampings, folder)
     return [("Floor response spectra", html_figures(folder, figures, 3) + spectra),
-            *((caption, html_table("", *_cells(rows)) or paragraphs(["None."])) for caption, rows in _parts(runs))]
+            *((caption, html_table("", *cells_of(rows)) or paragraphs(["None."])) for caption, rows in _parts(runs))]
 
 
 def box(runs: Runs, links: list = ()) -> str:

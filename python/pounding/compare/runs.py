@@ -5,14 +5,11 @@ from pathlib import Path
 
 import numpy as np
 
+from pounding import UserError
 from pounding.results import DIRECTIONS, Result, load
 
 
 ROUND_OFF = 1e-6  # part of the largest value below which there is no motion
-
-
-class CompareError(Exception):
-    """Runs that cannot be compared: one line for the user."""
 
 
 @dataclass
@@ -48,15 +45,15 @@ def labels_of(folders: list) -> list:
         labels = ["/".join(one[-depth:]) for one in parts]
         if len(set(labels)) == len(labels):
             return labels
-    raise CompareError(f"{folders[0]}: the same folder twice")
+    raise UserError(f"{folders[0]}: the same folder twice")
 
 
 def _read(folder: Path) -> Result:
     result = load(folder)
     if not result.summary:
-        raise CompareError(f"{folder}: no summary.json, the run did not reach its end")
+        raise UserError(f"{folder}: no summary.json, the run did not reach its end")
     if not result.spectrum_probes:
-        raise CompareError(f"{folder}: no spectra.csv with a line; a run without probes leaves nothing to compare")
+        raise UserError(f"{folder}: no spectra.csv with a line; a run without probes leaves nothing to compare")
     return result
 
 
@@ -69,7 +66,7 @@ def _common_probes(labels: list, results: list, notes: list) -> list:
     common = _common(found)
     lists = "; ".join(f"{label} has {', '.join(names)}" for label, names in zip(labels, found))
     if not common:
-        raise CompareError(f"no probe that all runs have: {lists}")
+        raise UserError(f"no probe that all runs have: {lists}")
     for label, names in zip(labels, found):
         own = [name for name in names if name not in common]
         if own:
@@ -86,14 +83,14 @@ def _common_frequency(labels: list, results: list, probe: str) -> np.ndarray:
     found = [result.spectrum(probe, "x")[0] for result in results]
     for label, values in zip(labels[1:], found[1:]):
         if len(values) != len(found[0]) or not np.allclose(values, found[0], rtol=1e-6, atol=0):
-            raise CompareError(f"the spectra have unlike frequencies: {labels[0]} {_range_text(found[0])}, {label} "
-                               f"{_range_text(values)}; give both runs the same -spectra_frequencies (a finished run: "
-                               "pounding-spectra makes spectra of its history.h5)")
+            raise UserError(f"the spectra have unlike frequencies: {labels[0]} {_range_text(found[0])}, {label} "
+                            f"{_range_text(values)}; give both runs the same -spectra_frequencies (a finished run: "
+                            "pounding-spectra makes spectra of its history.h5)")
     return found[0]
 
 
 def read(folders: list) -> Runs:
-    """Reads the folders, two or more. Throws CompareError or ResultError."""
+    """Reads the folders, two or more. Throws UserError or ResultError."""
     labels = labels_of(folders)
     results = [_read(folder) for folder in folders]
     notes = []
@@ -101,7 +98,7 @@ def read(folders: list) -> Runs:
     ratios = [sorted(set(result.spectra["damping"])) for result in results]
     dampings = _common(ratios)
     if not dampings:
-        raise CompareError("no damping ratio that all spectra have: " + "; ".join(
+        raise UserError("no damping ratio that all spectra have: " + "; ".join(
             f"{label} has {', '.join(f'{100 * value:g} %' for value in own)}" for label, own in zip(labels, ratios)))
     ends = [result.summary.get("end_time") for result in results]
     if len(set(ends)) > 1:

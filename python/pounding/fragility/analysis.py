@@ -5,13 +5,14 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy import stats
 
+from pounding import UserError
 from pounding.fragility import (Fragility, FitRefused, binomial_interval, fit_paired, hclpf, joint_share, members_needed,
                                 moments, scatter, widened)
 
 from .design import OWN_FIELD, Design
 from .equipment import Item
 from .outcomes import Outcomes
-from .study import Study, StudyError
+from .study import Study
 
 CONTACT = "contact"
 ROUND_OFF = 1e-6  # of the largest spectrum: below it a channel stands still
@@ -38,8 +39,8 @@ class Analysis:
                       for number, one in enumerate(self.design.members) if not one.disturbed}
         largest = self.outcomes.spectra.max((0, 2, 3))
         if not self.main(self.outcomes.spectra):
-            raise StudyError(f"{self.study.path}: no probe moves; has {self.study.scene.name} probes, and no record of "
-                             "its own along an axis of the study's targets, over which it wins?")
+            raise UserError(f"{self.study.path}: no probe moves; has {self.study.scene.name} probes, and no record of "
+                            "its own along an axis of the study's targets, over which it wins?")
         self.channels = [number for number in range(len(largest)) if largest[number] > ROUND_OFF * largest.max()]
         self.cells = [(gap, level) for gap in [*self.study.gaps, None] for level in self.study.levels]
 

@@ -3,8 +3,9 @@
 import re
 from dataclasses import dataclass, replace
 
+from pounding import UserError
 from .study import Axis, Study, given_options, read_motions
-from .study_file import Reader, StudyError
+from .study_file import Reader
 
 NAME = re.compile(r"\w[\w-]*")
 ALONE = "as given"  # soil or state of a study that names none
@@ -48,7 +49,7 @@ def _blocks(reader: Reader, key: str) -> dict:
         reader.fail(key, f"is no list of named {key}, as `{key}: {{best: {{}}}}`")
     for name in values:
         if not NAME.fullmatch(str(name)) or name == ALONE:
-            raise StudyError(f"{reader.path}: {key}: {name!r} is no name of letters, digits, - and _")
+            raise UserError(f"{reader.path}: {key}: {name!r} is no name of letters, digits, - and _")
     return {str(name): values[name] or {} for name in values}
 
 
@@ -81,7 +82,7 @@ def number_of_motions(axes: dict) -> int:
 
 
 def find(study: Study) -> list:
-    """The conditions of a study; none where it names neither soils nor states. Throws StudyError."""
+    """The conditions of a study; none where it names neither soils nor states. Throws UserError."""
     reader = Reader({key: study.named[key] for key in ("soils", "states") if study.named[key] is not None}, study.path, "",
                      ("soils", "states"))
     if not reader.values:
@@ -94,7 +95,7 @@ def find(study: Study) -> list:
         for state, of_state in states.items():
             twice = sorted((set(of_soil.options) & set(of_state)) - {"modes"})
             if twice:
-                raise StudyError(f"{study.path}: {twice[0]} is given by soil {soil} and by state {state}")
+                raise UserError(f"{study.path}: {twice[0]} is given by soil {soil} and by state {state}")
             options = {**study.options, **of_soil.options, **of_state}
             found.append(Condition(soil, state, replace(study, options=options, axes=of_soil.axes or study.axes)))
     return found

@@ -4,9 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pounding import UserError
 from pounding.fragility import latin_hypercube
 
-from .study import Joint, Study, StudyError
+from .study import Joint, Study
 
 MOST_SAMPLES = 100_000  # so that studies of different seeds have different joints
 OWN_FIELD = (1.0, 1.0)  # factors of a field as the study has it
@@ -58,15 +59,15 @@ def motion_values(study: Study, motion: int, level: float) -> tuple:
 
 
 def build(study: Study) -> Design:
-    """All members, sample by sample, so that the first samples are whole where not all have been run. Throws StudyError
+    """All members, sample by sample, so that the first samples are whole where not all have been run. Throws UserError
     where a drawn value cannot be."""
     count = len(next(iter(study.axes.values())).records or next(iter(study.axes.values())).seeds)
     drawn = latin_hypercube(study.variables, study.samples, study.seed)
     names = [one.name for one in study.variables]
     for place, name in enumerate(names):
         if name.endswith("_factor") and not (drawn[:, place] > 0).all():
-            raise StudyError(f"{study.path}: factors: {name}: a draw of {drawn[:, place].min():.3g} is not above 0; "
-                             "take a lognormal one")
+            raise UserError(f"{study.path}: factors: {name}: a draw of {drawn[:, place].min():.3g} is not above 0; "
+                            "take a lognormal one")
     motions = [sample % count for sample in range(study.samples)]
 
     def member(sample: int, gap: float | None, level: float, disturbed: bool = False, exchanged: bool = False,

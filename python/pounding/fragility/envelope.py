@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 
 from pounding.fragility import Fragility, hclpf, moments, widened
-from pounding.plot.markup import answer_box, figure_parts, html_table, paragraphs, write_page
+from pounding.plot.markup import answer_box, figure_parts, html_table, linked, write_page
 from pounding.plot.style import WIDTH, WITH, WITHOUT, g_axis, log_scale, plt, save
-from pounding.tables import markdown, write_csv
+from pounding.tables import cells_of, markdown, write_csv
 
 from . import figures
 from .analysis import CONTACT, EXCEEDED, Analysis, gap_text, name_of, quantile
@@ -199,11 +199,6 @@ def governs(place: dict) -> str:
     return f"{' and '.join(named)} govern{'s' if len(named) == 1 else ''}"
 
 
-def _cells(rows: list) -> tuple:
-    head = list(dict.fromkeys(name for row in rows for name in row))
-    return head, [[row.get(name, "") for name in head] for row in rows]
-
-
 def write(study: Study, analyses: dict, folder: Path) -> tuple:
     """Writes tables, figures and the page of the envelope; returns the page's path and what the terminal shows."""
     one = Envelope(study, analyses)
@@ -221,8 +216,8 @@ def write(study: Study, analyses: dict, folder: Path) -> tuple:
              ("What moves the answer", tables["sensitivity"]), ("Largest probability of each event", tables["probability"]),
              ("Capacity of high confidence and low probability of failure (HCLPF)", tables["hclpf"])]
     box = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))
-    shown = [*figure_parts(folder, pages), *((caption, html_table("", *_cells(rows), text=(0,))) for caption, rows in parts)]
-    each = ", ".join(f"conditions/{condition.folder}/fragility.html" for condition in one.conditions)
-    after = paragraphs([f"The study in each condition: {each}."])
-    text = "\n".join(lines) + "\n\n" + "\n".join(markdown(caption, *_cells(rows)) for caption, rows in parts[:3])
+    shown = figure_parts(folder, pages) + [(caption, html_table("", *cells_of(rows), text=(0,))) for caption, rows in parts]
+    after = linked("The study in each condition", [(condition.title, f"conditions/{condition.folder}/fragility.html")
+                                                   for condition in one.conditions])
+    text = "\n".join(lines) + "\n\n" + "\n".join(markdown(caption, *cells_of(rows)) for caption, rows in parts[:3])
     return write_page(folder / "fragility.html", study.title, shown, answer=box, after=after, under=f"study {study.path.name}"), text

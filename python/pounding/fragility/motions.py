@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from pounding import UserError
 from pounding.commands import called
 from pounding.study import alone_in, run_side_by_side
 from pounding.tables import write_rows
@@ -14,7 +15,7 @@ from pounding.results import load
 from pounding.runs import Job, clear, environment
 from pounding.scenes import write_scene
 
-from .study import Axis, Study, StudyError
+from .study import Axis, Study
 
 STEP = 0.005  # of the accelerograms that are compared [s]
 # A mass that the ground shakes: the cheapest scene that reads a motion and writes it down.
@@ -51,7 +52,7 @@ class Motions:
         return f"{axis}-{hashlib.sha256(told + content).hexdigest()[:16]}"
 
     def make(self, wanted: list, of: str = "") -> None:
-        """Runs what is not there; `wanted`: pairs of an axis and a motion. Throws StudyError."""
+        """Runs what is not there; `wanted`: pairs of an axis and a motion. Throws UserError."""
         todo = [pair for pair in wanted if not (self.folder / f"{self._name(*pair)}.npy").is_file()]
         if not todo:
             return
@@ -83,29 +84,29 @@ class Motions:
 
         run_side_by_side(todo, self.jobs, start, ended)
         if failures:
-            raise StudyError(failures[0])
+            raise UserError(failures[0])
 
     def signal(self, axis: str, motion) -> np.ndarray:
-        """Throws StudyError where the kept one is damaged."""
+        """Throws UserError where the kept one is damaged."""
         path = self.folder / f"{self._name(axis, motion)}.npy"
         try:
             found = np.load(path, allow_pickle=False)
         except (OSError, ValueError, EOFError) as error:
-            raise StudyError(f"{path} cannot be read ({' '.join(str(error).split())}); remove it") from error
+            raise UserError(f"{path} cannot be read ({' '.join(str(error).split())}); remove it") from error
         if found.ndim != 1 or found.dtype.kind != "f":
-            raise StudyError(f"{path} holds no motion; remove it")
+            raise UserError(f"{path} holds no motion; remove it")
         return found
 
 
 def choose_seeds(study: Study, made: Motions) -> None:
     """Gives the study's targets the first seeds whose motions along the axes are independent of each other and, where
-    the study wants that, of all others. Throws StudyError where hardly any are."""
+    the study wants that, of all others. Throws UserError where hardly any are."""
     names = list(study.axes)
     kept, seeds, seed = [], {name: [] for name in names}, 1
     while len(seeds[names[0]]) < study.wanted:
         if seed > 100 * study.wanted:
-            raise StudyError(f"{study.path}: motions: of seeds up to {seed} only {len(seeds[names[0]])} are "
-                             "independent; raise the correlation, take longer motions or fewer")
+            raise UserError(f"{study.path}: motions: of seeds up to {seed} only {len(seeds[names[0]])} are "
+                            "independent; raise the correlation, take longer motions or fewer")
         batch = {name: [len(names) * k + place + seed for k in range(AT_ONCE)] for place, name in enumerate(names)}
         found = f", {len(seeds[names[0]])} of {study.wanted} that are independent found" if seed > 1 else ""
         made.make([(name, one) for name in names for one in batch[name]], found)
@@ -125,7 +126,7 @@ def choose_seeds(study: Study, made: Motions) -> None:
 
 def check(study: Study, folder: Path, jobs: int, write: bool = True, kept: Path | None = None) -> np.ndarray:
     """Chooses what is to be chosen, writes motions.csv and correlation.csv into the folder and returns the matrix of
-    all axes one after the other. Throws StudyError with the pair that is furthest beyond the limit: of the motions that
+    all axes one after the other. Throws UserError with the pair that is furthest beyond the limit: of the motions that
     act together, and where the study wants that of all. Motions of different samples never act together. `kept`: the folder
     of the motions, that of several studies with the same ones."""
     kept = kept or folder / "motions"
@@ -149,7 +150,7 @@ def check(study: Study, folder: Path, jobs: int, write: bool = True, kept: Path 
     beyond = [one for one in held if one[0] >= study.correlation]
     if beyond:
         value, i, j = max(beyond)
-        raise StudyError(f"{study.path}: motions: {len(beyond)} of {len(held)} pairs are "
-                         f"correlated by {study.correlation:g} or more, {labels[j]} and {labels[i]} by {value:.3f}; take "
-                         "others, or raise `correlation` (all pairs in correlation.csv)")
+        raise UserError(f"{study.path}: motions: {len(beyond)} of {len(held)} pairs are "
+                        f"correlated by {study.correlation:g} or more, {labels[j]} and {labels[i]} by {value:.3f}; take "
+                        "others, or raise `correlation` (all pairs in correlation.csv)")
     return matrix

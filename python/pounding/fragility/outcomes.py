@@ -9,10 +9,10 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from pounding import UserError
 from pounding.files import written_beside
 from pounding.results import UNREADABLE, Result
 
-from .study import StudyError
 
 FILE = "ensemble.h5"
 # Dataset of ensemble.h5 -> its name here; the first dimension is the member's.
@@ -52,17 +52,17 @@ def _texts(values) -> list:
 
 @contextmanager
 def _reading(path: Path):
-    """Throws StudyError where what is read is damaged."""
+    """Throws UserError where what is read is damaged."""
     try:
         with h5py.File(path, "r") as file:
             yield file
     except UNREADABLE as error:
-        raise StudyError(f"{path} cannot be read ({' '.join(str(error).split())}); remove it, and its members are run "
-                         "again") from error
+        raise UserError(f"{path} cannot be read ({' '.join(str(error).split())}); remove it, and its members are run "
+                        "again") from error
 
 
 def read_rows(path: Path) -> tuple:
-    """Columns, and of each finished member its texts -> its number in the file. Throws StudyError."""
+    """Columns, and of each finished member its texts -> its number in the file. Throws UserError."""
     with _reading(path) as file:
         table = file["members/table"]
         columns = _texts(table.attrs["columns"])[0].split(",")
@@ -92,7 +92,7 @@ def collect(files: list, members: list, columns: list) -> tuple:
             labels["channels"], labels["contacts"] = _texts(labels["channels"]), _texts(labels["contacts"])
             shared = shared or labels
             if labels["channels"] != shared["channels"] or not np.allclose(labels["frequency"], shared["frequency"]):
-                raise StudyError(f"{path}: other probes or frequencies than in the other parts")
+                raise UserError(f"{path}: other probes or frequencies than in the other parts")
             for dataset, name in ARRAYS.items():
                 values = file[dataset][()][rows]
                 target = found.setdefault(name, np.empty((len(order), *values.shape[1:])))

@@ -4,8 +4,9 @@ from pathlib import Path
 
 import numpy as np
 
-from pounding.tables import markdown, write_csv, write_rows
+from pounding.tables import cells_of, markdown, write_csv, write_rows
 from pounding.plot import design_spectra
+from pounding.plot.answer import plural
 from pounding.plot.markup import answer_box, figure_parts, html_table, paragraphs, write_page
 from pounding.fragility import Fragility, binomial_interval, moments
 
@@ -15,11 +16,6 @@ from .design import OWN_FIELD
 from .outcomes import Outcomes
 
 PLACES = ("gap [m]", "pga [m/s2]")
-
-
-def _cells(rows: list) -> tuple:
-    head = list(dict.fromkeys(name for row in rows for name in row))
-    return head, [[row.get(name, "") for name in head] for row in rows]
 
 
 def write_design(analysis: Analysis, folder: Path) -> None:
@@ -103,11 +99,11 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
     lines = told(analysis, fits, full, tables) + notes
     box = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))
     shown = [*figure_parts(folder, pages), ("Floor spectra", floor_table(analysis)),
-             *((caption, html_table("", *_cells(rows), text=(0,))) for caption, rows in parts)]
+             *((caption, html_table("", *cells_of(rows), text=(0,))) for caption, rows in parts)]
     names = ", ".join(f"{name}.csv" for name, rows in tables.items() if rows)
     after = paragraphs([f"Tables beside this page: {names}, design.csv, motions.csv, correlation.csv, spectra/*.csv."])
     text = "\n".join(f"{line}" for line in lines) + "\n\n" + "\n".join(
-        markdown(caption, *_cells(rows)) for caption, rows in parts if rows)
+        markdown(caption, *cells_of(rows)) for caption, rows in parts if rows)
     return write_page(folder / "fragility.html", study.title, shown, answer=box, after=after, under=f"study {study.path.name}"), text
 
 
@@ -170,10 +166,6 @@ def percent(part: float) -> str:
     """A part in percent, of two digits or whole: 0.52, 74, 100."""
     value = 100 * float(part)
     return f"{value:.2g}" if abs(value) < 9.95 else f"{value:.0f}"
-
-
-def counted(things: list, word: str) -> str:
-    return f"{len(things)} {word}{'' if len(things) == 1 else 's'}"
 
 
 def needed_joint(rows: list, study) -> str:
@@ -248,7 +240,7 @@ def told(analysis: Analysis, fits: dict, full: Outcomes | None, tables: dict) ->
     others = sum(one.factors != OWN_FIELD for one in analysis.design.members)
     exchanged += f", at {study.levels[-1]:g} m/s2 in other fields ({others})" if others else ""
     lines += [f"{len(analysis.design.members)} runs: {study.samples} samples of motion and building at "
-             f"{counted(study.levels, 'level')}, in {counted(study.gaps, 'joint')} ({cells}){exchanged}, apart "
+             f"{plural(len(study.levels), 'level')}, in {plural(len(study.gaps), 'joint')} ({cells}){exchanged}, apart "
              f"({len(study.levels) * study.samples}){disturbed}."]
     wrong = analysis.contradictions()
     lines.append(f"The runs apart say of {cells - wrong} of {cells} runs with a joint whether they touch as these do.")

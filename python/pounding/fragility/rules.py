@@ -4,13 +4,14 @@ import hashlib
 import json
 from pathlib import Path
 
+from pounding import UserError
 from pounding.study import run_side_by_side
 from pounding.files import write_text
 from pounding.results import load
 from pounding.runs import Job, clear, environment
 
 from .design import Design, motion_columns, motion_values
-from .study import Study, StudyError
+from .study import Study
 
 MOST = 5  # motions of which the mean is taken
 MODES = 6  # of each structure
@@ -52,5 +53,5 @@ def find(study: Study, design: Design, scene: Path, folder: Path, jobs: int) -> 
     try:
         found = json.loads(kept.read_text())
     except ValueError as error:
-        raise StudyError(f"{kept} cannot be read ({error}); remove it") from error
+        raise UserError(f"{kept} cannot be read ({error}); remove it") from error
     return found, "" if found else "no rules for the joint: the program tells none of this scene"

@@ -7,7 +7,7 @@ import json
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
-from pounding import finished
+from pounding import UserError, finished
 from pounding.commands import called
 from pounding.study import alone_in, announcement, run_side_by_side, understood
 from pounding.tables import write_rows
@@ -18,7 +18,7 @@ from pounding.scenes import write_scene
 
 from . import equipment, outcomes
 from .design import Design
-from .study import Study, StudyError, check_names
+from .study import Study, check_names
 
 SCOUTED = "scouted.json"
 
@@ -71,7 +71,7 @@ class Scouted:
 class Runner:
     """Runs what is missing of the members, in a folder; `ranks` of each job, `jobs` at a time where each member is a
     run of its own. `kind`: ensemble, single, or auto: ensembles where the program takes the scene. Results of scenes
-    whose files have changed since stay where they are, and are not these. Throws StudyError."""
+    whose files have changed since stay where they are, and are not these. Throws UserError."""
 
     def __init__(self, study: Study, design: Design, folder: Path, ranks: int, jobs: int, kind: str,
                  only_look: bool = False):
@@ -99,14 +99,14 @@ class Runner:
             try:
                 found = Scouted(**json.loads((base / SCOUTED).read_text(encoding="utf-8")))
             except (OSError, ValueError, TypeError) as error:
-                raise StudyError(f"{base / SCOUTED} cannot be read ({error}); remove the folder, whose runs are then "
-                                 "repeated") from error
+                raise UserError(f"{base / SCOUTED} cannot be read ({error}); remove the folder, whose runs are then "
+                                "repeated") from error
             if finished.are_current(found.inputs, Path.cwd()):
                 self.scouted[reduced] = found
                 return
         if only_look:
-            raise StudyError(f"{self.folder}: of this study and its files as they are now nothing is there yet; run what "
-                             "is missing")
+            raise UserError(f"{self.folder}: of this study and its files as they are now nothing is there yet; run what "
+                            "is missing")
         base.mkdir(parents=True, exist_ok=True)
         write_scene(self.scene(reduced), options)
         self.scouted[reduced] = self._scout(reduced, base)
@@ -118,7 +118,7 @@ class Runner:
         words = [*self._words(self.design.members[0], reduced), "-end_time", "1e-4", "-modes", "0"]
         failure = finish(lambda: Job(words, place.absolute(), 1, Path.cwd(), self.variables))
         if failure:
-            raise StudyError(f"{self.study.path}: {failure}")
+            raise UserError(f"{self.study.path}: {failure}")
         found = load(place)
         summary, items = found.summary, equipment.of_run(found)
         clear(place)
@@ -149,7 +149,7 @@ class Runner:
 
     def run(self, part: tuple) -> str:
         """Runs part i of n of the members, and of the repeats at full order; returns how members were run. Throws
-        StudyError."""
+        UserError."""
         share = self.design.members[part[0] - 1::part[1]]
         repeats = [self.design.members[index] for index in self.design.repeated][part[0] - 1::part[1]]
         name = f"{part[0]}-of-{part[1]}"
@@ -160,7 +160,7 @@ class Runner:
             if refusal and kind == "auto" and "ensemble" in refusal:
                 print(f"note: no ensemble, each member is a run of its own: {refusal}", flush=True)
             elif refusal:
-                raise StudyError(refusal)
+                raise UserError(refusal)
             _, missing = self.found(share)
         if missing:
             self._singles([share[index] for index in missing], True, name)
@@ -201,7 +201,7 @@ class Runner:
         return finish(lambda: Job(words, place.absolute(), self.ranks, Path.cwd(), self.variables))
 
     def _singles(self, members: list, reduced: bool, name: str) -> None:
-        """Each member a run of its own; what is finished is kept and not repeated. Throws StudyError at the first that
+        """Each member a run of its own; what is finished is kept and not repeated. Throws UserError at the first that
         fails, when those beside it have ended."""
         base = self.bases[reduced]
         columns, failures, ended_count = self.design.columns, [], 0
@@ -236,7 +236,7 @@ class Runner:
             if not failures:
                 run_side_by_side(some, self.jobs, start, ended)
         if failures:
-            raise StudyError(failures[0])
+            raise UserError(failures[0])
         place = base / f"single-{name}"
         place.mkdir(exist_ok=True)
         previous = outcomes.read_rows(place / outcomes.FILE)[1] if (place / outcomes.FILE).is_file() else {}

@@ -6,11 +6,12 @@ from pathlib import Path
 
 import yaml
 
+from pounding import UserError
 from pounding.fragility import DISTRIBUTIONS, Variable
 from pounding.results import DIRECTIONS
 from pounding.scenes import SceneError, flatten
 
-from .study_file import Reader, StudyError, beside, load
+from .study_file import Reader, beside, load
 
 KEYS = ("title", "scene", "output", "options", "reduction", "seed", "samples", "confidence", "motions", "levels",
         "gaps", "apart", "joints", "soils", "states", "submittal", "uncertainty", "exchange", "field_factors", "factors", "capacities",
@@ -133,7 +134,7 @@ def _axis(reader: Reader, name: str) -> Axis:
     one = reader.part(name, MOTION)
     records, target = one.values.get("records"), one.values.get("target")
     if (records is None) == (target is None):
-        raise StudyError(f"{reader.path}: motions: {name} needs either records or a target")
+        raise UserError(f"{reader.path}: motions: {name} needs either records or a target")
     options = one.options("options")
     ratio = one.number("ratio", 1.0, 0.0)
     if records is not None:
@@ -142,11 +143,11 @@ def _axis(reader: Reader, name: str) -> Axis:
         paths = tuple(beside(reader.path, item) for item in records)
         missing = [item for item in paths if not Path(item).is_file()]
         if missing:
-            raise StudyError(f"{reader.path}: motions: {name}: {missing[0]}: no such file")
+            raise UserError(f"{reader.path}: motions: {name}: {missing[0]}: no such file")
         return Axis(paths, "", (), ratio, tuple((key, value) for key, value in options.items()))
     path = beside(reader.path, str(target))
     if not Path(path).is_file():
-        raise StudyError(f"{reader.path}: motions: {name}: {path}: no such file")
+        raise UserError(f"{reader.path}: motions: {name}: {path}: no such file")
     seeds = one.numbers("seeds", [], -1) if one.values.get("seeds") is not None else []
     if any(not seed.is_integer() for seed in seeds) or len(set(seeds)) < len(seeds):
         one.fail("seeds", "is not a list of different whole numbers")
@@ -158,22 +159,22 @@ def read_motions(reader: Reader) -> tuple:
     motions = reader.part("motions", ("x", "y", "z", "correlation", "between_samples", "choose"))
     axes = {name: _axis(motions, name) for name in DIRECTIONS if name in motions.values}
     if not axes:
-        raise StudyError(f"{reader.path}: motions has no axis x, y or z")
+        raise UserError(f"{reader.path}: motions has no axis x, y or z")
     counts = {name: len(axis.records or axis.seeds) for name, axis in axes.items() if axis.records or axis.seeds}
     wanted = motions.whole("choose", 0, 0)
     if wanted and counts:
         motions.fail("choose", "goes with targets without seeds, from which it takes the first independent ones")
     if not wanted and (len(counts) < len(axes) or len(set(counts.values())) > 1):
-        raise StudyError(f"{reader.path}: motions: every axis needs as many records or seeds as the others, or "
-                         "`choose` says how many synthetic motions are wanted")
+        raise UserError(f"{reader.path}: motions: every axis needs as many records or seeds as the others, or "
+                        "`choose` says how many synthetic motions are wanted")
     return axes, motions.number("correlation", 0.16, 0.0), motions.flag("between_samples"), wanted, wanted or next(iter(counts.values()))
 
 
 def _joints(reader: Reader) -> dict:
     values = reader.values.get("joints")
     if not isinstance(values, dict) or not values:
-        raise StudyError(f"{reader.path}: joints is missing: the contacts whose gaps the study sets, as "
-                         "`joints: {roof: {}}`")
+        raise UserError(f"{reader.path}: joints is missing: the contacts whose gaps the study sets, as "
+                        "`joints: {roof: {}}`")
     found = {}
     for name in values:
         one = Reader(values[name] or {}, reader.path, f"joints: {name}", ("shape", "deviation", "field"))
@@ -216,8 +217,8 @@ def _factors(reader: Reader) -> list:
         reader.fail("factors", "is no list of factors")
     for name in values:
         if not FACTOR.fullmatch(str(name)):
-            raise StudyError(f"{reader.path}: factors: {name} is neither <structure>_stiffness_factor nor "
-                             "<structure>_damping_factor")
+            raise UserError(f"{reader.path}: factors: {name} is neither <structure>_stiffness_factor nor "
+                            "<structure>_damping_factor")
     return [_variable(Reader(one or {}, reader.path, f"factors: {name}", SPREAD), name)
             for name, one in values.items()]
 
@@ -275,19 +276,19 @@ def own_gap(study: Study) -> float | None:
 
 
 def check_names(study: Study, probes: list, contacts: list) -> None:
-    """Throws StudyError where the study speaks of probes and contacts that the scene has not."""
+    """Throws UserError where the study speaks of probes and contacts that the scene has not."""
     for name in study.joints:
         if name not in contacts:
-            raise StudyError(f"{study.path}: joints: {name} is no contact of the scene; it has "
-                             f"{', '.join(contacts) or 'none'}")
+            raise UserError(f"{study.path}: joints: {name} is no contact of the scene; it has "
+                            f"{', '.join(contacts) or 'none'}")
     for one in study.capacities:
         if one.probe not in probes:
-            raise StudyError(f"{study.path}: capacities: {one.probe!r} is no probe of the scene; it has "
-                             f"{', '.join(probes) or 'none'}")
+            raise UserError(f"{study.path}: capacities: {one.probe!r} is no probe of the scene; it has "
+                            f"{', '.join(probes) or 'none'}")
     channels = [f"{probe} {way}" for probe in probes for way in DIRECTIONS]
     if study.show.get("channel", channels[0] if channels else None) not in channels:
-        raise StudyError(f"{study.path}: show: channel: {study.show.get('channel')!r} is none of the scene's "
-                         f"{', '.join(channels) or 'probes, of which there are none'}")
+        raise UserError(f"{study.path}: show: channel: {study.show.get('channel')!r} is none of the scene's "
+                        f"{', '.join(channels) or 'probes, of which there are none'}")
 
 
 def doubts(study: Study) -> list:
@@ -304,14 +305,14 @@ def doubts(study: Study) -> list:
 
 
 def read(path: Path) -> Study:
-    """The study of a file. Throws StudyError."""
+    """The study of a file. Throws UserError."""
     values = load(path)
     if isinstance(values, dict) and set(values) == {"fragility"}:
         values = values["fragility"]
     reader = Reader(values, path, "", KEYS)
     scene = path.parent / str(reader.values.get("scene", ""))
     if not scene.is_file():
-        raise StudyError(f"{path}: scene: {scene}: no such file")
+        raise UserError(f"{path}: scene: {scene}: no such file")
     axes, limit, between, wanted, motions = read_motions(reader)
     frequencies = reader.increasing("frequencies", standard_frequencies())
     dampings = reader.increasing("dampings", DAMPINGS)

@@ -5,11 +5,8 @@ from pathlib import Path
 
 import yaml
 
+from pounding import UserError
 from pounding.scenes import SceneError, flatten
-
-
-class StudyError(Exception):
-    """One line for the user."""
 
 
 class Reader:
@@ -18,22 +15,22 @@ class Reader:
     def __init__(self, values, path: Path, place: str, known: tuple):
         self.path, self.place = path, place
         if not isinstance(values, dict):
-            raise StudyError(f"{path}: {place or 'the file'} is no list of keys and values")
+            raise UserError(f"{path}: {place or 'the file'} is no list of keys and values")
         self.values = values
         for key in values:
             if key not in known:
-                raise StudyError(f"{path}: {self._at(key)} is unknown; {place or 'a study'} has {', '.join(known)}")
+                raise UserError(f"{path}: {self._at(key)} is unknown; {place or 'a study'} has {', '.join(known)}")
 
     def _at(self, key) -> str:
         return f"{self.place}: {key}" if self.place else str(key)
 
     def fail(self, key: str, why: str):
-        raise StudyError(f"{self.path}: {self._at(key)}: {self.values.get(key)!r} {why}")
+        raise UserError(f"{self.path}: {self._at(key)}: {self.values.get(key)!r} {why}")
 
     def number(self, key: str, default=None, above: float | None = None, below: float | None = None) -> float:
         value = self.values.get(key, default)
         if value is None:
-            raise StudyError(f"{self.path}: {self._at(key)} is missing")
+            raise UserError(f"{self.path}: {self._at(key)} is missing")
         if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) < float("inf"):
             self.fail(key, "is not a number")
         if above is not None and not value > above:
@@ -58,7 +55,7 @@ class Reader:
         """A list, or text of numbers between commas."""
         value = self.values.get(key, default)
         if value is None:
-            raise StudyError(f"{self.path}: {self._at(key)} is missing")
+            raise UserError(f"{self.path}: {self._at(key)} is missing")
         items = value.split(",") if isinstance(value, str) else value if isinstance(value, (list, tuple)) else [value]
         try:
             found = [float(item) for item in items]
@@ -89,10 +86,10 @@ class Reader:
         try:
             found = flatten(values)
         except SceneError as error:
-            raise StudyError(f"{self.path}: {self._at(key)}: {error}") from error
+            raise UserError(f"{self.path}: {self._at(key)}: {error}") from error
         for name in ("output", "dry_run", "restart", "ensemble", "include"):
             if name in found:
-                raise StudyError(f"{self.path}: {self._at(key)}: {name} is the study's own")
+                raise UserError(f"{self.path}: {self._at(key)}: {name} is the study's own")
         return {name: beside(self.path, text) for name, text in found.items()}
 
     def part(self, key: str, known: tuple) -> "Reader":
@@ -123,10 +120,10 @@ class _Loader(yaml.SafeLoader):
 
 def load(path: Path):
     if path.exists() and not path.is_file():  # a pipe would be waited for
-        raise StudyError(f"{path}: no file with contents")
+        raise UserError(f"{path}: no file with contents")
     try:
         return yaml.load(path.read_text(encoding="utf-8"), _Loader)
     except OSError as error:
-        raise StudyError(f"{path}: {error.strerror}") from error
+        raise UserError(f"{path}: {error.strerror}") from error
     except (yaml.YAMLError, ValueError, RecursionError) as error:
-        raise StudyError(f"{path}: {' '.join(str(error).split())}") from error
+        raise UserError(f"{path}: {' '.join(str(error).split())}") from error

@@ -11,10 +11,10 @@ from pounding.finished import digest
 from pounding.fragility import binomial_interval, widened
 from pounding.plot import design_spectra
 from pounding.plot.markup import answer_box, figure_parts, folded, html_table, paragraphs, write_page
-from pounding.tables import write_csv
+from pounding.tables import cells_of, write_csv
 
 from .analysis import CONTACT
-from .envelope import Envelope, _cells, governs
+from .envelope import Envelope, governs
 from .study import Study, given_options
 from .study_file import Reader
 
@@ -38,7 +38,7 @@ class Submittal:
 
 
 def read(study: Study) -> Submittal | None:
-    """The block `submittal` of a study; None where it has none. Throws StudyError."""
+    """The block `submittal` of a study; None where it has none. Throws UserError."""
     values = study.named.get("submittal")
     if values is None:
         return None
@@ -168,15 +168,15 @@ def write(study: Study, analyses: dict, folder: Path) -> Path | None:
     missing += [f"Other {word} than the one given." for word, key in (("soils", "soil"), ("states of the concrete", "state"))
                 if len({condition.place[key] for condition in one.conditions}) == 1]
     joint = [row for row in one.joint_rows() if row["pga [m/s2]"] in (told.design, told.beyond)]
-    parts = [("The joint that is needed [m]", html_table("", *_cells(joint), text=(0,))),
+    parts = [("The joint that is needed [m]", html_table("", *cells_of(joint), text=(0,))),
              (f"Floor spectra for design: 84 % of the cases, the envelope of soils and states, widened by 15 %, "
-              f"{100 * one.first.outcomes.damping[one.damping]:g} % damping [m/s²]", html_table("", *_cells(spectra), text=(0, 2))),
+              f"{100 * one.first.outcomes.damping[one.damping]:g} % damping [m/s²]", html_table("", *cells_of(spectra), text=(0, 2))),
              *figure_parts(folder, one.draw_spectra(folder)),
-             ("Equipment that fails: cases on the worst soil and in the worst state", html_table("", *_cells(items), text=(0,))),
+             ("Equipment that fails: cases on the worst soil and in the worst state", html_table("", *cells_of(items), text=(0,))),
              *figure_parts(folder, one.draw_sensitivity(one.sensitivity_rows(), folder)),
              ("Assumptions", html_table("", ["subject", "assumption"], assumptions(one), text=(0, 1))),
              ("Not covered", paragraphs([*told.not_covered, *missing])),
-             ("Verification of what is used", html_table("", *_cells(verification_rows(options, page)), text=(0, 1, 2))),
+             ("Verification of what is used", html_table("", *cells_of(verification_rows(options, page)), text=(0, 1, 2))),
              ("Annex: files and their hashes", html_table("", ["file", "SHA-256"], sorted(
                  (Path(path).name, found[:16]) for path, found in inputs.items()), text=(0,), hashes=(1,))),
              ("Annex: options", folded("options of the study beside its scene", [html_table(

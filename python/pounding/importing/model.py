@@ -4,6 +4,8 @@
 from collections import Counter
 from dataclasses import dataclass, field
 
+from pounding import UserError
+
 X, Y, Z, RX, RY, RZ = (1 << place for place in range(6))
 TRANSLATIONS, ROTATIONS, ALL = X | Y | Z, RX | RY | RZ, 63
 COMPONENTS = ("x", "y", "z", "rx", "ry", "rz")
@@ -14,7 +16,7 @@ BEAMS = ("beam", "euler_beam")
 SHELL, BAR = "shell", "bar"
 
 
-class InputFault(Exception):
+class InputFault(UserError):
     """A file that cannot be read: one line with its name and the number of the line."""
 
 

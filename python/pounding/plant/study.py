@@ -5,6 +5,7 @@ import subprocess
 import time
 from pathlib import Path
 
+from pounding import UserError
 from pounding.commands import called, words_of_command
 from pounding.compare import page
 from pounding.compare.runs import Runs
@@ -25,16 +26,12 @@ COST = ["run", "dofs", "ranks", "steps", "microseconds per step", "wall time [s]
         "memory of all ranks [GB]"]
 
 
-class StudyError(Exception):
-    """One line for the user."""
-
-
 def scene_of(size: str) -> Path:
-    """Throws StudyError where the scenes are not with the program."""
+    """Throws UserError where the scenes are not with the program."""
     name = f"petsc-options/plant/{size}.yaml"
     if scene := shipped(name):
         return scene
-    raise StudyError(f"{name}: neither in {SOURCE} nor beside the program, {folder_of_programs()}")
+    raise UserError(f"{name}: neither in {SOURCE} nor beside the program, {folder_of_programs()}")
 
 
 def options_of(fidelity: str, modes: int, folder: Path) -> dict:
@@ -50,11 +47,11 @@ def options_of(fidelity: str, modes: int, folder: Path) -> dict:
 
 def members(fidelities: list, modes: int, seconds: float, gap: float, folder: Path) -> list:
     """The first one has no contacts and the first fidelity; the others have contacts, one fidelity each. Throws
-    StudyError for a gap below the deviation, and for a fidelity that stands twice."""
+    UserError for a gap below the deviation, and for a fidelity that stands twice."""
     if len(set(fidelities)) < len(fidelities):
-        raise StudyError("--fidelity: one stands twice")
+        raise UserError("--fidelity: one stands twice")
     if gap < DEVIATION:
-        raise StudyError(f"--gap {gap:g}: below the joint's deviation of {DEVIATION:g} m, so that it would be closed")
+        raise UserError(f"--gap {gap:g}: below the joint's deviation of {DEVIATION:g} m, so that it would be closed")
 
     def member(name: str, fidelity: str, more: dict) -> Member:
         options = {"end_time": f"{seconds:g}", "write_model": "true", **options_of(fidelity, modes, folder / name),
@@ -67,10 +64,10 @@ def members(fidelities: list, modes: int, seconds: float, gap: float, folder: Pa
 
 
 def run_all(wanted: list, size: str, more: list, ranks: int, folder: Path) -> None:
-    """Runs what is not finished, one after another, from the folder of the sources. Throws StudyError."""
+    """Runs what is not finished, one after another, from the folder of the sources. Throws UserError."""
     forbidden = [word for word in more if word.lstrip("-") in ("output", "dry_run", "restart", "contacts", "structures")]
     if forbidden:
-        raise StudyError(f"--options: not with {forbidden[0]}, which is the study's own")
+        raise UserError(f"--options: not with {forbidden[0]}, which is the study's own")
     folder.mkdir(parents=True, exist_ok=True)
     scene, variables = scene_of(size), environment()
     for member in wanted:
@@ -82,7 +79,7 @@ def run_all(wanted: list, size: str, more: list, ranks: int, folder: Path) -> No
         began = time.monotonic()
         failure = finish(lambda run=run: run.start(ranks, variables)) or run.sign()
         if failure:
-            raise StudyError(f"run {member.name}: {failure}")
+            raise UserError(f"run {member.name}: {failure}")
         print(f"  {member.name}: done; {time.monotonic() - began:.0f} s", flush=True)
 
 

@@ -99,7 +99,7 @@ def strongest_spectrum(run: Result, along: tuple = DIRECTIONS) -> tuple | None:
     return str(table["probe"][i]), str(table["direction"][i]), float(table["damping"][i])
 
 
-def _plural(count: int, word: str) -> str:
+def plural(count: int, word: str) -> str:
     return f"{count} {word}{'' if count == 1 else 's'}"
 
 
@@ -146,7 +146,7 @@ def verdict(run: Result) -> str:
     if touched(run):
         asked = run.summary.get("separations", {}).get(name, {}).get("srss")
         margin = f", where response spectra ask for {_millimetres(asked)} (SRSS)" if asked else " and no margin"
-        return f"{name} of {width} closes, with {_plural(run.summary['impacts']['episodes'], 'impact')} in all{margin}"
+        return f"{name} of {width} closes, with {plural(run.summary['impacts']['episodes'], 'impact')} in all{margin}"
     factor = run.closing_factors().get(name)
     margin = f" with a margin of {factor:.3g} on the {run.scaled_by_closing(name)}" if factor else ""
     return f"{name} of {width} stays open{margin}"
@@ -169,7 +169,7 @@ def _touched(run: Result) -> list:
     impacts = run.summary["impacts"]
     by = {name: one["episodes"] for name, one in impacts.items() if isinstance(one, dict) and one.get("episodes")}
     where = ", ".join(f"{count} at {name}" for name, count in by.items())
-    lines = [f"The buildings touched: {_plural(impacts['episodes'], 'impact')}, {where}."]
+    lines = [f"The buildings touched: {plural(impacts['episodes'], 'impact')}, {where}."]
     table = run.impacts
     if table and len(table["start"]):
         i = int(np.argmax(table["impulse"]))
@@ -285,7 +285,7 @@ def checks(run: Result) -> list:
                      f"{readable(left, 2)}. The faces went into each other by at most "
                      f"{1e6 * impacts.get('max_penetration', 0):.3g} µm, less than they move in a step.")
     count = len(summary.get("warnings", []))
-    lines.append(f"The run warned {_plural(count, 'time')}; see Warnings." if count else "The run gave no warning.")
+    lines.append(f"The run warned {plural(count, 'time')}; see Warnings." if count else "The run gave no warning.")
     return lines
 
 

@@ -39,8 +39,8 @@ _PAGES = jinja2.Environment(loader=jinja2.FileSystemLoader(Path(__file__).with_n
                             lstrip_blocks=True)
 _PAGES.filters |= {"number": number, "base64": lambda image: base64.b64encode(image).decode()}
 _PIECES = _PAGES.get_template("pieces.html").module
-html_table, html_figures, answer_box, paragraphs, folded, html_view = (
-    getattr(_PIECES, name) for name in ("table", "figures", "answer", "paragraphs", "folded", "view"))
+html_table, html_figures, answer_box, linked, paragraphs, folded, html_view = (
+    getattr(_PIECES, name) for name in ("table", "figures", "answer", "linked", "paragraphs", "folded", "view"))
 
 
 def figure_parts(folder: Path, pages: list) -> list:

@@ -1,6 +1,7 @@
 """The report of a run: the answer first, then what was found, what was computed, and where it all comes from."""
 
 import shutil
+import subprocess
 from pathlib import Path
 
 from pounding.results import Missing, Result
@@ -102,7 +103,10 @@ def print_pdf(page: Path, browser: str, run) -> Path:
     path.unlink(missing_ok=True)
     words = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer", "--virtual-time-budget=10000",
              f"--print-to-pdf={path.resolve()}", page.resolve().as_uri()]
-    done = run(words, capture_output=True, text=True, timeout=300)
+    try:
+        done = run(words, capture_output=True, text=True, timeout=300)
+    except subprocess.TimeoutExpired as error:
+        raise OSError(str(error)) from error
     if done.returncode != 0 or not path.exists():
         reason = (done.stderr.strip().splitlines() or ["it left no file"])[-1]
         raise OSError(f"{browser} does not print {page}: {reason}")

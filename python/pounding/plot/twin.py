@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from pounding import UserError
 from pounding.compare.tables import same
 from pounding.results import Result, ResultError, load
 from pounding.runs import folder_of_programs
@@ -21,7 +22,7 @@ FREE = {"contacts", "output", "title", "restart", "write_modes", "write_model", 
 READ = ("_mesh", "_record", "_target", "_matrices", "_table", "_initial_state")  # endings of options whose files decide the model
 
 
-class NoTwin(Exception):
+class NoTwin(UserError):
     """Two runs that are not the same model with and without pounding: one line for the user."""
 
 

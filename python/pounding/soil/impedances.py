@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy
 
+from pounding import UserError
+
 MOTIONS = ("x", "y", "z", "rx", "ry", "rz")
 UNSYMMETRIC = 0.01  # of a term, over the root of its diagonals' product
 GIVES_ENERGY = 0.02  # least eigenvalue of the imaginary part, likewise
@@ -14,7 +16,7 @@ NAMES = {f"k{a}{b}_{part}": (i, j, factor) for i, a in enumerate(MOTIONS) for j,
          for part, factor in (("re", 1), ("im", 1j))}
 
 
-class TableError(Exception):
+class TableError(UserError):
     """A table of impedances that cannot be meant, in one line."""
 
 

@@ -6,12 +6,9 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from pounding import UserError
 from pounding.study import Run
 from pounding.runs import words_of
-
-
-class SweepError(Exception):
-    """One line for the user."""
 
 
 @dataclass(frozen=True)
@@ -45,15 +42,15 @@ def read_axis(text: str) -> Axis:
     found = [name.strip().lstrip("-") for name in names.split(",")]
     items = [value.strip() for value in values.split(";" if ";" in values else ",")]
     if not equals or not all(re.fullmatch(r"[A-Za-z]\w*", name) for name in found):
-        raise SweepError(f"--set {text}: expected NAME=value,value or NAME,NAME=value,value (the same for both)")
+        raise UserError(f"--set {text}: expected NAME=value,value or NAME,NAME=value,value (the same for both)")
     if "" in items:
-        raise SweepError(f"--set {text}: an empty value; those with commas of their own stand between semicolons")
+        raise UserError(f"--set {text}: an empty value; those with commas of their own stand between semicolons")
     if any(re.match(r"-[A-Za-z]", item) for item in items):
-        raise SweepError(f"--set {text}: a value that begins with a dash and a letter would be an option")
+        raise UserError(f"--set {text}: a value that begins with a dash and a letter would be an option")
     if "output" in found or "dry_run" in found or "restart" in found:
-        raise SweepError(f"--set {text}: not with output, dry_run or restart; --out gives the folder of all members")
+        raise UserError(f"--set {text}: not with output, dry_run or restart; --out gives the folder of all members")
     if len(set(items)) < len(items):
-        raise SweepError(f"--set {text}: a value stands twice")
+        raise UserError(f"--set {text}: a value stands twice")
     return Axis(tuple(found), tuple(items))
 
 
@@ -72,10 +69,10 @@ def all_members(axes: list, together: bool) -> list:
     names = [name for axis in axes for name in axis.names]
     if len(set(names)) < len(names):
         twice = next(name for name in names if names.count(name) > 1)
-        raise SweepError(f"{twice} is set twice")
+        raise UserError(f"{twice} is set twice")
     if together and len({len(axis.values) for axis in axes}) > 1:
-        raise SweepError("--zip needs as many values for every --set: "
-                         + ", ".join(f"{axis.title} has {len(axis.values)}" for axis in axes))
+        raise UserError("--zip needs as many values for every --set: "
+                        + ", ".join(f"{axis.title} has {len(axis.values)}" for axis in axes))
     tuples = zip(*(axis.values for axis in axes)) if together else itertools.product(*(axis.values for axis in axes))
     return [Member(_folder_name(axes, values), values,
                    tuple((name, value) for axis, value in zip(axes, values) for name in axis.names))

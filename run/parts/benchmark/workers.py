@@ -9,6 +9,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from pounding import UserError
 from pounding.runs import ending_with_us
 
 SOURCE = Path(__file__).resolve().parents[3]
@@ -18,7 +19,7 @@ MOTION_STEP = 2e-3  # [s]
 ELEMENT_MEMORY = 1500  # of a Stepper without a matrix while it is built [B per dof]
 
 
-class MeasuringError(Exception):
+class MeasuringError(UserError):
     """Something cannot be measured: one line for the user."""
 
 

@@ -4,6 +4,7 @@ import json
 import subprocess
 from pathlib import Path
 
+from pounding import UserError
 from pounding.runs import ending_with_us
 
 from . import paper
@@ -12,7 +13,7 @@ SOURCE = Path(__file__).resolve().parents[3]
 FILES = {"A": "pair", "B": "pair-b"}
 
 
-class TableError(Exception):
+class TableError(UserError):
     """One line for the user, or what the program said."""
 
 

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from pounding import UserError
 from pounding.files import write_text
 
 G = 9.80665  # of a file in g [m/s2]
@@ -18,10 +19,6 @@ FILES = {
              "kobe_1995/RSN1106_KOBE_KJM-UP.AT2"),
 }
 RAMP = 0.2  # at the start of a window that is cut out of a record [s]
-
-
-class RecordError(Exception):
-    """One line for the user."""
 
 
 @dataclass(frozen=True)
@@ -48,9 +45,9 @@ def read_at2(path: Path) -> tuple[float, np.ndarray]:
         count, step = int(fields[fields.index("NPTS") + 1]), float(fields[fields.index("DT") + 1])
         values = np.array(" ".join(lines[4:]).split(), dtype=float)[:count]
     except (OSError, ValueError, IndexError) as error:
-        raise RecordError(f"{path} is not a PEER AT2 file with NPTS and DT in its fourth line: {error}") from error
+        raise UserError(f"{path} is not a PEER AT2 file with NPTS and DT in its fourth line: {error}") from error
     if not 0 < step < 10 or len(values) < 2 or not np.isfinite(values).all():
-        raise RecordError(f"{path}: {len(values)} finite accelerations every {step:g} s are no record")
+        raise UserError(f"{path}: {len(values)} finite accelerations every {step:g} s are no record")
     return step, G * values
 
 
@@ -65,7 +62,7 @@ def load(folder: Path, motion: str, length: float, table: Path) -> Record:
     """Writes the table of a record, or if it is longer the strongest stretch of `length` seconds."""
     read = [read_at2(folder / name) for name in FILES[motion]]
     if len({step for step, _ in read}) != 1:
-        raise RecordError(f"the components of {motion} in {folder} have different time steps")
+        raise UserError(f"the components of {motion} in {folder} have different time steps")
     step, count = read[0][0], min(len(values) for _, values in read)
     values = np.stack([values[:count] for _, values in read], 1)
     if length < (count - 1) * step:
@@ -85,5 +82,5 @@ def load_all(folder: Path, length: float, tables: Path) -> dict:
     found = {motion: load(folder, motion, length, tables / f"{motion.lower().replace(' ', '-')}.csv")
              for motion, files in FILES.items() if all((folder / name).is_file() for name in files)}
     if not found:
-        raise RecordError(f"{folder} holds none of the records (expected e.g. {FILES['El Centro'][0]})")
+        raise UserError(f"{folder} holds none of the records (expected e.g. {FILES['El Centro'][0]})")
     return found

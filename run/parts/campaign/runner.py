@@ -6,6 +6,7 @@ import sys
 import time
 from pathlib import Path
 
+from pounding import UserError
 from pounding.study import Run, announcement, run_side_by_side
 from pounding.runs import Job, complaint, ending_with_us, environment, program
 
@@ -15,10 +16,6 @@ from .cases import Case
 SOURCE = Path(__file__).resolve().parents[3]
 # Steps of Model B cost more than those of Model A; the first finished runs correct this guess.
 FIRST_GUESS = {"A": 1.0, "B": 1.5}
-
-
-class SetUpError(Exception):
-    """One line for the user."""
 
 
 def run_of(case: Case, root: Path) -> Run:
@@ -80,7 +77,7 @@ def prepare_bases(cases: list, variables: dict) -> None:
         done = subprocess.run(command, cwd=SOURCE, env=variables, stdin=subprocess.DEVNULL, capture_output=True,
                               text=True, check=False, preexec_fn=ending_with_us())
         if done.returncode != 0:
-            raise SetUpError(complaint(done.stderr) or f"modal bases of {case.name}: exit status {done.returncode}")
+            raise UserError(complaint(done.stderr) or f"modal bases of {case.name}: exit status {done.returncode}")
         say(f"  modal bases of {case.variant}: {time.monotonic() - started:.0f} s")
 
 

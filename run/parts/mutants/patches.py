@@ -12,12 +12,10 @@ import dataclasses
 import re
 from pathlib import Path
 
+from pounding import UserError
+
 PROGRAMS = {"unit": "unit_tests", "parallel": "parallel_tests"}
 KEYS = ("room", "fault", "tests")
-
-
-class PatchError(Exception):
-    """A patch that is none."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -37,11 +35,11 @@ def read(path: Path) -> Mutant:
     head, _, difference = path.read_text().partition("\n\n")
     lines = [line.partition(": ") for line in head.splitlines()]
     if tuple(key for key, _, _ in lines) != KEYS or not all(value for _, _, value in lines):
-        raise PatchError(f"{path}: the lines before the difference have to be 'room: ', 'fault: ' and 'tests: '")
+        raise UserError(f"{path}: the lines before the difference have to be 'room: ', 'fault: ' and 'tests: '")
     room, fault, tests = (value for _, _, value in lines)
     files = tuple(re.findall(r"^\+\+\+ b/(.+)$", difference, re.MULTILINE))
     if not files:
-        raise PatchError(f"{path}: holds no difference")
+        raise UserError(f"{path}: holds no difference")
     return Mutant(path, room, fault, tuple(tests.split()), files)
 
 

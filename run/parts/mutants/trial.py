@@ -10,7 +10,7 @@ import subprocess
 import time
 from pathlib import Path
 
-from pounding import runs
+from pounding import UserError, runs
 
 from .patches import PROGRAMS, Mutant
 
@@ -19,7 +19,7 @@ TIMEOUT = 1500  # s of a test, as in tests/CMakeLists.txt
 FOUND, PASSED = "found", "passed"
 
 
-class TrialError(Exception):
+class TrialError(UserError):
     """Fault of a patch, of a build or of a test, not of the code tested."""
 
 
