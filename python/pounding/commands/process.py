@@ -23,7 +23,7 @@ def printable(text: str) -> str:
 def line_of(error: BaseException) -> str:
     """What an error says, in one line; of the system's the file first."""
     named = isinstance(error, OSError) and error.filename and error.strerror
-    return printable(f"{error.filename}: {error.strerror}" if named else " ".join(str(error).split()))
+    return printable(f"{error.filename}: {error.strerror}" if named else " ".join(map(str.strip, str(error).split("\n"))))
 
 
 # What the commands need of others; the packages of Debian are python3-numpy and so on.
