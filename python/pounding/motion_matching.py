@@ -9,7 +9,7 @@ those that stay too low weighing more from turn to turn, beside rows that hold t
 import argparse
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +22,7 @@ from .motion_rules import (Bench, DIRECTIONS, REFUSED, SPECTRAL, KINDS, Motion, 
 from .motion_signals import MotionError, Signal, correlation, read_signals, response_spectra
 
 POINTS_A_CYCLE = 10  # of the highest frequency, at which motions are sampled
-OSCILLATORS = 130  # at most about twice as many are followed, of finer grids each second or so
+OSCILLATORS = 130  # at most about twice as many are followed at first, of finer grids each second or so
 PATIENCE = 10  # turns without a better motion
 WAVELETS = 80  # at most about twice as many
 OTHER_PEAKS = 2  # of an oscillator that are held down beside its largest
@@ -54,6 +54,13 @@ class Goal:
     damping: float = 0.05
     aim: float = 1.06
     ceiling: float = 1.25
+
+    @property
+    def thinned(self) -> "Goal":
+        """The same at fewer frequencies, where there are many."""
+        every = np.arange(len(self.frequency)) % max(len(self.frequency) // OSCILLATORS, 1) == 0
+        every[-1] = True
+        return replace(self, frequency=self.frequency[every], target=self.target[every])
 
 
 @dataclass(frozen=True)
@@ -179,14 +186,14 @@ def resampled(signal: Signal, most: float) -> Signal:
 class _Search:
     """A motion on its way to a goal."""
 
-    def __init__(self, record: Signal, goal: Goal, limits: Limits):
+    def __init__(self, record: Signal, goal: Goal, limits: Limits, start: Signal):
         self.record, self.goal, self.limits = record, goal, limits
         self.count, self.aim = len(goal.frequency), goal.aim * goal.target
         self.oscillators = Oscillators(goal.frequency, goal.damping, record.step, len(record.values))
         self.chosen = slice(None, None, max(self.count // WAVELETS, 1))
         self.most = abs(record.displacement).max()
         self.weight = np.ones(self.count)
-        self.move(record.values)
+        self.move(start.values)
 
     def move(self, values: np.ndarray) -> None:
         self.signal = Signal(self.record.name, self.record.step, values)
@@ -228,26 +235,36 @@ class _Search:
         self.move(self.signal.values + step * (amounts @ shapes))
 
 
+def _best(record: Signal, goal: Goal, limits: Limits, start: Signal, turns: int, gone: int) -> tuple:
+    """The motion that `start` becomes within so many turns, and how many they were; where none does, the best of them. Steps
+    are those behind `gone` turns."""
+    best = None
+    for earlier in EARLIER:
+        search, since = _Search(record, goal, limits, start), 0
+        for turn in range(turns + 1):
+            since += 1
+            if best is None or search.score < best[0]:
+                best, since = (search.score, search.signal, turn), 0
+            if search.done:
+                return search.signal, turn
+            if since > PATIENCE:
+                break
+            if turn < turns:
+                search.advance(STEP * 0.5 ** ((gone + turn) / HALVING), earlier)
+    return best[1:]
+
+
 def match(record: Signal, goal: Goal, limits: Limits = Limits(), scale: float = 1.0, turns: int = 40) -> Matched:
     """The record times `scale`, matched to a goal; where none of so many turns does, the best of them. It need not keep the
     limits: `misses` says so. Throws MotionError for a record whose ground does not move."""
     if not record.peak:
         raise MotionError(f"motion {record.name}: the ground does not move")
     fine = resampled(Signal(record.name, record.step, scale * record.values), 1 / goal.frequency[-1] / POINTS_A_CYCLE)
-    best = None
-    for earlier in EARLIER:
-        search, since = _Search(fine, goal, limits), 0
-        for turn in range(turns + 1):
-            since += 1
-            if best is None or search.score < best[0]:
-                best, since = (search.score, turn, search.signal), 0
-            if search.done:
-                return Matched(fine, search.signal, scale, turn)
-            if since > PATIENCE:
-                break
-            if turn < turns:
-                search.advance(STEP * 0.5 ** (turn / HALVING), earlier)
-    return Matched(fine, best[2], scale, best[1])
+    signal, count = _best(fine, goal.thinned, limits, fine, turns, 0)
+    if len(goal.thinned.frequency) < len(goal.frequency):
+        signal, more = _best(fine, goal, limits, signal, turns, HALVING)
+        count += more
+    return Matched(fine, signal, scale, count)
 
 
 def scale_of(record: Signal, goal: Goal, program: Path | None = None) -> float:
@@ -271,8 +288,6 @@ def goal_of(rules: list, direction: str, anchor: float | None, aim: float, grids
     if len(wanted) > 1:
         raise MotionError(f"the rules have {len(wanted)} targets for {direction}; a motion is matched to one: give each a table")
     frequency = np.unique(np.concatenate([grids(rule) for rule in spectral]))
-    thinned = frequency[::max(len(frequency) // OSCILLATORS, 1)]
-    frequency = np.union1d(thinned, frequency[[0, -1]])
     ceiling = min([rule.most for rule in spectral if rule.kind == "largest_above"], default=30.0)
     rule = spectral[0]
     return Goal(frequency, own_target(rule).at(frequency, rule.peak(anchor)), float(rule.cells.get("damping", "0.05")), aim,

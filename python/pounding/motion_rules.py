@@ -71,7 +71,9 @@ class Rule:
 
     def beyond(self, number: float) -> float:
         """How far a number is outside its limits, over them; below 0 inside."""
-        return max((number - self.most) / (abs(self.most) or 1), (self.least - number) / (abs(self.least) or 1))
+        over = (number - self.most) / (abs(self.most) or 1) if np.isfinite(self.most) else -np.inf
+        below = (self.least - number) / (abs(self.least) or 1) if np.isfinite(self.least) else -np.inf
+        return max(over, below)
 
 
 @dataclass(frozen=True)
@@ -258,10 +260,12 @@ def psd_ratio(rule: Rule, bench: Bench) -> list:
 def psd_gap(rule: Rule, bench: Bench) -> list:
     width = rule.numbers("smoothing", (20.0,))[0] / 100
     frequency, near = densities(rule, bench, 1 - width, 1 + width)
-    _, wide = densities(rule, bench, 1 / OCTAVE, OCTAVE)
-    both = zip(curves(rule, near), curves(rule, wide))
-    return [Finding(float((one / other).min()), name, direction, float(frequency[(one / other).argmin()]))
-            for (name, direction, one), (_, _, other) in both]
+    below, above = (densities(rule, bench, *ends)[1] for ends in ((1 / OCTAVE, 1), (1, OCTAVE)))
+    found = []
+    for (name, direction, values), *flanks in zip(*(curves(rule, rows) for rows in (near, below, above))):
+        depth = values / np.sqrt(flanks[0][2] * flanks[1][2])
+        found.append(Finding(float(depth.min()), name, direction, float(frequency[depth.argmin()])))
+    return found
 
 
 def of_each(number: Callable) -> Callable:

@@ -284,6 +284,21 @@ class Study(unittest.TestCase):
         self.refuse("neither <structure>_stiffness_factor", factors={"left_mass": {"deviation": 1}})
         self.assertFalse((self.place / "out").exists())
 
+    def test_motions_are_judged_by_a_table_of_rules(self):
+        """A table flags motions and is not in the way of the study; one that is none is told in a line."""
+        one = {"x": {**STUDY["motions"]["x"], "seeds": [1, 2]}, "correlation": 0.9}
+        table = self.place / "rules.csv"
+        for least, words in ((1, "The motions are accepted by the rules of rules.csv"),
+                             (100, "Doubt: motions are refused by the rules of rules.csv (the test): long: 6 for >= 100, 2 of 2 refused, worst 5.9")):
+            table.write_text(("# source: the test\n" if least > 1 else "") + f"name,kind,least\nlong,length,{least}\n")
+            said = self.fragility("--dry-run", motions=one, motion_rules="rules.csv").stdout
+            self.assertIn(words[:90], said)
+        row = rows_of(self.place / "out" / "motion_rules.csv")[0]
+        self.assertEqual((row["verdict"], row["looked_at"], row["refused"]), ("refused", "2", "2"))
+        table.write_text("name,kind\nlong,width\n")
+        self.refuse("motion_rules: rules.csv, line 2: kind 'width' is none of", motions=one, motion_rules="rules.csv")
+        self.refuse("motion_rules: none.csv: no such table of rules", motions=one, motion_rules="none.csv")
+
     @program.long
     def test_motions_that_depend_on_each_other_are_told(self):
         seeds = {"correlation": 1e-4, "between_samples": True, "x": {**STUDY["motions"]["x"], "seeds": [1, 2]}}

@@ -90,8 +90,9 @@ class Records(unittest.TestCase):
         self.assertLess(ratio.max(), 1.3)
         self.assertLess(abs(np.corrcoef(*(np.pad(one.values, (0, max(len(s.values) for s in signals) - len(one.values)))
                                           for one in signals))[0, 1]), 0.16)
-        verdicts = judge(read_rules(table), motions_of(signals, "xy"), 0.3 * G)
-        self.assertEqual({one.word for one in verdicts}, {"holds", "stated", "idle"})
+        for name in ("srp371_approach1.csv", table):
+            verdicts = judge(read_rules(RULES / name), motions_of(signals, "xy"), 0.3 * G)
+            self.assertLessEqual({one.word for one in verdicts}, {"holds", "stated", "idle"}, name)
 
 
 class Said(unittest.TestCase):

@@ -215,6 +215,12 @@ class OfTheMotion(Case):
         self.assertEqual(self.verdict(rule, [noise(k) for k in range(10)], "xy").word, "holds")
         self.assertEqual(self.verdict(rule, [noise(k) for k in range(8)], "xy").word, "refused")
 
+    def test_the_worst_is_shown(self):
+        short, long = noise(1, 19.0), noise(2, 30.0)
+        for limits, number in (({"least": 20}, 19), ({"most": 25}, 30), ({"least": 25, "most": 35}, 19), ({"least": 1}, 19)):
+            for signals in ([short, long], [long, short]):
+                self.assertAlmostEqual(self.verdict({"kind": "length", **limits}, signals).worst.number, number)
+
     def test_nothing_to_look_at_is_said(self):
         rules = read_rules(self.table({"name": "pair", "kind": "correlation", "most": 0.16}, {"name": "long", "kind": "length", "least": 1},
                                       {"name": "told", "kind": "v_over_a"}))

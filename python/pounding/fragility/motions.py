@@ -11,6 +11,8 @@ from pounding.study import alone_in, run_side_by_side
 from pounding.tables import write_rows
 from pounding.files import write_text, written_beside
 from pounding.fragility import correlations
+from pounding.motion_rules import Motion, is_accepted, judge, limits_text, place_text, read_rules, source_of, table_of
+from pounding.motion_signals import MotionError, Signal
 from pounding.results import load
 from pounding.runs import Job, clear, environment
 from pounding.scenes import write_scene
@@ -154,3 +156,28 @@ def check(study: Study, folder: Path, jobs: int, write: bool = True, kept: Path 
                         f"correlated by {study.correlation:g} or more, {labels[j]} and {labels[i]} by {value:.3f}; take "
                         "others, or raise `correlation` (all pairs in correlation.csv)")
     return matrix
+
+
+def judged(study: Study, folder: Path, jobs: int, write: bool = True) -> list:
+    """Doubts about the motions that the study's table of rules refuses, at the largest level, to which targets with `anchor`
+    are anchored too; motion_rules.csv has the verdicts. None without a table. Throws StudyError."""
+    if study.rules is None:
+        return []
+    made, level = Motions(study, folder / "motions", jobs), study.levels[-1]
+    lists = {name: axis.records or axis.seeds for name, axis in study.axes.items()}
+    motions = [Motion(", ".join(Path(str(lists[name][k])).name for name in lists),
+                      {name: Signal(f"{name} {Path(str(lists[name][k])).name}", STEP, level * axis.ratio * made.signal(name, lists[name][k]))
+                       for name, axis in study.axes.items()}) for k in range(len(next(iter(lists.values()))))]
+    try:
+        verdicts = judge(read_rules(study.rules), motions, level)
+    except MotionError as error:
+        raise StudyError(f"{study.path}: motion_rules: {error}") from error
+    if write:
+        write_text(folder / "motion_rules.csv", table_of(verdicts))
+    source = source_of(study.rules)
+    about = f"{study.rules.name}{f' ({source})' if source else ''}"
+    if is_accepted(verdicts):
+        return [f"The motions are accepted by the rules of {about}, motion_rules.csv."]
+    refused = [f"{one.rule.name}: {one.worst.number:.3g} for {limits_text(one.rule)}, {len(one.refused)} of {one.looked_at} refused, worst "
+               f"{place_text(one.worst)}" for one in verdicts if one.word == "refused"]
+    return [f"Doubt: motions are refused by the rules of {about}: {'; '.join(refused)} (motion_rules.csv)."]

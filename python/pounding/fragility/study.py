@@ -8,14 +8,16 @@ import yaml
 
 from pounding import UserError
 from pounding.fragility import DISTRIBUTIONS, Variable
+from pounding.motion_rules import read_rules
+from pounding.motion_signals import MotionError
 from pounding.results import DIRECTIONS
 from pounding.scenes import SceneError, flatten
 
 from .study_file import Reader, beside, load
 
 KEYS = ("title", "scene", "output", "options", "reduction", "seed", "samples", "confidence", "motions", "levels",
-        "gaps", "apart", "joints", "soils", "states", "submittal", "uncertainty", "exchange", "field_factors", "factors", "capacities",
-        "full_order", "frequencies", "dampings", "show")
+        "motion_rules", "gaps", "apart", "joints", "soils", "states", "submittal", "uncertainty", "exchange", "field_factors", "factors",
+        "capacities", "full_order", "frequencies", "dampings", "show")
 DAMPINGS = (0.02, 0.03, 0.04, 0.05, 0.07)
 SYNTHETIC = {"duration": "25", "envelope": "2,15"}
 RECORDED = {"unit": "auto", "time_step": "0", "column": "0"}
@@ -101,6 +103,7 @@ class Study:
     show: dict = field(default_factory=dict)
     named: dict = field(default_factory=dict)  # `soils`, `states` and `submittal` as the file has them
     uncertainty: float | None = None  # beta_U of capacities, given by the user
+    rules: Path | None = None  # table that judges the motions
 
     @property
     def variables(self) -> list:
@@ -240,6 +243,18 @@ def _capacities(reader: Reader, frequencies: list, dampings: list) -> list:
     return found
 
 
+def _motion_rules(reader: Reader) -> Path | None:
+    """The table of rules on motions, if there is one; what is wrong with it is told at once."""
+    if reader.values.get("motion_rules") is None:
+        return None
+    table = reader.path.parent / str(reader.values["motion_rules"])
+    try:
+        read_rules(table)
+    except MotionError as error:
+        raise UserError(f"{reader.path}: motion_rules: {error}") from error
+    return table
+
+
 def _show(reader: Reader, gaps: list, levels: list) -> dict:
     one = reader.part("show", ("gap", "level", "channel", "frequencies"))
     for key, known in (("gap", gaps), ("level", levels)):
@@ -337,4 +352,4 @@ def read(path: Path) -> Study:
         _capacities(reader, frequencies, dampings), full.number("share", 0.0, -1e-12, 1.0 + 1e-12),
         full.options("options"), full.number("noise", 1e-3, 0.0), frequencies, dampings,
         _show(reader, gaps, levels), {key: reader.values.get(key) for key in ("soils", "states", "submittal")},
-        reader.number("uncertainty", None, 0.0) if "uncertainty" in reader.values else None)
+        reader.number("uncertainty", None, 0.0) if "uncertainty" in reader.values else None, _motion_rules(reader))
