@@ -17,8 +17,8 @@ from scipy.linalg import expm
 from scipy.signal import lfilter
 
 from .files import write_text
-from .motion_rules import (Bench, DIRECTIONS, REFUSED, SPECTRAL, KINDS, Motion, acceleration, is_accepted, judge, lines_of,
-                           motions_of, own_target, read_rules, source_of, table_of)
+from .motion_kinds import KINDS, SPECTRAL, Bench, Motion, acceleration, own_target
+from .motion_rules import DIRECTIONS, REFUSED, is_accepted, judge, lines_of, motions_of, read_rules, source_of, table_of
 from .motion_signals import MotionError, Signal, correlation, read_signals, response_spectra
 
 POINTS_A_CYCLE = 10  # of the highest frequency, at which motions are sampled
@@ -136,7 +136,7 @@ class Oscillators:
 
     def rows(self, which: np.ndarray, places: np.ndarray) -> np.ndarray:
         """What a unit sample of the motion adds to each oscillator at its place, (oscillators, samples)."""
-        found = np.zeros((len(places), self.samples))
+        found = np.zeros((len(places), self.samples), np.float32)  # for a step of the search
         for i, (one, place) in enumerate(zip(which, places)):
             first = max(place - self.samples + 1, 0)
             part = self.impulse_responses[one, first:place + 1][::-1]
@@ -224,7 +224,7 @@ class _Search:
         shapes = wavelets(goal.frequency[self.chosen], self.places[:self.count][self.chosen], goal.damping, record.step, samples, earlier)
         shapes *= self.aim[self.chosen, None]
         part = self.weight[self.which] / self.aim[self.which]
-        rows = [part[:, None] * (self.oscillators.rows(self.which, self.places) @ shapes.T)]
+        rows = [part[:, None] * (self.oscillators.rows(self.which, self.places) @ shapes.T.astype(np.float32))]
         wanted = [part * np.sign(self.peaks) * (self.aim[self.which] - abs(self.peaks))]
         for place, value in _held(record.displacement, self.signal.displacement):
             gain = np.maximum(place - np.arange(samples), 0) * record.step**2

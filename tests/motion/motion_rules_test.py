@@ -15,7 +15,8 @@ import program
 
 sys.path.insert(0, os.path.join(program.SOURCE, "python"))
 sys.dont_write_bytecode = True
-from pounding.motion_rules import KINDS, MotionError, judge, main, motions_of, read_rules  # noqa: E402
+from pounding.motion_kinds import KINDS  # noqa: E402
+from pounding.motion_rules import MotionError, judge, main, motions_of, read_rules  # noqa: E402
 from pounding.motion_signals import G, POWERS, Signal, Target, correlation, mean_around, read_target, response_spectra  # noqa: E402
 
 STEP = 0.01  # [s]

@@ -11,7 +11,8 @@ from pounding.study import alone_in, run_side_by_side
 from pounding.tables import write_rows
 from pounding.files import write_text, written_beside
 from pounding.fragility import correlations
-from pounding.motion_rules import Motion, is_accepted, judge, limits_text, place_text, read_rules, source_of, table_of
+from pounding.motion_kinds import Motion
+from pounding.motion_rules import is_accepted, judge, limits_text, place_text, read_rules, source_of, table_of
 from pounding.motion_signals import MotionError, Signal
 from pounding.results import load
 from pounding.runs import Job, clear, environment
