@@ -131,7 +131,8 @@ def members_of(found: study.Study, folder: Path, options: argparse.Namespace,
     matrix = motions.check(found, folder, options.jobs, not options.part, kept)
     plan = design.build(found)
     closed = design.clipped(found, plan)
-    notes = [f"Doubt: {doubt}" for doubt in study.doubts(found)] + motions.judged(found, folder, options.jobs, not options.part)
+    notes = [f"Doubt: {doubt}" for doubt in study.doubts(found)]
+    notes += motions.judged(found, folder, options.jobs, not options.part, kept)
     notes += [f"{closed} gaps would be below zero: these joints are closed."] if closed else []
     count = len(matrix) // len(found.axes)
     pairs = {together: [abs(matrix[i, j]) for i in range(len(matrix)) for j in range(i) if (i % count == j % count) is together]

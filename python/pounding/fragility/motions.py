@@ -159,12 +159,12 @@ def check(study: Study, folder: Path, jobs: int, write: bool = True, kept: Path 
     return matrix
 
 
-def judged(study: Study, folder: Path, jobs: int, write: bool = True) -> list:
+def judged(study: Study, folder: Path, jobs: int, write: bool = True, kept: Path | None = None) -> list:
     """Doubts about the motions that the study's table of rules refuses, at the largest level, to which targets with `anchor`
-    are anchored too; motion_rules.csv has the verdicts. None without a table. Throws StudyError."""
+    are anchored too; motion_rules.csv has the verdicts. None without a table. `kept`: see check. Throws UserError."""
     if study.rules is None:
         return []
-    made, level = Motions(study, folder / "motions", jobs), study.levels[-1]
+    made, level = Motions(study, kept or folder / "motions", jobs), study.levels[-1]
     lists = {name: axis.records or axis.seeds for name, axis in study.axes.items()}
     motions = [Motion(", ".join(Path(str(lists[name][k])).name for name in lists),
                       {name: Signal(f"{name} {Path(str(lists[name][k])).name}", STEP, level * axis.ratio * made.signal(name, lists[name][k]))
@@ -172,7 +172,7 @@ def judged(study: Study, folder: Path, jobs: int, write: bool = True) -> list:
     try:
         verdicts = judge(read_rules(study.rules), motions, level)
     except MotionError as error:
-        raise StudyError(f"{study.path}: motion_rules: {error}") from error
+        raise UserError(f"{study.path}: motion_rules: {error}") from error
     if write:
         write_text(folder / "motion_rules.csv", table_of(verdicts))
     source = source_of(study.rules)
