@@ -88,7 +88,7 @@ class JointDoubts {
       doubts.add("contact " + contact_.name,
                  "its faces are at least {:.4g} m apart in the meshes{}; are they the ones that "
                  "look at each other across the joint?",
-                 {smallest, contact_.gap.values.empty() ? ", which no building moves" : ""});
+                 {smallest, contact_.gap.is_of_meshes() ? ", which no building moves" : ""});
     }
   }
 

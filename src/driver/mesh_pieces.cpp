@@ -61,6 +61,10 @@ Ingredients ingredients_of(const Scene& scene,
     list.push_back(
         {"initial state of " + structure.name, digest_of_file(structure.initial_state).sha256});
   }
+  for (const Contact& contact : scene.contacts) {
+    if (contact.gap.survey.empty()) continue;
+    list.push_back({"survey of " + contact.name, digest_of_file(contact.gap.survey).sha256});
+  }
   for (std::size_t s = 0; s < std::min(opened.size(), scene.structures.size()); ++s) {
     const Structure& structure = scene.structures[s];
     for (const std::string& name : opened[s]) {

@@ -153,7 +153,7 @@ bool counts(const std::string& name) {
 
 bool names_content(const std::string& name) {
   return name.ends_with("_mesh") || name.ends_with("_record") || name.ends_with("_target") ||
-         name.ends_with("_soil_table");
+         name.ends_with("_soil_table") || name.ends_with("_survey");
 }
 
 }  // namespace

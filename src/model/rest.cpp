@@ -80,7 +80,7 @@ std::vector<char> rows_open_at_rest(const Scene& scene, const interactions::Inte
         "option -{}_gap_at rest: {} by {:g mm} somewhere, and a joint is open or just closed at "
         "rest; give -{}_gap, or -{}_gap_at unloaded",
         {contact.name,
-         contact.gap.values.empty() ? "the meshes overlap"
+         contact.gap.is_of_meshes() ? "the meshes overlap"
                                     : "the gap given, its random part included, is below 0",
          -gap, contact.name, contact.name}));
   }

@@ -32,6 +32,19 @@ Facts with_gaps(const Contact& contact, const interactions::InterfaceReport& rep
     facts.values["gap_patches"].push_back(patch);
     facts.text += told("  patch {}: {pairs} pairs with a gap of {gap:.4g mm}\n", patch, {p + 1});
   }
+  if (const interactions::SurveyReport& survey = report.survey; survey.points > 0) {
+    facts.values["survey"] = {{"points", survey.points},
+                              {"smallest", report.smallest_gap},
+                              {"place_of_smallest", survey.narrowest},
+                              {"mean", survey.mean_gap},
+                              {"largest", report.largest_gap},
+                              {"pairs_beyond", survey.beyond},
+                              {"farthest_beyond", survey.farthest}};
+    facts.say(
+        "  surveyed at {survey/points} points: as built at least {survey/smallest:.4g mm} at "
+        "{survey/place_of_smallest:.4g} m, {survey/mean:.4g mm} in the mean; {survey/pairs_beyond} "
+        "pairs lie beyond the points, by at most {survey/farthest_beyond:.4g} m\n");
+  }
   if (at_rest) {
     facts.say("  gap at rest {initial_gap:.4g mm}, unloaded {unloaded_gap:.4g mm}\n");
   }

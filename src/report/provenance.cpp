@@ -250,7 +250,8 @@ std::map<std::string, std::string> lasting_options(MPI_Comm comm, const std::str
     const std::map<std::string, std::string> named = options;
     for (const auto& [name, folder] : named) {
       if (name.ends_with("_matrices") && folder != "none") add_matrices(name, folder, options);
-      if (name.ends_with("_soil_table") && folder != "none") {
+      const bool is_read = name.ends_with("_soil_table") || name.ends_with("_survey");
+      if (is_read && folder != "none") {
         options[name + " (its content)"] = digest_of_file(folder).sha256;
       }
     }

@@ -45,8 +45,15 @@ struct InitialGap {
   double length = 1;              ///< over which that part is correlated [m]
   int seed = 1;                   ///< of that part
   std::vector<GapPatch> patches;  ///< of two that share a place the last counts
+  std::string survey;             ///< file of gaps measured, in place of `values`; empty: none
+  /// By which the joint is narrower before the run, without patches: elevation and closing, rising,
+  /// straight between and even beyond [m].
+  std::vector<std::array<double, 2>> static_closing;
 
   bool has_deviation() const { return deviation > 0; }
+  /// The meshes tell the gap.
+  bool is_of_meshes() const { return values.empty() && survey.empty(); }
+  double closing_at(double elevation) const;
 
   static void describe(auto& option) {
     using namespace option_words;
@@ -56,6 +63,8 @@ struct InitialGap {
     option(&InitialGap::length, "<contact>_gap_length", real("m", absent("required with gap_deviation"), positive), "length over which that part is correlated: its covariance falls with exp(-distance/length)", needs(&InitialGap::has_deviation));
     option(&InitialGap::seed, "<contact>_gap_seed", integer("-", "1"), "seed of that part: another number, another joint of the same tolerances", needs(&InitialGap::has_deviation));
     option("<contact>_gap_patches", text("m", "none", "none, or discs s,t,radius,gap and rectangles s1,t1,s2,t2,gap between semicolons"), "parts of the face with a gap of their own, in place of all others, as debris or formwork left in makes them; s and t are places along the tangent axes, in the order x, y, z, and a gap of 0 is a joint that is filled");
+    option(&InitialGap::survey, "<contact>_survey", text("file", "none", "a file or none"), "the joint as it was measured, in place of gap: a table with a first line of names, x, y, z and gap, in metres; linear between the points, beyond them as at the nearest place");
+    option("<contact>_static_closing", text("m", "none", "none, or elevation:closing,..."), "by which the joint is narrower at the start than gap or survey have it, as temperature, creep and settlement make it: straight between elevations, even beyond them; below 0: wider");
     // clang-format on
   }
 };

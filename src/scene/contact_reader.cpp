@@ -95,21 +95,48 @@ constexpr std::string_view stop_along = "<contact>_along";
 constexpr std::string_view stop_stiffness = "<contact>_stiffness";
 constexpr std::string_view stop_dashpot = "<contact>_dashpot";
 
-/// Values of the gap, its random part, and patches.
+constexpr std::string_view closing_option = "<contact>_static_closing";
+
+std::vector<std::array<double, 2>> read_static_closing(OptionReader& options,
+                                                       const OptionReader::Names& names) {
+  std::vector<std::array<double, 2>> points;
+  const std::string text = options.path(closing_option, names);
+  for (const std::string& item : text.empty() ? std::vector<std::string>{} : split(text, ',')) {
+    const std::vector<std::string> words = split(item, ':');
+    const auto elevation = words.size() == 2 ? parse_real(words[0]) : std::nullopt;
+    const auto closing = words.size() == 2 ? parse_real(words[1]) : std::nullopt;
+    if (!elevation || !closing) {
+      options.refuse(closing_option, names, "'" + shown_value(item) + "' is not elevation:closing");
+    }
+    if (!points.empty() && !(*elevation > points.back()[0])) {
+      options.refuse(closing_option, names, "elevations must rise");
+    }
+    points.push_back({*elevation, *closing});
+  }
+  return points;
+}
+
+/// Values of the gap, or its survey, its random part, and patches.
 InitialGap read_gap(OptionReader& options, const std::string& contact, bool is_wall) {
   const OptionReader::Names names{contact};
   InitialGap gap;
+  options.read(gap, names);
   if (options.text("<contact>_gap", names) != "geometry") {
+    if (!gap.survey.empty()) {
+      options.refuse("<contact>_survey", names,
+                     "not beside -" + option_name("<contact>_gap", names) +
+                         ": the survey is the gap; leave one of them out");
+    }
     gap.values = options.reals("<contact>_gap", names);
     const std::size_t count = gap.values.size();
     if (count != 1 && count != 2 && count != 4) {
       options.refuse("<contact>_gap", names, "wrong count of numbers");
     }
-  } else if (is_wall) {
+  } else if (is_wall && gap.survey.empty()) {
     options.refuse("<contact>_gap", names, "a wall has no geometry, give its distance");
   }
-  options.read(gap, names);
   gap.patches = read_patches(options, names);
+  gap.static_closing = read_static_closing(options, names);
   return gap;
 }
 
@@ -189,7 +216,7 @@ void check_stop(const OptionReader& options, const Contact& contact, bool export
   const std::string why =
       "-" + option_name(stop_along, names) + " makes it a stop between nodes, which have no faces";
   for (const char* option : {"<contact>_passes", "<contact>_gap_deviation", "<contact>_gap_patches",
-                             "<contact>_sliding"}) {
+                             "<contact>_survey", "<contact>_static_closing", "<contact>_sliding"}) {
     options.forbid(option, names, why);
   }
   options.forbid_all<Filler>(names, why);
@@ -260,12 +287,25 @@ void read_gap_state(OptionReader& options, const Scene& scene, Contact& contact)
                        option_name("<contact>_gap_at", {contact.name}) +
                        " rest or unloaded in which state the joint has these gaps");
   }
-  const bool assumed = state == "auto" && (open || laid_in);
+  // A survey is of the joint as it stands.
+  const bool assumed =
+      state == "auto" && (open || laid_in || (faces && !contact.gap.survey.empty()));
   contact.gap_at_rest = scene.preload && (state == "rest" || assumed);
   contact.gap_assumed_so = contact.gap_at_rest && assumed;
 }
 
 }  // namespace
+
+double InitialGap::closing_at(double elevation) const {
+  const auto next = std::ranges::upper_bound(static_closing, elevation, {},
+                                             [](const auto& point) { return point[0]; });
+  if (static_closing.empty()) return 0;
+  if (next == static_closing.begin()) return static_closing.front()[1];
+  if (next == static_closing.end()) return static_closing.back()[1];
+  const auto& [low, at_low] = *(next - 1);
+  const auto& [high, at_high] = *next;
+  return at_low + (elevation - low) / (high - low) * (at_high - at_low);
+}
 
 Contact read_contact(OptionReader& options, Scene& scene, const std::string& name) {
   Contact contact;

@@ -29,8 +29,9 @@ std::vector<std::string> free_options(const std::vector<std::string>& structures
     }
   }
   for (const std::string& contact : contacts) {
-    for (const char* pattern : {"<contact>_gap", "<contact>_gap_deviation", "<contact>_gap_length",
-                                "<contact>_gap_seed", "<contact>_gap_patches"}) {
+    for (const char* pattern :
+         {"<contact>_gap", "<contact>_gap_deviation", "<contact>_gap_length", "<contact>_gap_seed",
+          "<contact>_gap_patches", "<contact>_static_closing"}) {
       names.push_back(option_name(pattern, {contact}));
     }
   }
@@ -58,15 +59,15 @@ std::vector<std::string> fields_of(const std::string& line, char separator) {
   return fields;
 }
 
-std::string read_member_text(const std::string& file) {
-  require_finite_file(file, "option -ensemble ");
+std::string read_table_text(const std::string& option, const std::string& file) {
+  require_finite_file(file, option + " ");
   std::ifstream stream(file, std::ios::binary);
   std::string text(std::istreambuf_iterator<char>(stream), {});
   if (!stream.is_open() || stream.bad()) {
-    throw UserError("option -ensemble " + file + ": no such file, or it cannot be read");
+    throw UserError(option + " " + file + ": no such file, or it cannot be read");
   }
   if (text.find('\0') != std::string::npos) {
-    throw UserError("option -ensemble " + file + ": not a text (it holds zeros), give a table");
+    throw UserError(option + " " + file + ": not a text (it holds zeros), give a table");
   }
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
@@ -82,7 +83,8 @@ void check_columns(const MemberTable& table, const std::vector<std::string>& str
       throw UserError(
           table.file + ": column '" + column +
           "' is no option that may differ from run to run; those are motion_..., "
-          "motion_level, <contact>_gap, _gap_deviation, _gap_length, _gap_seed and _gap_patches, "
+          "motion_level, <contact>_gap, _gap_deviation, _gap_length, _gap_seed, _gap_patches and "
+          "_static_closing, "
           "<structure>_damping_factor, _stiffness_factor "
           "and _modal_damping" +
           suggestion(column, free));
@@ -121,10 +123,6 @@ MemberTable parse_table(const std::string& file, const std::string& text) {
     table.lines.push_back(number);
     table.values.insert(table.values.end(), fields.begin(), fields.end());
   }
-  if (table.members() == 0) {
-    throw UserError("option -ensemble " + file +
-                    ": no runs in it; the first line names options, every other one is a run");
-  }
   return table;
 }
 
@@ -135,13 +133,21 @@ std::string MemberTable::place(std::size_t member) const {
          std::to_string(member + 1) + "): ";
 }
 
+MemberTable read_table(const std::string& option, const std::string& file) {
+  return parse_table(file, read_table_text(option, file));
+}
+
 MemberTable read_member_table(MPI_Comm comm, const std::string& file,
                               const std::vector<std::string>& structures,
                               const std::vector<std::string>& contacts) {
   std::string text;
-  on_rank0(comm, [&] { text = read_member_text(file); });
+  on_rank0(comm, [&] { text = read_table_text("option -ensemble", file); });
   broadcast(comm, text);
   MemberTable table = parse_table(file, text);
+  if (table.members() == 0) {
+    throw UserError("option -ensemble " + file +
+                    ": no runs in it; the first line names options, every other one is a run");
+  }
   check_columns(table, structures, contacts);
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     std::map<std::string, std::string> found;  // each path is looked for once

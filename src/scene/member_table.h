@@ -25,6 +25,10 @@ struct MemberTable {
   std::string place(std::size_t member) const;
 };
 
+/// A table of names in its first line and of values in others, as that of members; of every line
+/// as many values as names. `option`: "option -name", for messages. Throws UserError. Serial.
+MemberTable read_table(const std::string& option, const std::string& file);
+
 /// Reads a table: the first line names options, every other one is a run. Fields are separated by
 /// commas, or by semicolons if there is one in the first line, and may be in double quotes. Rank 0
 /// reads; paths of input files are relative to the folder of the table if something of that name is

@@ -22,7 +22,7 @@ class ContactCheck {
   void check_gaps() {
     if (contact_.stop) return;  // nodes have no surfaces, and may be parts of one structure
     check_overlap();
-    if (!contact_.gap.values.empty()) check_given_gap();
+    if (!contact_.gap.is_of_meshes()) check_given_gap();
   }
 
   void check() {
@@ -57,13 +57,14 @@ class ContactCheck {
 
   void check_overlap() {
     const double overlap = -report_.smallest_gap;
-    const bool given = !contact_.gap.values.empty();
+    const bool given = !contact_.gap.is_of_meshes();
     if (overlap > deepest_overlap * model_size_) {
       const double half = report_.half_thickness[0] + report_.half_thickness[1];
       std::ostringstream text;
       text.precision(4);
       if (given) {
-        text << "option -" << contact_.name << "_gap: a gap of " << report_.smallest_gap << " m";
+        text << "option -" << contact_.name << (contact_.gap.survey.empty() ? "_gap" : "_survey")
+             << ": a gap of " << report_.smallest_gap << " m";
       } else {
         text << "contact " << contact_.name << ": the meshes overlap by " << overlap << " m";
         if (half > 0) text << ", their shells reaching " << half << " m beyond their nodes";

@@ -209,7 +209,7 @@ class SideFinder {
   /// A beam's line says nothing of its surface, and a face has no place for where it is met.
   void check_beams(const ContactSides& sides) const {
     if (sides.secondary.face.beams == 0 && sides.primary.face.beams == 0) return;
-    if (contact_.gap.values.empty()) {
+    if (contact_.gap.is_of_meshes()) {
       throw UserError("option -" + contact_.name +
                       "_gap geometry: one side is beams, whose lines say nothing of their surface; "
                       "give the gap as a number");

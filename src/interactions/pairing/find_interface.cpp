@@ -14,6 +14,7 @@
 #include "interactions/pairing/contact_sides.h"
 #include "interactions/pairing/facet_finder.h"
 #include "interactions/pairing/gap_field.h"
+#include "interactions/pairing/gap_survey.h"
 #include "interactions/pairing/interface.h"
 #include "interactions/pairing/stop_rows.h"
 
@@ -276,20 +277,16 @@ class PairFinder {
     constraint.contact = number_;
     constraint.friction = contact_.friction;
     if (contact_.sliding > 0 && !watches_) constraint.facet_size = 2 * contact_.sliding;
-    const auto [a, b] = report_.tangent_axes;
-    const Vector3& n = report_.normal;
     constraint.at = x;
-    constraint.place = {x[a], x[b]};
-    // A plane seen along the third axis is shorter by |n| of it along (n_a, n_b).
-    const double third = std::abs(n[3 - a - b]);
-    const double longer = (n[a] * x[a] + n[b] * x[b]) / (third * (1 + third));
-    constraint.level = {x[a] + longer * n[a], x[b] + longer * n[b]};
+    constraint.place = {x[report_.tangent_axes[0]], x[report_.tangent_axes[1]]};
+    constraint.level = in_plane(x, report_.normal, report_.tangent_axes);
     if (constraint.geometric_gap < open_gap) ++report_.pairs;
     report_.matched += constraint.matched ? 1 : 0;
     interface.constraints.push_back(std::move(constraint));
   }
 
   void set_gaps(std::span<Constraint> constraints, std::span<Constraint> watched) {
+    if (!contact_.gap.survey.empty()) lay_survey(contact_, constraints, watched, report_);
     const GivenGap gap(contact_);
     std::array<double, 2> low{1e300, 1e300};
     std::array<double, 2> high{-1e300, -1e300};
@@ -317,7 +314,11 @@ class PairFinder {
     for (Constraint& constraint : constraints) {
       place_gap(constraint);
       if (constraint.geometric_gap == open_gap) continue;
-      report_.smallest_gap = std::min(report_.smallest_gap, constraint.initial_gap);
+      if (constraint.initial_gap < report_.smallest_gap) {
+        report_.smallest_gap = constraint.initial_gap;
+        report_.survey.narrowest = constraint.at;
+      }
+      report_.survey.mean_gap += constraint.initial_gap / report_.pairs;
       report_.largest_gap = std::max(report_.largest_gap, constraint.initial_gap);
       report_.overlapping += constraint.initial_gap < 0 ? 1 : 0;
       report_.geometric_gap = {std::min(report_.geometric_gap[0], constraint.geometric_gap),

@@ -117,8 +117,11 @@ void count_patches(const Contact& contact, std::span<const Constraint> rows,
 
 double GivenGap::of(const Constraint& row) const {
   if (const int patch = patch_at(contact_, row); patch >= 0) return contact_.gap.patches[patch].gap;
-  const std::vector<double>& gap = contact_.gap.values;
-  return (gap.empty() ? row.geometric_gap : given_gap(gap, row.share)) + field_.at(row.level);
+  const InitialGap& gap = contact_.gap;
+  const double base = !gap.survey.empty()   ? row.surveyed
+                      : !gap.values.empty() ? given_gap(gap.values, row.share)
+                                            : row.geometric_gap;
+  return base - gap.closing_at(row.at[2]) + field_.at(row.level);
 }
 
 std::vector<double> node_areas(const ContactFace& face) {

@@ -46,8 +46,9 @@ class GivenGap {
  public:
   explicit GivenGap(const Contact& contact) : contact_(contact), field_(contact) {}
 
-  /// Gap of a row [m]: that of the patch in which its place is, else that of the geometry or the
-  /// given one at its share of the face, and the random part at its place.
+  /// Gap of a row [m]: that of the patch in which its place is, else that of the geometry, of the
+  /// survey or the given one at its share of the face, less the static closing at its elevation,
+  /// and the random part at its place.
   double of(const Constraint& row) const;
 
  private:

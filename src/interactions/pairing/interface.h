@@ -85,6 +85,7 @@ struct Constraint {
   double initial_gap = 0;         ///< of hard contact: until a filler is dense or a strip
                                   ///< crushed to the last [m]
   double geometric_gap = 0;       ///< of the meshes, between the surfaces of shells [m]
+  double surveyed = 0;            ///< gap of a survey there, if the contact has one [m]
   double facet_size = 0;          ///< of the facet that it faces, or twice how far pairs may slide
                                   ///< where they are found anew; 0: a wall, endless [m]
   Vector3 at{};                   ///< secondary node [m]
@@ -101,13 +102,27 @@ struct Constraint {
   double of_faces(double gap) const { return gap - filler.depth; }
 
   static void members(auto& self, auto& stream) {
-    stream(self.contact, self.terms, self.initial_gap, self.geometric_gap, self.facet_size, self.at,
-           self.place, self.level, self.share, self.matched, self.friction, self.filler);
+    stream(self.contact, self.terms, self.initial_gap, self.geometric_gap, self.surveyed,
+           self.facet_size, self.at, self.place, self.level, self.share, self.matched,
+           self.friction, self.filler);
   }
 };
 
 /// Initial gap of a row that faces nothing yet [m].
 constexpr double open_gap = 1e30;
+
+/// Survey of a joint, as it lies on the face.
+struct SurveyReport {
+  int points = 0;       ///< 0: there is none
+  int beyond = 0;       ///< pairs beyond the hull of the points
+  double farthest = 0;  ///< how far that is at most [m]
+  double mean_gap = 0;  ///< of the pairs at the start [m]
+  Vector3 narrowest{};  ///< place of the pair with the smallest gap [m]
+
+  static void members(auto& self, auto& stream) {
+    stream(self.points, self.beyond, self.farthest, self.mean_gap, self.narrowest);
+  }
+};
 
 /// Report of the pairs found for one contact.
 struct InterfaceReport {
@@ -118,20 +133,21 @@ struct InterfaceReport {
   int unmatched_nodes = 0;  ///< secondary nodes that face nothing
   double smallest_gap = 0;  ///< initial [m]
   double largest_gap = 0;
-  std::array<double, 2> geometric_gap{};     ///< smallest and largest of the meshes, not
-                                             ///< numbers for a wall [m]
-  std::array<double, 2> half_thickness{};    ///< of the shells at the faces of the secondary and of
-                                             ///< the primary, the largest [m]
-  int overlapping = 0;                       ///< pairs whose initial gap is negative
-  int carried = 0;                           ///< nodes without a row, which ties let follow others
-                                             ///< of the face that have friction
-  int left_behind = 0;                       ///< of the unmatched nodes, those with a facet too far
-                                             ///< behind them
-  double farthest_behind = 0;                ///< how far that is at most [m]
-  int inner_facets = 0;                      ///< facets with elements on both of their sides
-  Vector3 normal{0, 0, 0};                   ///< mean
-  std::array<int, 2> tangent_axes{};         ///< global axes of `place`
-  std::vector<int> patch_pairs;              ///< pairs in each patch of the gap
+  std::array<double, 2> geometric_gap{};   ///< smallest and largest of the meshes, not
+                                           ///< numbers for a wall [m]
+  std::array<double, 2> half_thickness{};  ///< of the shells at the faces of the secondary and of
+                                           ///< the primary, the largest [m]
+  int overlapping = 0;                     ///< pairs whose initial gap is negative
+  int carried = 0;                         ///< nodes without a row, which ties let follow others
+                                           ///< of the face that have friction
+  int left_behind = 0;                     ///< of the unmatched nodes, those with a facet too far
+                                           ///< behind them
+  double farthest_behind = 0;              ///< how far that is at most [m]
+  int inner_facets = 0;                    ///< facets with elements on both of their sides
+  Vector3 normal{0, 0, 0};                 ///< mean
+  std::array<int, 2> tangent_axes{};       ///< global axes of `place`
+  std::vector<int> patch_pairs;            ///< pairs in each patch of the gap
+  SurveyReport survey;
   double filler_area = 0;                    ///< of all pairs [m2]; 0: no filler
   std::array<double, 2> filler_thickness{};  ///< smallest and largest [m]
 
@@ -139,8 +155,8 @@ struct InterfaceReport {
     stream(self.contact, self.passes, self.pairs, self.matched, self.unmatched_nodes,
            self.smallest_gap, self.largest_gap, self.geometric_gap, self.half_thickness,
            self.overlapping, self.carried, self.left_behind, self.farthest_behind,
-           self.inner_facets, self.normal, self.tangent_axes, self.patch_pairs, self.filler_area,
-           self.filler_thickness);
+           self.inner_facets, self.normal, self.tangent_axes, self.patch_pairs, self.survey,
+           self.filler_area, self.filler_thickness);
   }
 };
 

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "interactions/pairing/interface.h"
+#include "scene/scene.h"
+
+namespace pounding::interactions {
+
+/// Values at points of a plane, linear over the triangles between them that no other point is in
+/// the circle of (Delaunay). A place inside of their hull lies in one of these, and one beyond has
+/// the value of the nearest place of the hull.
+class LinearField {
+ public:
+  using Place = std::array<double, 2>;
+
+  /// No two of `places` are one, and they do not lie on a line: `triangles` tells.
+  LinearField(std::span<const Place> places, std::span<const double> values);
+
+  struct Value {
+    double value = 0;
+    double beyond = 0;  ///< distance from the hull
+  };
+  Value at(const Place& place) const;
+  const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
+
+ private:
+  std::vector<Place> places_;
+  std::vector<double> values_;
+  std::vector<std::array<int, 3>> triangles_;  ///< counter-clockwise
+};
+
+/// A place in the mean plane of a face, lengths kept [m]; `axes`: tangent axes of the normal.
+std::array<double, 2> in_plane(const Vector3& x, const Vector3& normal,
+                               const std::array<int, 2>& axes);
+
+/// Reads the survey of a contact, notes the gap that it has at each row and in the report how it
+/// lies on the face. Throws UserError: no such table, too few points, points that are not on the
+/// face, gaps of another unit. Serial, rank 0.
+void lay_survey(const Contact& contact, std::span<Constraint> rows, std::span<Constraint> watched,
+                InterfaceReport& report);
+
+}  // namespace pounding::interactions
