@@ -50,6 +50,7 @@ std::vector<Quantity> quantities(const EnsembleLayout& layout) {
       {"peaks/acceleration", "m/s2", {channels}, &MemberResult::acceleration},
       {"energy/residual", "-", {}, &MemberResult::energy_residual}};
   if (contacts == 0) return list;
+  const std::size_t pairs = layout.pair_contacts.size();
   list.insert(list.end(),
               {{"impacts/episodes", "-", {contacts}, &MemberResult::episodes},
                {"impacts/first_time", "s", {contacts}, &MemberResult::first_time},
@@ -57,6 +58,10 @@ std::vector<Quantity> quantities(const EnsembleLayout& layout) {
                {"impacts/impulse_largest", "N s", {contacts}, &MemberResult::impulse_largest},
                {"impacts/force_peak", "N", {contacts}, &MemberResult::force_peak},
                {"gaps/smallest", "m", {contacts}, &MemberResult::smallest_gap},
+               {"pairs/initial_gap", "m", {pairs}, &MemberResult::pair_initial_gap},
+               {"pairs/least_gap", "m", {pairs}, &MemberResult::pair_least_gap},
+               {"pairs/time", "s", {pairs}, &MemberResult::pair_time},
+               {"pairs/displacement", "m", {pairs, 3}, &MemberResult::pair_displacement},
                {"other_pass/depth", "m", {contacts}, &MemberResult::other_depth},
                {"other_pass/row", "-", {contacts}, &MemberResult::other_row},
                {"other_pass/time", "s", {contacts}, &MemberResult::other_time},
@@ -115,7 +120,12 @@ void create(const std::string& path, const EnsembleLayout& layout) {
   reserve("done", {});
   file.write_strings(identity_name, layout.identity);  // where there are groups for them
   file.write_strings("spectra/channels", layout.channels);
-  if (!layout.contacts.empty()) file.write_strings("impacts/contacts", layout.contacts);
+  if (!layout.contacts.empty()) {
+    file.write_strings("impacts/contacts", layout.contacts);
+    file.write_array("pairs/contact", 0, layout.pair_contacts);
+    file.write_array("pairs/place", 3, layout.pair_places);
+    file.write_attribute("pairs/place", "unit", "m");
+  }
   file.let_others_write();
   const PlacedFile filled(draft, PlacedFile::Access::write);
   for (const OpenPlace& place : places) {
@@ -262,7 +272,10 @@ void write_ensemble_table(const std::string& path, const EnsembleLayout& layout,
   const MemberTable& table = *layout.table;
   const std::vector<bool> done = file.done();
   std::vector<Quantity> list = quantities(layout);
-  list.erase(list.begin());  // spectra have no place in a line
+  std::erase_if(list, [](const Quantity& quantity) {  // spectra and pairs have no place in a line
+    const std::string_view named = quantity.name;
+    return named.starts_with("spectra/") || named.starts_with("pairs/");
+  });
   std::string text = "member,done";
   for (const std::string& column : table.columns) text += "," + column;
   const auto name = [](std::string quantity) {

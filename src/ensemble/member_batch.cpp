@@ -38,15 +38,14 @@ std::vector<Model> models_of(std::span<const MemberScene* const> members,
   return models;
 }
 
-/// The smallest recorded gap of each contact [m].
+/// The smallest recorded gap of each pair.
 class SmallestGaps final : public Observer {
  public:
-  SmallestGaps(const ObservedRun& run, std::vector<double>& smallest)
+  SmallestGaps(const ObservedRun& run, std::vector<PairMotion>& pairs)
       : solver_(run.solver),
-        rows_(run.model.interface.constraints),
         record_stride_(record_stride(run.scene, run.model)),
         gap_stride_(gap_stride(run.scene, run.model)),
-        smallest_(smallest) {}
+        pairs_(pairs) {}
 
   std::int64_t next_due(std::int64_t step) const override {
     return next_multiple(step, gap_stride_);
@@ -57,17 +56,15 @@ class SmallestGaps final : public Observer {
     if (!solver_.interface_known() || (stepper.state().step - 1) % record_stride_ != 0) return;
     const std::vector<double>& gaps = solver_.contact()->gaps();
     for (std::size_t row = 0; row < gaps.size(); ++row) {
-      double& gap = smallest_[rows_[row].contact];
-      gap = std::min(gap, gaps[row]);
+      pairs_[row].note(gaps[row], stepper.time());
     }
   }
 
  private:
   const Solver& solver_;
-  std::span<const interactions::Constraint> rows_;
   std::int64_t record_stride_;  ///< steps between two records
   std::int64_t gap_stride_;     ///< and between two samples of the gaps, a multiple of it
-  std::vector<double>& smallest_;
+  std::vector<PairMotion>& pairs_;
 };
 
 }  // namespace
@@ -100,7 +97,7 @@ bool MemberBatch::run(const std::function<bool()>& stopped) {
 }
 
 void MemberBatch::step(std::int64_t n) {
-  if (passes_.due(n)) passes_.look(batches_, static_cast<double>(n) * shared_.time_step);
+  if (passes_.due(n)) passes_.look(batches_, n, static_cast<double>(n) * shared_.time_step);
   const bool records = recorder_.due(n);
   if (records) recorder_.take_displacements(batches_);
   bool with_energies = false, with_forces = false;
@@ -144,16 +141,9 @@ MemberResult MemberBatch::result(std::size_t member) {
   return result;
 }
 
-BatchPasses::BatchPasses(std::span<const MemberScene* const> scenes, std::span<const Model> models,
-                         std::span<const Mesh> meshes)
-    : deepest_(scenes.front()->scene.contacts.size()), deepest_row_(deepest_.size()) {
-  const std::vector<interactions::Constraint>& rows = models.front().interface.watched;
-  stride_ =
-      static_cast<std::int64_t>(std::max(1.0, OtherPass::look_interval / models.front().time_step));
-  gaps_.resize(rows.size());
-  openings_.resize(rows.size());
-  products_.resize(rows.size());
-  for (const interactions::Constraint& row : rows) contact_.push_back(row.contact);
+BatchRows::BatchRows(std::span<const interactions::Constraint> rows,
+                     std::span<const LinearSystem> systems, std::span<const Mesh> meshes)
+    : products_(rows.size()) {
   for (std::size_t s = 0; s < meshes.size() && !rows.empty(); ++s) {
     std::vector<TracePoint> places;
     for (const interactions::Constraint& row : rows) {
@@ -161,10 +151,9 @@ BatchPasses::BatchPasses(std::span<const MemberScene* const> scenes, std::span<c
         if (term.structure == static_cast<int>(s)) places.push_back({term.node, term.component});
       }
     }
-    const LinearSystem& system = models.front().systems[s];
-    const std::size_t width = system.lumped_mass.size();
+    const std::size_t width = systems[s].lumped_mass.size();
     std::vector<double>& values = values_.emplace_back(rows.size() * width, 0.0);
-    const Trace trace(system, meshes[s], places, false);
+    const Trace trace(systems[s], meshes[s], places, false);
     std::size_t place = 0;
     for (std::size_t w = 0; w < rows.size(); ++w) {
       for (const interactions::ConstraintTerm& term : rows[w].terms) {
@@ -176,26 +165,58 @@ BatchPasses::BatchPasses(std::span<const MemberScene* const> scenes, std::span<c
       }
     }
   }
+}
+
+void BatchRows::add_to(std::vector<BatchValue>& sums, std::span<const BatchStep> batches) {
+  for (std::size_t s = 0; s < values_.size(); ++s) {
+    multiply_rows(values_[s].data(), size(), batches[s].coordinates(),
+                  batches[s].state().displacement.data(), products_.data());
+    for (std::size_t row = 0; row < size(); ++row) sums[row] += products_[row];
+  }
+}
+
+double BatchRows::at_rest(std::size_t row, std::span<const LinearSystem> systems) const {
+  double sum = 0;
+  for (std::size_t s = 0; s < values_.size(); ++s) {
+    const std::vector<double>& rest = systems[s].rest_displacement;
+    sum += std::inner_product(rest.begin(), rest.end(), &values_[s][row * rest.size()], 0.0);
+  }
+  return sum;
+}
+
+BatchPasses::BatchPasses(std::span<const MemberScene* const> scenes, std::span<const Model> models,
+                         std::span<const Mesh> meshes)
+    : watched_(models.front().interface.watched, models.front().systems, meshes),
+      moving_(interactions::component_rows(models.front().interface.constraints),
+              models.front().systems, meshes),
+      gaps_(watched_.size()),
+      openings_(watched_.size()),
+      start_(moving_.size()),
+      moved_(moving_.size()),
+      largest_(moving_.size()),
+      deepest_(scenes.front()->scene.contacts.size()),
+      deepest_row_(deepest_.size()) {
+  const std::vector<interactions::Constraint>& rows = models.front().interface.watched;
+  stride_ =
+      static_cast<std::int64_t>(std::max(1.0, OtherPass::look_interval / models.front().time_step));
+  for (const interactions::Constraint& row : rows) contact_.push_back(row.contact);
   for (std::size_t member = 0; member < models.size(); ++member) {
+    const Model& model = models[member];
     for (std::size_t w = 0; w < rows.size(); ++w) {
-      double gap = models[member].interface.watched[w].initial_gap;
+      double gap = model.interface.watched[w].initial_gap;
       const bool at_rest = scenes[member]->scene.contacts[rows[w].contact].gap_at_rest;
-      for (std::size_t s = 0; s < values_.size() && models[member].equilibrium && at_rest; ++s) {
-        const std::vector<double>& rest = models[member].systems[s].rest_displacement;
-        gap -= std::inner_product(rest.begin(), rest.end(), &values_[s][w * rest.size()], 0.0);
-      }
+      if (model.equilibrium && at_rest) gap -= watched_.at_rest(w, model.systems);
       gaps_[w].set(member, gap);
+    }
+    for (std::size_t row = 0; model.equilibrium && row < moving_.size(); ++row) {
+      start_[row].set(member, -moving_.at_rest(row, model.systems));
     }
   }
 }
 
-void BatchPasses::look(std::span<const BatchStep> batches, double time) {
+void BatchPasses::look(std::span<const BatchStep> batches, std::int64_t step, double time) {
   openings_ = gaps_;
-  for (std::size_t s = 0; s < values_.size(); ++s) {
-    multiply_rows(values_[s].data(), gaps_.size(), batches[s].coordinates(),
-                  batches[s].state().displacement.data(), products_.data());
-    for (std::size_t w = 0; w < gaps_.size(); ++w) openings_[w] += products_[w];
-  }
+  watched_.add_to(openings_, batches);
   for (std::size_t w = 0; w < gaps_.size(); ++w) {
     for (std::size_t member = 0; member < batch_size; ++member) {
       OtherPass& deepest = deepest_[contact_[w]][member];
@@ -205,6 +226,12 @@ void BatchPasses::look(std::span<const BatchStep> batches, double time) {
       deepest_row_[contact_[w]][member] = w;
     }
   }
+  if (step % (PairMotion::looks * stride_) != 0) return;
+  moved_ = start_;
+  moving_.add_to(moved_, batches);
+  for (std::size_t row = 0; row < moved_.size(); ++row) {
+    largest_[row] = larger(largest_[row], magnitude(moved_[row]));
+  }
 }
 
 void BatchPasses::fill(std::size_t member, MemberResult& result) const {
@@ -213,6 +240,7 @@ void BatchPasses::fill(std::size_t member, MemberResult& result) const {
     result.other_row.push_back(static_cast<double>(deepest_row_[c][member]));
     result.other_time.push_back(deepest_[c][member].time);
   }
+  for (const BatchValue& value : largest_) result.pair_displacement.push_back(value[member]);
 }
 
 double BatchRecorder::memory(std::size_t channels, const Times& times) {
@@ -311,8 +339,8 @@ MemberRun::MemberRun(const MemberScene& member, const EnsembleModel& shared, con
     : solver_(parts_in_batch(member, shared, model, place, profile_)),
       run_{MPI_COMM_SELF, member.scene, model, solver_},
       observers_(make_observers(run_, profile_, true)),
-      smallest_gaps_(member.scene.contacts.size(), std::numeric_limits<double>::infinity()) {
-  observers_.add(std::make_unique<SmallestGaps>(run_, smallest_gaps_));
+      pairs_(model.interface.constraints.size()) {
+  observers_.add(std::make_unique<SmallestGaps>(run_, pairs_));
   observers_.start(solver_.stepper(), nullptr);
 }
 
@@ -329,8 +357,15 @@ void MemberRun::close() {
 void MemberRun::fill(MemberResult& result) {
   for (const auto& observer : observers_.list()) observer->finish(true);
   const ImpactCatalogue& catalogue = observers_.impacts();
-  const std::size_t contacts = smallest_gaps_.size();
-  result.smallest_gap = smallest_gaps_;
+  const std::size_t contacts = run_.scene.contacts.size();
+  result.smallest_gap.assign(contacts, std::numeric_limits<double>::infinity());
+  result.pair_initial_gap = run_.model.start_gaps;
+  for (std::size_t row = 0; row < pairs_.size(); ++row) {
+    double& smallest = result.smallest_gap[run_.model.interface.constraints[row].contact];
+    smallest = std::min(smallest, pairs_[row].least_gap);
+    result.pair_least_gap.push_back(pairs_[row].least_gap);
+    result.pair_time.push_back(pairs_[row].time);
+  }
   result.energy_residual = {solver_.stepper().energy().relative_residual()};
   if (solver_.contact() != nullptr) {
     result.contact_residual = {solver_.contact()->largest_residual()};

@@ -23,16 +23,20 @@ struct MemberResult {
   std::vector<double> episodes;     ///< per contact, as the next ones
   std::vector<double> first_time;   ///< [s]; not a number without an impact
   std::vector<double> impulse_sum;  ///< [N s]
-  std::vector<double> impulse_largest;   ///< of an episode [N s]
-  std::vector<double> force_peak;        ///< [N]
-  std::vector<double> smallest_gap;      ///< [m]
-  std::vector<double> other_depth;       ///< see OtherPass [m]
-  std::vector<double> other_row;         ///< of the rows that are only looked at
-  std::vector<double> other_time;        ///< [s]
-  std::vector<double> displacement;      ///< largest per channel [m]
-  std::vector<double> acceleration;      ///< largest per channel after the low-pass [m/s2]
-  std::vector<double> energy_residual;   ///< one number: largest, relative
-  std::vector<double> contact_residual;  ///< one number: of complementarity, largest [-]
+  std::vector<double> impulse_largest;    ///< of an episode [N s]
+  std::vector<double> force_peak;         ///< [N]
+  std::vector<double> smallest_gap;       ///< [m]
+  std::vector<double> pair_initial_gap;   ///< per pair of the contacts, as the next ones [m]
+  std::vector<double> pair_least_gap;     ///< of the samples [m]
+  std::vector<double> pair_time;          ///< of that [s]
+  std::vector<double> pair_displacement;  ///< see PairMotion, shape (pairs, 3) [m]
+  std::vector<double> other_depth;        ///< see OtherPass [m]
+  std::vector<double> other_row;          ///< of the rows that are only looked at
+  std::vector<double> other_time;         ///< [s]
+  std::vector<double> displacement;       ///< largest per channel [m]
+  std::vector<double> acceleration;       ///< largest per channel after the low-pass [m/s2]
+  std::vector<double> energy_residual;    ///< one number: largest, relative
+  std::vector<double> contact_residual;   ///< one number: of complementarity, largest [-]
 };
 
 /// One run of a batch: the scheme of single runs in its place, with interactions, ledger and
@@ -58,7 +62,7 @@ class MemberRun {
   Solver solver_;
   ObservedRun run_;
   Observers observers_;
-  std::vector<double> smallest_gaps_;  ///< per contact, of all recorded ones [m]
+  std::vector<PairMotion> pairs_;  ///< per row, without displacements
 };
 
 /// Records the probes of eight runs, as Recorder does those of one: largest displacement, and the
@@ -132,8 +136,25 @@ class BatchRecorder {
   std::size_t records_ = 0;  ///< made, those of the block included
 };
 
+/// Some rows over the coordinates of structures that are stepped in batches.
+class BatchRows {
+ public:
+  /// The arguments are read here only; `systems` of any of the runs.
+  BatchRows(std::span<const interactions::Constraint> rows, std::span<const LinearSystem> systems,
+            std::span<const Mesh> meshes);
+  std::size_t size() const { return products_.size(); }
+  /// sums += the rows times the displacements.
+  void add_to(std::vector<BatchValue>& sums, std::span<const BatchStep> batches);
+  /// Value of a row in one run at rest.
+  double at_rest(std::size_t row, std::span<const LinearSystem> systems) const;
+
+ private:
+  std::vector<std::vector<double>> values_;  ///< per structure, shape (rows, coordinates)
+  std::vector<BatchValue> products_;
+};
+
 /// Looks in eight runs how far nodes of primaries go into secondaries in passes that are not taken,
-/// as often as a single run does.
+/// and how far pairs move, as often as a single run does.
 class BatchPasses {
  public:
   /// `scenes` and `models`: per member, `models` with the gaps at the start. The arguments are read
@@ -141,17 +162,19 @@ class BatchPasses {
   BatchPasses(std::span<const MemberScene* const> scenes, std::span<const Model> models,
               std::span<const Mesh> meshes);
 
-  bool due(std::int64_t step) const { return !gaps_.empty() && step % stride_ == 0; }
-  void look(std::span<const BatchStep> batches, double time);
+  bool due(std::int64_t step) const { return moving_.size() > 0 && step % stride_ == 0; }
+  void look(std::span<const BatchStep> batches, std::int64_t step, double time);
   void fill(std::size_t member, MemberResult& result) const;
 
  private:
-  /// Opening of each row by each coordinate, shape (rows, coordinates); per structure.
-  std::vector<std::vector<double>> values_;
-  std::vector<BatchValue> gaps_;  ///< per row, unloaded [m]
-  std::vector<int> contact_;      ///< per row
+  BatchRows watched_;
+  BatchRows moving_;              ///< three for each pair
+  std::vector<BatchValue> gaps_;  ///< per row that is watched, unloaded [m]
+  std::vector<int> contact_;      ///< per row that is watched
   std::vector<BatchValue> openings_;
-  std::vector<BatchValue> products_;
+  std::vector<BatchValue> start_;    ///< per moving row, of the rest with its sign turned [m]
+  std::vector<BatchValue> moved_;    ///< since then
+  std::vector<BatchValue> largest_;  ///< without signs
   std::vector<std::array<OtherPass, batch_size>> deepest_;        ///< per contact
   std::vector<std::array<std::size_t, batch_size>> deepest_row_;  ///< and where
   std::int64_t stride_ = 1;

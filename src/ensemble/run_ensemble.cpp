@@ -203,6 +203,10 @@ class Ensemble {
         layout_.channels.push_back(probe.name + " " + direction);
       }
     }
+    for (const interactions::Constraint& row : shared_.interface.constraints) {
+      layout_.pair_contacts.push_back(row.contact);
+      layout_.pair_places.insert(layout_.pair_places.end(), row.at.begin(), row.at.end());
+    }
     layout_.damping_ratios = scene_.spectra.damping_ratios;
     layout_.frequencies = scene_.spectra.frequencies;
     std::vector<std::string> opened;

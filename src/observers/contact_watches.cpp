@@ -102,6 +102,10 @@ constexpr double least_share = 1e-6;
 
 /// Smallest gap at t_n and mean force over the interval of each contact, for the history; and how
 /// far the pairs have closed at the samples. On the root of the contacts.
+constexpr auto least_gap_members = [](auto& pair, const auto& take) {
+  take(pair.least_gap, pair.time, pair.gap_then);
+};
+
 class ContactHistory final : public Observer {
  public:
   explicit ContactHistory(const ObservedRun& run)
@@ -109,7 +113,8 @@ class ContactHistory final : public Observer {
         gap_stride_(gap_stride(run.scene, run.model)),
         impulses_(run.scene.contacts.size(), 0.0),
         values_(2 * impulses_.size()),
-        closings_(impulses_.size()) {}
+        closings_(impulses_.size()),
+        pairs_(run.model.interface.constraints.size()) {}
 
   std::int64_t next_due(std::int64_t step) const override { return run_.next_record_step(step); }
   StepNeeds begin(const CdLagrange& stepper) override {
@@ -132,6 +137,7 @@ class ContactHistory final : public Observer {
   std::vector<double> impulses_;  ///< per contact, since the last record [N s]
   std::vector<double> values_;    ///< gap and force of each contact
   std::vector<JointClosing> closings_;
+  std::vector<PairMotion> pairs_;  ///< per row, without displacements
 };
 
 }  // namespace
@@ -230,7 +236,7 @@ void ContactHistory::follow(const CdLagrange& /*stepper*/) {
   }
 }
 
-void ContactHistory::observe(const CdLagrange& /*stepper*/) {
+void ContactHistory::observe(const CdLagrange& stepper) {
   if (!run_.is_contact_root()) return;
   const bool known = run_.solver.interface_known();
   for (std::size_t c = 0; c < impulses_.size(); ++c) {
@@ -245,6 +251,7 @@ void ContactHistory::observe(const CdLagrange& /*stepper*/) {
   for (std::size_t row = 0; row < gaps.size(); ++row) {
     double& smallest = values_[2 * contact_of(row)];
     smallest = std::min(smallest, gaps[row]);
+    pairs_[row].note(gaps[row], stepper.time());
     note_closing(row, gaps[row]);
   }
 }
@@ -277,6 +284,7 @@ void ContactHistory::save(SavedState& saved) {
     numbers.insert(numbers.end(), {joint.largest, closes ? joint.factor : -1});
   }
   saved.put("joint_closings", numbers, 2);
+  saved.put("pair_gaps", to_rows(pairs_, least_gap_members), 3);
 }
 
 void ContactHistory::load(const SavedState& saved) {
@@ -287,12 +295,16 @@ void ContactHistory::load(const SavedState& saved) {
     closings_[c].largest = numbers[2 * c];
     if (numbers[2 * c + 1] >= 0) closings_[c].factor = numbers[2 * c + 1];
   }
+  numbers.resize(3 * pairs_.size());
+  saved.get("pair_gaps", numbers);
+  from_rows(numbers, pairs_, least_gap_members);
 }
 
 void ContactHistory::report(RunStatistics& statistics) {
   if (run_.contact_root() < 0) return;
   statistics.closings = closings_;
-  broadcast_values(run_.comm, run_.contact_root(), statistics.closings);
+  statistics.pairs = pairs_;
+  broadcast_values(run_.comm, run_.contact_root(), statistics.closings, statistics.pairs);
 }
 
 OutputKind contact_history_output() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -78,6 +79,27 @@ struct JointClosing {
   double factor = std::numeric_limits<double>::infinity();
 };
 
+/// Motion of a pair of a contact.
+struct PairMotion {
+  double least_gap = std::numeric_limits<double>::infinity();  ///< of the samples [m]
+  double time = 0;                                             ///< when it had that first [s]
+  /// Largest of the components x, y and z, without their signs, of the displacement of the primary
+  /// relative to the secondary since the start, at every tenth look (OtherPass::look_interval) [m].
+  Vector3 displacement{};
+
+  double gap_then = least_gap;  ///< at `time`: round-off of a pair that touches is no later one [m]
+
+  static constexpr std::int64_t looks = 10;
+  static constexpr double round_off = 1e-12;  ///< [m]
+  void note(double gap, double at) {
+    if (gap < gap_then - round_off) {
+      gap_then = gap;
+      time = at;
+    }
+    least_gap = std::min(least_gap, gap);
+  }
+};
+
 /// How far the two sides of a contact have slid along each other.
 struct Slide {
   double distance = 0;    ///< of the pair that slid farthest beside the size of its facet [m]
@@ -119,6 +141,7 @@ struct RunStatistics {
   ImpactTotals all_impacts;
   std::vector<interactions::FillerTotals> fillers;  ///< per contact; empty without fillers
   std::vector<Slide> slides;                        ///< per contact
+  std::vector<PairMotion> pairs;                    ///< per row of the interface
   std::vector<OtherPass> other_passes;              ///< per contact
   std::vector<JointClosing> closings;               ///< per contact, of the samples of the gaps
   StatedPeaks peaks;                                ///< rank 0

@@ -1,10 +1,12 @@
 #include <cmath>
 #include <span>
 
+#include "common/matrix3.h"
 #include "common/saved_state.h"
 #include "interactions/contact_operator.h"
 #include "interactions/interface_rows.h"
 #include "interactions/pairing/interface.h"
+#include "io/csv_file.h"
 #include "observers/observed_run.h"
 #include "observers/run_statistics.h"
 #include "system/trace.h"
@@ -21,9 +23,16 @@ constexpr auto pass_members = [](auto& other, const auto& take) {
   take(other.depth, other.facet_size, other.place[0], other.place[1], other.time);
 };
 
-/// Two rows along the faces for every pair, then one across them for those of passes not taken.
+constexpr auto displacement_members = [](auto& moved, const auto& take) {
+  take(moved[0], moved[1], moved[2]);
+};
+
+const ResultFile pair_table{"joint_pairs.csv", "how near each pair of the contacts came and moved",
+                            "contact,x,y,z,initial_gap,least_gap,time,dx,dy,dz"};
+
+/// Three rows for every pair, then one across the faces for those of passes not taken.
 std::vector<interactions::Constraint> looked_at(const interactions::Interface& interface) {
-  std::vector<interactions::Constraint> rows = interactions::tangential_rows(interface.constraints);
+  std::vector<interactions::Constraint> rows = interactions::component_rows(interface.constraints);
   rows.insert(rows.end(), interface.watched.begin(), interface.watched.end());
   return rows;
 }
@@ -42,6 +51,7 @@ class SlideWatch final : public Observer {
     if (gather_.root() != rank_of(run_.comm)) return;
     saved.put("contact_slide", to_rows(slides_, slide_members), 3);
     saved.put("contact_other_pass", to_rows(passes_, pass_members), 5);
+    saved.put("pair_displacements", to_rows(largest_, displacement_members), 3);
   }
   void load(const SavedState& saved) override {
     std::vector<double> values(3 * slides_.size());
@@ -50,12 +60,11 @@ class SlideWatch final : public Observer {
     values.resize(5 * passes_.size());
     saved.get("contact_other_pass", values);
     from_rows(values, passes_, pass_members);
+    values.resize(3 * largest_.size());
+    saved.get("pair_displacements", values);
+    from_rows(values, largest_, displacement_members);
   }
-  void report(RunStatistics& statistics) override {
-    statistics.slides = slides_;
-    statistics.other_passes = passes_;
-    broadcast_values(run_.comm, gather_.root(), statistics.slides, statistics.other_passes);
-  }
+  void report(RunStatistics& statistics) override;
 
  private:
   /// Gathers the displacements of the operator's dofs, of every structure's displacements and of
@@ -63,9 +72,15 @@ class SlideWatch final : public Observer {
   void gather(const auto& of, std::span<const double> supports);
   /// Looks at all pairs at a time [s]. Members only, collective over them.
   void look(double time);
+  /// Displacement of the primary relative to the secondary at a row of the interface [m].
+  Vector3 moved(std::size_t row) const {
+    const auto first = static_cast<int>(3 * row);
+    return {operator_.apply(first, displacement_), operator_.apply(first + 1, displacement_),
+            operator_.apply(first + 2, displacement_)};
+  }
   /// Opening of a row of a pass that is not taken since it was unloaded [m].
   double opening_of(std::size_t row) const {
-    return operator_.apply(static_cast<int>(2 * run_.model.interface.constraints.size() + row),
+    return operator_.apply(static_cast<int>(3 * run_.model.interface.constraints.size() + row),
                            displacement_);
   }
 
@@ -77,6 +92,9 @@ class SlideWatch final : public Observer {
   interactions::InterfaceGather gather_;
   std::vector<double> mine_;
   std::vector<double> displacement_;  ///< per dof of the operator
+  std::vector<Vector3> normals_;      ///< per row of the interface, as the next ones
+  std::vector<Vector3> start_;        ///< moved until the start [m]
+  std::vector<Vector3> largest_;      ///< components of their motion since [m]
   std::vector<Slide> slides_;         ///< per contact
   std::vector<OtherPass> passes_;     ///< per contact
   std::vector<double> start_gaps_;    ///< per row of passes that are not taken [m]
@@ -94,6 +112,8 @@ SlideWatch::SlideWatch(const ObservedRun& run)
               interactions::known_dofs(
                   interactions::dofs_by_structure(operator_, run.model.systems.size()), traces_)),
       displacement_(static_cast<std::size_t>(operator_.dofs()), 0.0),
+      start_(run.model.interface.constraints.size()),
+      largest_(start_.size()),
       slides_(run.scene.contacts.size()),
       passes_(run.scene.contacts.size()) {
   std::size_t known = 0;
@@ -104,11 +124,15 @@ SlideWatch::SlideWatch(const ObservedRun& run)
   mine_.assign(known, 0.0);
   const std::vector<interactions::Constraint>& watched = run.model.interface.watched;
   for (const interactions::Constraint& row : watched) start_gaps_.push_back(row.initial_gap);
-  if (!run.model.equilibrium || watched.empty() || !gather_.member()) return;
+  for (const interactions::Constraint& row : run.model.interface.constraints) {
+    normals_.push_back(interactions::normal_of(row));
+  }
+  if (!run.model.equilibrium || !gather_.member()) return;
   gather([&](std::size_t s) { return run.model.systems[s].rest_displacement.data(); }, {});
   for (std::size_t w = 0; w < watched.size(); ++w) {
     if (run.scene.contacts[watched[w].contact].gap_at_rest) start_gaps_[w] -= opening_of(w);
   }
+  for (std::size_t row = 0; row < start_.size(); ++row) start_[row] = moved(row);
 }
 
 void SlideWatch::gather(const auto& of, std::span<const double> supports) {
@@ -124,15 +148,21 @@ StepNeeds SlideWatch::begin(const CdLagrange& stepper) {
   gather([&](std::size_t s) { return state.structures[s].displacement.data(); },
          state.supports.displacement);
   look(static_cast<double>(state.step) * stepper.time_step());
+  for (std::size_t row = 0; state.step % (PairMotion::looks * stride_) == 0 && row < start_.size();
+       ++row) {
+    const Vector3 since = minus(moved(row), start_[row]);
+    for (std::size_t d = 0; d < 3; ++d) {
+      largest_[row][d] = std::max(largest_[row][d], std::abs(since[d]));
+    }
+  }
   return {};
 }
 
 void SlideWatch::look(double time) {
-  int row = 0;  // two per pair
+  std::size_t row = 0;
   for (const interactions::Constraint& constraint : run_.model.interface.constraints) {
-    const double distance =
-        std::hypot(operator_.apply(row, displacement_), operator_.apply(row + 1, displacement_));
-    row += 2;
+    const double distance = norm(cross(normals_[row], moved(row)));
+    ++row;
     const double size = constraint.facet_size;
     Slide& slide = slides_[constraint.contact];
     if (size > 0 && distance > Slide::limit * size && slide.since < 0) slide.since = time;
@@ -152,8 +182,28 @@ void SlideWatch::look(double time) {
   }
 }
 
+void SlideWatch::report(RunStatistics& statistics) {
+  statistics.slides = slides_;
+  statistics.other_passes = passes_;
+  broadcast_values(run_.comm, gather_.root(), statistics.slides, statistics.other_passes, largest_);
+  on_rank0(run_.comm, [&] {
+    ResultTable table(run_.scene, pair_table);
+    for (std::size_t row = 0; row < largest_.size(); ++row) {
+      const interactions::Constraint& pair = run_.model.interface.constraints[row];
+      PairMotion& motion = statistics.pairs[row];
+      motion.displacement = largest_[row];
+      table.row(
+          run_.contact_names()[static_cast<std::size_t>(pair.contact)],
+          {pair.at[0], pair.at[1], pair.at[2], run_.model.start_gaps[row], motion.least_gap,
+           motion.time, motion.displacement[0], motion.displacement[1], motion.displacement[2]});
+    }
+    table.close();
+  });
+}
+
 OutputKind slide_output() {
-  return output<SlideWatch>({}, [](const ObservedRun& run) { return run.contact_root() >= 0; });
+  return output<SlideWatch>({pair_table},
+                            [](const ObservedRun& run) { return run.contact_root() >= 0; });
 }
 
 }  // namespace pounding

@@ -19,21 +19,25 @@ FILE = "ensemble.h5"
 ARRAYS = {"spectra/pseudo_acceleration": "spectra", "impacts/episodes": "episodes", "impacts/first_time": "first_time",
           "impacts/impulse_sum": "impulse_sum", "impacts/impulse_largest": "impulse_largest",
           "impacts/force_peak": "force_peak", "gaps/smallest": "smallest_gap", "peaks/displacement": "displacement",
-          "peaks/acceleration": "acceleration", "energy/residual": "residual"}
+          "peaks/acceleration": "acceleration", "energy/residual": "residual", "pairs/initial_gap": "pair_gap",
+          "pairs/least_gap": "pair_least", "pairs/time": "pair_time", "pairs/displacement": "pair_moved"}
 # What all members share.
 LABELS = {"spectra/frequency": "frequency", "spectra/damping": "damping", "spectra/channels": "channels",
-          "impacts/contacts": "contacts"}
+          "impacts/contacts": "contacts", "pairs/contact": "pair_contact", "pairs/place": "pair_place"}
 
 
 @dataclass
 class Outcomes:
     """`spectra` (members, channels, damping ratios, frequencies) [m/s2]; impacts and gaps (members, contacts); peaks
-    (members, channels); SI units."""
+    (members, channels); pairs of contacts by number of the contact and place (pairs, 3), their gaps at the start, least ones
+    and when (members, pairs), and largest relative displacements (members, pairs, 3); SI units."""
 
     frequency: np.ndarray
     damping: np.ndarray
     channels: list
     contacts: list
+    pair_contact: np.ndarray
+    pair_place: np.ndarray
     spectra: np.ndarray
     episodes: np.ndarray
     first_time: np.ndarray
@@ -44,6 +48,10 @@ class Outcomes:
     displacement: np.ndarray
     acceleration: np.ndarray
     residual: np.ndarray
+    pair_gap: np.ndarray
+    pair_least: np.ndarray
+    pair_time: np.ndarray
+    pair_moved: np.ndarray
 
 
 def _texts(values) -> list:
@@ -127,10 +135,17 @@ def of_run(result: Result) -> Outcomes:
     gaps = [np.nanmin(result.history["gap"], axis=0) if len(contacts) else []]
     peaks = {key: [[value or 0.0 for probe in probes for value in told["probes"][probe][key]]]
              for key in ("peak_displacement", "peak_acceleration")}
-    return Outcomes(frequency, damping, channels, contacts, spectra[None], of_contact("episodes", 0),
+    pairs = result.table("joint_pairs")
+    of_pairs = {name: np.asarray(pairs.get(name, []), float)
+                for name in ("x", "y", "z", "initial_gap", "least_gap", "time", "dx", "dy", "dz")}
+    place = np.stack([of_pairs[axis] for axis in "xyz"], -1)
+    owner = np.array([contacts.index(name) for name in pairs.get("contact", [])], float)
+    return Outcomes(frequency, damping, channels, contacts, owner, place, spectra[None], of_contact("episodes", 0),
                     of_impacts("start", True), of_contact("total_impulse", 0), of_contact("largest_impulse", 0),
                     of_impacts("peak_force", False), np.array(gaps), np.array(peaks["peak_displacement"]),
-                    np.array(peaks["peak_acceleration"]), np.array([told["energy"]["relative_residual"] or 0.0]))
+                    np.array(peaks["peak_acceleration"]), np.array([told["energy"]["relative_residual"] or 0.0]), of_pairs["initial_gap"][None],
+                    of_pairs["least_gap"][None], of_pairs["time"][None],
+                    np.stack([of_pairs[f"d{axis}"] for axis in "xyz"], -1)[None])
 
 
 def write(path: Path, columns: list, texts: list, parts: list) -> None:

@@ -24,6 +24,28 @@ std::vector<ConstraintTerm> weights_of(const Constraint& constraint, const Vecto
   return nodes;
 }
 
+/// Rows of the weights of constraints along the directions that `directions_of` gives for a normal.
+std::vector<Constraint> rows_along(std::span<const Constraint> constraints,
+                                   const auto& directions_of) {
+  std::vector<Constraint> rows;
+  for (const Constraint& constraint : constraints) {
+    const Vector3 normal = normal_of(constraint);
+    const std::vector<ConstraintTerm> nodes = weights_of(constraint, normal);
+    for (const Vector3& direction : directions_of(normal)) {
+      Constraint& row = rows.emplace_back();
+      row.contact = constraint.contact;
+      row.friction = constraint.friction;
+      for (const ConstraintTerm& node : nodes) {
+        for (int d = 0; d < 3; ++d) {
+          const double coefficient = node.coefficient * direction[d];
+          if (coefficient != 0) row.terms.push_back({node.structure, node.node, d, coefficient});
+        }
+      }
+    }
+  }
+  return rows;
+}
+
 /// A weight this close to 1 is the node itself; one this close to 0 is not there.
 constexpr double negligible = 1e-6;
 
@@ -97,23 +119,13 @@ Vector3 normal_of(const Constraint& constraint) {
 }
 
 std::vector<Constraint> tangential_rows(std::span<const Constraint> constraints) {
-  std::vector<Constraint> rows;
-  for (const Constraint& constraint : constraints) {
-    const Vector3 normal = normal_of(constraint);
-    const std::vector<ConstraintTerm> nodes = weights_of(constraint, normal);
-    for (const Vector3& tangent : tangents_of(normal)) {
-      Constraint& row = rows.emplace_back();
-      row.contact = constraint.contact;
-      row.friction = constraint.friction;
-      for (const ConstraintTerm& node : nodes) {
-        for (int d = 0; d < 3; ++d) {
-          const double coefficient = node.coefficient * tangent[d];
-          if (coefficient != 0) row.terms.push_back({node.structure, node.node, d, coefficient});
-        }
-      }
-    }
-  }
-  return rows;
+  return rows_along(constraints, tangents_of);
+}
+
+std::vector<Constraint> component_rows(std::span<const Constraint> constraints) {
+  return rows_along(constraints, [](const Vector3& /*normal*/) {
+    return std::array<Vector3, 3>{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  });
 }
 
 std::array<double, 4> snapped(std::array<double, 4> weights) {

@@ -201,6 +201,10 @@ std::array<Vector3, 2> tangents_of(const Vector3& normal);
 /// the order of the constraints, with the same weights.
 std::vector<Constraint> tangential_rows(std::span<const Constraint> constraints);
 
+/// Three rows per constraint, for the displacement of the primary relative to the secondary along
+/// x, y and z, in the order of the constraints, with the same weights.
+std::vector<Constraint> component_rows(std::span<const Constraint> constraints);
+
 /// How far outside a facet, or deeper than its elements are, relative to its size, a node may lie
 /// and still face it: shells in one plane lie as deep as they are thick.
 constexpr double facet_tolerance = 1e-6;
