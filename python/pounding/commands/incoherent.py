@@ -1,0 +1,95 @@
+"""Motions of rigid mats on ground that does not move alike: run/incoherent FILE [--seed N] [--out DIR]
+
+FILE (YAML) names the mats with centre, sides and what stands on them, the records along x, y and z, and a model of
+coherency. Writes the six components of every mat as DIR/MAT.csv, and DIR/supports.yaml, the block of options by which a
+scene takes them. One seed gives the same motions always. docs/manual/incoherence.md has the keys and the method.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import yaml
+
+from pounding import incoherent, mats
+from pounding.coherency import CoherencyError
+from pounding.files import file_name
+from pounding.motion_signals import MotionError, read_signals
+from pounding.results import DIRECTIONS
+from pounding.runs import RunError
+from pounding.scenes import write_scene
+
+from .process import called, parser_of
+
+NAME = called("run/incoherent")
+FAULTS = (CoherencyError, MotionError, RunError)
+WORDS = {"unit": "--unit", "column": "--columns", "time_step": "--time-step"}  # of pounding-spectra
+
+
+def read(path: Path) -> tuple:
+    """Coherence, and options of the records per axis. Throws CoherencyError or OSError."""
+    try:
+        told = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except (ValueError, yaml.YAMLError) as error:
+        raise CoherencyError(f"{path}: {' '.join(str(error).split())}") from error
+    if not isinstance(told, dict):
+        raise CoherencyError(f"{path}: no keys and values")
+    motion = told.pop("motion", None)
+    try:
+        if not isinstance(motion, dict) or not motion or not set(motion) <= set(DIRECTIONS):
+            raise CoherencyError("motion: needs records along some of x, y and z, as `motion: {x: {record: FILE}}`")
+        for axis, one in motion.items():
+            if not isinstance(one, dict) or not isinstance(one.get("record"), str) or set(one) - {"record", "scale", *WORDS}:
+                raise CoherencyError(f"motion: {axis}: {one!r} is not a record and perhaps its unit, column, time_step and scale")
+            if isinstance(one.get("scale", 1), bool) or not isinstance(one.get("scale", 1), (int, float)):
+                raise CoherencyError(f"motion: {axis}: scale: {one['scale']!r} is no number")
+        return mats.read(told, path.parent), {axis: motion[axis] for axis in DIRECTIONS if axis in motion}
+    except CoherencyError as error:
+        raise CoherencyError(f"{path}: {error}") from error
+
+
+def records_of(motion: dict, folder: Path) -> tuple:
+    """Accelerations [m/s2] per axis, as long as the longest of them, and their step [s]. Throws CoherencyError or MotionError."""
+    found = {axis: read_signals([word for key, value in WORDS.items() if key in one for word in (value, one[key])] +
+                                [folder / one["record"]])[0] for axis, one in motion.items()}
+    steps = [signal.step for signal in found.values()]
+    if max(steps) > (1 + 1e-6) * min(steps):
+        raise CoherencyError("motion: the records have different steps, " +
+                             ", ".join(f"{axis} {signal.step:g} s" for axis, signal in found.items()) + "; give records of one step")
+    count = max(len(signal.values) for signal in found.values())
+    return {axis: motion[axis].get("scale", 1) * np.pad(signal.values, (0, count - len(signal.values)))
+            for axis, signal in found.items()}, steps[0]
+
+
+def report(found: mats.Coherence, records: dict, step: float, motions: dict) -> list:
+    lines = [f"{found.model.name}, seed {found.seed}"]
+    for axis, record in records.items():
+        peaks = ", ".join(f"{mat} {abs(own[axis]).max():.4g}" for mat, own in motions.items())
+        apart = [np.cumsum(np.cumsum(motions[a.name][axis] - motions[b.name][axis])) * step ** 2
+                 for place, a in enumerate(found.mats) for b in found.mats[:place]]
+        lines.append(f"{axis}: peak {abs(record).max():.4g} m/s2, {peaks}; mats part by {1e3 * max(abs(one).max() for one in apart):.3g} mm")
+    turned = {mat: max((abs(own[name]).max() for name in ("rx", "ry", "rz") if name in own), default=0) for mat, own in motions.items()}
+    return [*lines, "rotations up to " + ", ".join(f"{mat} {value:.3g}" for mat, value in turned.items()) + " rad/s2"]
+
+
+def main() -> int:
+    parser = parser_of(NAME, __doc__)
+    parser.add_argument("file", metavar="FILE", type=Path, help="mats, records and model")
+    parser.add_argument("--seed", metavar="N", type=int, help="in place of that of the file (default there: 1)")
+    parser.add_argument("--out", metavar="DIR", type=Path, default=Path("incoherent"), help="(default: %(default)s)")
+    options = parser.parse_args()
+    found, motion = read(options.file)
+    if options.seed is not None:
+        found = mats.read({**found.told, "seed": options.seed}, options.file.parent)
+    records, step = records_of(motion, options.file.parent)
+    factors = incoherent.factors_of(found.mats, found.model, incoherent.grid(0.5 / step), tuple(records), found.wave)
+    motions = incoherent.base_motions(records, step, factors, found.seed)
+    options.out.mkdir(parents=True, exist_ok=True)
+    names = mats.components(motions)
+    files = {mat: (options.out / f"{file_name(mat)}.csv").absolute() for mat in motions}
+    for mat, own in motions.items():
+        mats.write(files[mat], own, step, names)
+    write_scene(options.out / "supports.yaml", mats.support_options(found, names, files),
+                f"Supports on incoherent ground: {found.model.name}, seed {found.seed}; `include` it in a scene.")
+    print("\n".join(report(found, records, step, motions)))
+    print(f"see {options.out / 'supports.yaml'}")
+    return 0
