@@ -131,6 +131,7 @@ ModalRequest modal_request(MPI_Comm comm, const Scene& scene, std::size_t s, con
     request.loads_at_rest.push_back(loads.before_start[l]);
   }
   request.start = model.starts[s];
+  request.supports.assign(model.support_columns().begin(), model.support_columns().end());
   request.start_displacement = structure.initial_displacement;
   request.start_velocity = structure.initial_velocity;
   return request;
@@ -165,7 +166,7 @@ std::optional<ModalBasis> stored_basis(const Structure& structure, const BasisKe
   StoredBasis stored;
   with_file(structure, [&] {
     if (std::filesystem::exists(path)) {
-      stored = read_modal_basis(path, key, request.loads.size(), !request.start.empty());
+      stored = read_modal_basis(path, key, request);
     } else {
       NewFile(path + ".new");  // goes again
     }

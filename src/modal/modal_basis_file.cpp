@@ -78,7 +78,9 @@ std::vector<double> to_file(const std::vector<TracePoint>& points) {
   return numbers;
 }
 
-ModalBasis read_members(const Hdf5Reader& file, std::size_t loads, bool start) {
+ModalBasis read_members(const Hdf5Reader& file, const ModalRequest& request) {
+  const std::size_t loads = request.loads.size();
+  const std::size_t columns = request.supports.size();
   ModalBasis basis;
   const std::vector<std::string> arrays = file.names("/");
   ModalBasis::describe(basis, [&](const char* name, auto& value, ModalBasis::Shape shape) {
@@ -101,7 +103,9 @@ ModalBasis read_members(const Hdf5Reader& file, std::size_t loads, bool start) {
   if (size == 0 || basis.mode_numbers.size() != size || modes != basis.modes ||
       basis.participation.size() != 6 * size || basis.rows.size() != basis.points.size() * size ||
       basis.load_parts.size() != loads * size ||
-      basis.start_parts.size() != (start ? 2 * size : 0) ||
+      basis.support_participation.size() != columns * size ||
+      basis.support_rows.size() != columns * basis.points.size() ||
+      basis.start_parts.size() != (request.start.empty() ? 0 : 2 * size) ||
       basis.residual_squared_frequency.size() != static_cast<std::size_t>(basis.residual_vectors) ||
       basis.modes + basis.attachment_vectors + basis.residual_vectors != static_cast<int>(size)) {
     throw std::runtime_error(wrong_sizes);
@@ -135,6 +139,22 @@ std::string hash_of(std::span<const NodalLoad> loads) {
   Hash hash;
   for (const NodalLoad& load : loads) {
     add_values(load.forces, hash);
+  }
+  return hash.text();
+}
+
+/// Columns of the supports' motion, and what of the structure is on the supports.
+std::string hash_of(std::span<const SupportColumn> columns, const GlobalMesh& mesh) {
+  Hash hash;
+  for (const SupportColumn& column : columns) {
+    hash.add(static_cast<double>(column.support));
+    hash.add(static_cast<double>(column.component));
+    if (column.component >= 3) hash.add_all(column.point);
+  }
+  hash.add(static_cast<double>(mesh.ground_support));
+  for (const SupportedNode& node : mesh.supported) {
+    hash.add(static_cast<double>(node.node));
+    hash.add(static_cast<double>(node.support));
   }
   return hash.text();
 }
@@ -239,15 +259,15 @@ void write_modal_basis(const std::string& path, const BasisKey& key, const Modal
   file.move_to(path);
 }
 
-StoredBasis read_modal_basis(const std::string& path, const BasisKey& key, std::size_t loads,
-                             bool start) {
+StoredBasis read_modal_basis(const std::string& path, const BasisKey& key,
+                             const ModalRequest& request) {
   const Hdf5Reader file(path, Hdf5Reader::Kind::sealed);
   try {
     if (file.text("/", "format") != format) throw std::runtime_error("another format");
     schema::require(file, schema::basis);
     StoredBasis stored;
     stored.differs = difference(file, key);
-    if (stored.differs.empty()) stored.basis = read_members(file, loads, start);
+    if (stored.differs.empty()) stored.basis = read_members(file, request);
     return stored;
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(path + ": no modal basis, or a damaged one (" + error.what() + ")");
@@ -283,6 +303,7 @@ BasisKey basis_key(const Structure& structure, const GlobalMesh& mesh,
     vectors.add(region.group);
     vectors.add(region.damping_factor);
   }
+  if (!request.supports.empty()) vectors.add(hash_of(request.supports, mesh));
   if (!request.yielding_points.empty()) vectors.add(hash_of(request.yielding_points));
   std::vector<TracePoint> places = request.other_points;
   places.insert(places.end(), request.shown_points.begin(), request.shown_points.end());

@@ -23,6 +23,8 @@
 ///     /rows                (n, k) of the basis at the points
 ///     /load_parts          (l, k) Phi^T p of loads; left out without any
 ///     /start_parts         (2, k) Phi^T M u_0 and v_0; left out where all nodes start alike
+///     /support_participation  (c, k) Phi^T M iota of the columns of the supports' motion
+///     /support_rows        (n c) iota at the points; both left out where the ground moves as one
 namespace pounding {
 
 /// Hashes of the sources of a basis, by their names.
@@ -37,10 +39,10 @@ struct StoredBasis {
   std::string differs;  ///< "mesh, contact points"
 };
 
-/// Serial. `loads`: their number on the structure; `start`: its nodes start differently. Throws
-/// std::runtime_error if the file is not a modal basis or damaged.
-StoredBasis read_modal_basis(const std::string& path, const BasisKey& key, std::size_t loads = 0,
-                             bool start = false);
+/// Serial. `request`: its loads, start and supports. Throws std::runtime_error if the file is not a
+/// modal basis or damaged.
+StoredBasis read_modal_basis(const std::string& path, const BasisKey& key,
+                             const ModalRequest& request = {});
 
 /// Hashes of the sources of a modal basis, by their names: mesh, materials and sections, the
 /// formulations of the elements, every byte of dofs.csv and of the matrices where they come from

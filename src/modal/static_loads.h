@@ -27,6 +27,7 @@ struct ModalRequest {
   std::vector<NodalLoad> loads;             ///< on the structure
   std::vector<double> loads_at_rest;        ///< f of each before the run
   NodalStart start;                         ///< of nodes that start differently
+  std::vector<SupportColumn> supports;      ///< columns of the supports' motion
   Vector3 start_displacement{0, 0, 0};      ///< of the others [m]
   Vector3 start_velocity{0, 0, 0};          ///< of the others [m/s]
   /// The structure with (1 + d) / 2 of each element's stiffness, d the factor on its damping; null:

@@ -136,7 +136,6 @@ void require_plain(const OptionReader& options, const Scene& scene, const Suppor
     }
   }
   if (!structure.modal) return;
-  if (!structure.modal->basis_file.empty()) refuse_with("_modal_basis");
   for (const Region& region : structure.regions) {
     if (is_nonlinear(region)) {
       refuse_groups(

@@ -60,7 +60,6 @@ class Refused(WithRecord):
     def test_together_with_others(self):
         moved = [*self.ground(), "-west_delay", 0.1]
         for option, more in (("-v_matrices", ["-v_matrices", "/tmp"]), ("-export_matrices", ["-export_matrices", "/tmp/m"]),
-                             ("-v_modal_basis", [*in_modes("v", 5), "-v_modal_basis", "/tmp/b"]),
                              ("-v_bearings_yield_force", [*in_modes("v", 5), "-v_bearings_yield_force", "1e3,0,0"])):
             self.refuse(option, more=[*moved, *more])
         self.refuse("-v_braces_tension_only", more=[*moved, *in_modes("v", 5)],
