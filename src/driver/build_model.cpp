@@ -277,17 +277,7 @@ Model build_model(MPI_Comm comm, Scene& scene, std::span<const double> stiffness
   Model model;
   model.buildings.resize(scene.structures.size());
   model.systems.resize(scene.structures.size());
-  on_every_rank(comm, [&] {
-    model.motion = std::make_unique<GroundMotion>(scene.motion, scene.resampling);
-    if (scene.motion_from_below) model.motion->enter_from_below();
-    if (!scene.supports.empty()) {
-      model.supports =
-          std::make_unique<SupportMotion>(scene.supports, *model.motion, scene.resampling);
-    }
-    if (!scene.loads.empty()) {
-      model.load_histories = std::make_unique<LoadHistories>(scene.loads);
-    }
-  });
+  on_every_rank(comm, [&] { read_histories(scene, model); });
   build_meshes(comm, scene, stiffness_factors, profile, contacts_known, model);
   try {
     build_structures(comm, scene, profile, model);

@@ -70,7 +70,8 @@ void BatchStep::brake(double share) {
 }
 
 void BatchStep::step(double duration, const std::array<BatchValue, 3>& ground_acceleration,
-                     std::span<const double> loads, bool with_energies, bool with_forces) {
+                     std::span<const BatchValue> supports, std::span<const double> loads,
+                     bool with_energies, bool with_forces) {
   ++steps_;
   extra_before_ = BatchValue{};
   const BatchValue beta = beta_;
@@ -83,7 +84,8 @@ void BatchStep::step(double duration, const std::array<BatchValue, 3>& ground_ac
     extra_before_ += velocity * state_->extra_force[i];
   }
   structure_->begin(duration, ground_acceleration,
-                    {with_energies ? stiffness_velocity_.data() : nullptr, with_forces}, {}, loads);
+                    {with_energies ? stiffness_velocity_.data() : nullptr, with_forces}, supports,
+                    loads);
   structure_->receive(0, static_cast<LocalIndex>(coordinates()), force_.data());
   if (dashpots_) brake(duration / time_step_);
   structure_->complete();

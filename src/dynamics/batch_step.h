@@ -32,11 +32,12 @@ class BatchStep {
   /// The step brakes a member by its links, which then are no interaction.
   bool brakes(std::size_t member) const { return braked_[member]; }
 
-  /// The step with the ground's acceleration [m/s2], gravity apart; `duration`: see
+  /// The step with the ground's acceleration [m/s2], gravity apart; `duration`, `supports`: see
   /// StructureStep::begin; `loads`: f of every load of the scene, the same in all runs;
   /// `with_energies`, `with_forces`: see CdLagrange::step.
   void step(double duration, const std::array<BatchValue, 3>& ground_acceleration,
-            std::span<const double> loads, bool with_energies, bool with_forces);
+            std::span<const BatchValue> supports, std::span<const double> loads, bool with_energies,
+            bool with_forces);
 
  private:
   friend class BatchMember;

@@ -108,6 +108,8 @@ class CdLagrange {
   /// Ground acceleration of the current step [m/s2], and how long it acts [s].
   const std::array<double, 3>& ground_acceleration() const { return acceleration_; }
   double force_duration() const { return force_duration_; }
+  /// r'' of the supports in the current step, per column of SupportShapes [m/s2, rad/s2].
+  const std::vector<double>& support_acceleration() const { return supports_.acceleration; }
   /// f of every load in the current step.
   std::span<const double> load_values() const { return load_values_; }
 

@@ -168,7 +168,7 @@ void StructureStep<Number>::watch(std::span<const LocalIndex> dofs, bool always)
 template <typename Number>
 void StructureStep<Number>::begin(double duration, const std::array<Number, 3>& ground_acceleration,
                                   const StepRequest<Number>& request,
-                                  std::span<const double> supports, std::span<const double> loads) {
+                                  std::span<const Number> supports, std::span<const double> loads) {
   const Number h = Number{} + duration;
   terms_ = {terms_.time_step, h, Number{} + 1.0 - h * alpha_, beta_, h * alpha_};
   stiffness_velocity_ = request.stiffness_velocity;
@@ -190,7 +190,7 @@ void StructureStep<Number>::begin(double duration, const std::array<Number, 3>& 
   }
   std::fill(known_step_.begin(), known_step_.end(), Number{});
   for (std::size_t c = 0; c < supports_.size() && c < supports.size(); ++c) {
-    const Number step = h * (Number{} + supports[c]);
+    const Number step = h * supports[c];
     for (std::size_t i = 0; i < supports_[c].size(); ++i) known_step_[i] += step * supports_[c][i];
   }
   load_values_ = loads;

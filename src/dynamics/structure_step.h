@@ -89,7 +89,7 @@ class StructureStep final : public stiffness::ReceiverOf<Number> {
   /// `duration`: of the velocity's step [s]; `supports`: r_c'' of every column of SupportShapes
   /// [m/s2, rad/s2]; `loads`: f of every load of the scene (LoadShapes), until `sums`.
   void begin(double duration, const std::array<Number, 3>& ground_acceleration,
-             const StepRequest<Number>& request, std::span<const double> supports = {},
+             const StepRequest<Number>& request, std::span<const Number> supports = {},
              std::span<const double> loads = {});
   void receive(LocalIndex begin, LocalIndex end, const Number* force) override;
   /// v_free of dofs that wait, between the last range and `complete`.

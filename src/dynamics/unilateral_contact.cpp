@@ -62,7 +62,7 @@ void UnilateralContact::detect_contact(const interactions::Step& step) {
       problem_.set_displacement(s, step.structures[s]->displacement().data(),
                                 step.supports.displacement);
     } else {
-      problem_.set_place_displacement(s, places);
+      problem_.set_place_displacement(s, places, step.supports.displacement);
     }
   }
   problem_.gather_displacements();

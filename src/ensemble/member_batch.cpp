@@ -38,6 +38,14 @@ std::vector<Model> models_of(std::span<const MemberScene* const> members,
   return models;
 }
 
+const std::vector<double>& displacement_of_supports(const CdLagrange& stepper) {
+  return stepper.state().supports.displacement;
+}
+
+const std::vector<double>& velocity_of_supports(const CdLagrange& stepper) {
+  return stepper.state().supports.velocity;
+}
+
 /// The smallest recorded gap of each pair.
 class SmallestGaps final : public Observer {
  public:
@@ -85,7 +93,16 @@ MemberBatch::MemberBatch(std::span<const MemberScene* const> members, const Scen
     runs_.push_back(std::make_unique<MemberRun>(*members[member], shared, models_[member],
                                                 BatchPlace{batches_, member}));
   }
-  recorder_.restart(batches_);
+  recorder_.restart(batches_, motion_of_supports(velocity_of_supports));
+}
+
+const std::vector<BatchValue>& MemberBatch::motion_of_supports(const auto& part) {
+  supports_.resize(shared_.support_columns().size());
+  for (std::size_t member = 0; member < runs_.size(); ++member) {
+    const std::vector<double>& motion = part(runs_[member]->stepper());
+    for (std::size_t c = 0; c < supports_.size(); ++c) supports_[c].set(member, motion[c]);
+  }
+  return supports_;
 }
 
 bool MemberBatch::run(const std::function<bool()>& stopped) {
@@ -97,9 +114,13 @@ bool MemberBatch::run(const std::function<bool()>& stopped) {
 }
 
 void MemberBatch::step(std::int64_t n) {
-  if (passes_.due(n)) passes_.look(batches_, n, static_cast<double>(n) * shared_.time_step);
   const bool records = recorder_.due(n);
-  if (records) recorder_.take_displacements(batches_);
+  if (records || passes_.due(n)) {
+    const std::vector<BatchValue>& supports = motion_of_supports(displacement_of_supports);
+    const double time = static_cast<double>(n) * shared_.time_step;
+    if (passes_.due(n)) passes_.look(batches_, supports, n, time);
+    if (records) recorder_.take_displacements(batches_, supports);
+  }
   bool with_energies = false, with_forces = false;
   for (std::size_t member = 0; member < runs_.size(); ++member) {
     with_energies = runs_[member]->open() || with_energies;
@@ -109,13 +130,15 @@ void MemberBatch::step(std::int64_t n) {
     }
   }
   const double duration = runs_.front()->stepper().force_duration();
+  const std::vector<BatchValue>& supports =
+      motion_of_supports([](const CdLagrange& of) -> auto& { return of.support_acceleration(); });
   for (BatchStep& batch : batches_) {
-    batch.step(duration, acceleration_, runs_.front()->stepper().load_values(), with_energies,
-               with_forces);
+    batch.step(duration, acceleration_, supports, runs_.front()->stepper().load_values(),
+               with_energies, with_forces);
   }
   for (failed_ = 0; failed_ < runs_.size(); ++failed_) runs_[failed_]->close();
   recorder_.add_step(duration, acceleration_);
-  if (records) recorder_.record(batches_);
+  if (records) recorder_.record(batches_, motion_of_supports(velocity_of_supports));
 }
 
 MemberResult MemberBatch::result(std::size_t member) {
@@ -141,108 +164,6 @@ MemberResult MemberBatch::result(std::size_t member) {
   return result;
 }
 
-BatchRows::BatchRows(std::span<const interactions::Constraint> rows,
-                     std::span<const LinearSystem> systems, std::span<const Mesh> meshes)
-    : products_(rows.size()) {
-  for (std::size_t s = 0; s < meshes.size() && !rows.empty(); ++s) {
-    std::vector<TracePoint> places;
-    for (const interactions::Constraint& row : rows) {
-      for (const interactions::ConstraintTerm& term : row.terms) {
-        if (term.structure == static_cast<int>(s)) places.push_back({term.node, term.component});
-      }
-    }
-    const std::size_t width = systems[s].lumped_mass.size();
-    std::vector<double>& values = values_.emplace_back(rows.size() * width, 0.0);
-    const Trace trace(systems[s], meshes[s], places, false);
-    std::size_t place = 0;
-    for (std::size_t w = 0; w < rows.size(); ++w) {
-      for (const interactions::ConstraintTerm& term : rows[w].terms) {
-        if (term.structure != static_cast<int>(s)) continue;
-        const std::span<const double> of_term = trace.row(place++);
-        for (std::size_t i = 0; i < width; ++i) {
-          values[w * width + i] += term.coefficient * of_term[i];
-        }
-      }
-    }
-  }
-}
-
-void BatchRows::add_to(std::vector<BatchValue>& sums, std::span<const BatchStep> batches) {
-  for (std::size_t s = 0; s < values_.size(); ++s) {
-    multiply_rows(values_[s].data(), size(), batches[s].coordinates(),
-                  batches[s].state().displacement.data(), products_.data());
-    for (std::size_t row = 0; row < size(); ++row) sums[row] += products_[row];
-  }
-}
-
-double BatchRows::at_rest(std::size_t row, std::span<const LinearSystem> systems) const {
-  double sum = 0;
-  for (std::size_t s = 0; s < values_.size(); ++s) {
-    const std::vector<double>& rest = systems[s].rest_displacement;
-    sum += std::inner_product(rest.begin(), rest.end(), &values_[s][row * rest.size()], 0.0);
-  }
-  return sum;
-}
-
-BatchPasses::BatchPasses(std::span<const MemberScene* const> scenes, std::span<const Model> models,
-                         std::span<const Mesh> meshes)
-    : watched_(models.front().interface.watched, models.front().systems, meshes),
-      moving_(interactions::component_rows(models.front().interface.constraints),
-              models.front().systems, meshes),
-      gaps_(watched_.size()),
-      openings_(watched_.size()),
-      start_(moving_.size()),
-      moved_(moving_.size()),
-      largest_(moving_.size()),
-      deepest_(scenes.front()->scene.contacts.size()),
-      deepest_row_(deepest_.size()) {
-  const std::vector<interactions::Constraint>& rows = models.front().interface.watched;
-  stride_ =
-      static_cast<std::int64_t>(std::max(1.0, OtherPass::look_interval / models.front().time_step));
-  for (const interactions::Constraint& row : rows) contact_.push_back(row.contact);
-  for (std::size_t member = 0; member < models.size(); ++member) {
-    const Model& model = models[member];
-    for (std::size_t w = 0; w < rows.size(); ++w) {
-      double gap = model.interface.watched[w].initial_gap;
-      const bool at_rest = scenes[member]->scene.contacts[rows[w].contact].gap_at_rest;
-      if (model.equilibrium && at_rest) gap -= watched_.at_rest(w, model.systems);
-      gaps_[w].set(member, gap);
-    }
-    for (std::size_t row = 0; model.equilibrium && row < moving_.size(); ++row) {
-      start_[row].set(member, -moving_.at_rest(row, model.systems));
-    }
-  }
-}
-
-void BatchPasses::look(std::span<const BatchStep> batches, std::int64_t step, double time) {
-  openings_ = gaps_;
-  watched_.add_to(openings_, batches);
-  for (std::size_t w = 0; w < gaps_.size(); ++w) {
-    for (std::size_t member = 0; member < batch_size; ++member) {
-      OtherPass& deepest = deepest_[contact_[w]][member];
-      if (!(-openings_[w][member] > deepest.depth)) continue;
-      deepest.depth = -openings_[w][member];
-      deepest.time = time;
-      deepest_row_[contact_[w]][member] = w;
-    }
-  }
-  if (step % (PairMotion::looks * stride_) != 0) return;
-  moved_ = start_;
-  moving_.add_to(moved_, batches);
-  for (std::size_t row = 0; row < moved_.size(); ++row) {
-    largest_[row] = larger(largest_[row], magnitude(moved_[row]));
-  }
-}
-
-void BatchPasses::fill(std::size_t member, MemberResult& result) const {
-  for (std::size_t c = 0; c < deepest_.size(); ++c) {
-    result.other_depth.push_back(deepest_[c][member].depth);
-    result.other_row.push_back(static_cast<double>(deepest_row_[c][member]));
-    result.other_time.push_back(deepest_[c][member].time);
-  }
-  for (const BatchValue& value : largest_) result.pair_displacement.push_back(value[member]);
-}
-
 double BatchRecorder::memory(std::size_t channels, const Times& times) {
   return static_cast<double>(channels * batch_size * records_of(times) * sizeof(double));
 }
@@ -258,7 +179,7 @@ BatchRecorder::BatchRecorder(std::span<const ResolvedProbe> probes,
   for (std::size_t s = 0; s < systems.size(); ++s) {
     std::vector<TracePoint> places;
     std::vector<std::size_t> counts;
-    Rows rows{s, systems[s].lumped_mass.size(), {}, {}};
+    Rows rows{s, systems[s].lumped_mass.size(), {}, {}, {}};
     for (std::size_t p = 0; p < probes.size(); ++p) {
       if (probes[p].structure != static_cast<int>(s)) continue;
       for (const GlobalIndex node : probes[p].nodes) {
@@ -268,7 +189,9 @@ BatchRecorder::BatchRecorder(std::span<const ResolvedProbe> probes,
       for (std::size_t d = 0; d < 3; ++d) rows.channels.push_back(3 * p + d);
     }
     if (counts.empty()) continue;
-    rows.values = probe_rows(Trace(systems[s], meshes[s], places, false), counts);
+    const Trace trace(systems[s], meshes[s], places, false);
+    rows.values = probe_means(counts, [&](std::size_t k) { return trace.row(k); });
+    rows.carried = probe_means(counts, [&](std::size_t k) { return trace.carried(k); });
     rows_.push_back(std::move(rows));
   }
   values_.assign(channels_, BatchValue{});
@@ -277,8 +200,9 @@ BatchRecorder::BatchRecorder(std::span<const ResolvedProbe> probes,
   history_.resize(channels_ * batch_size * capacity_);
 }
 
-void BatchRecorder::restart(std::span<const BatchStep> batches) {
-  multiply(batches, &StateOf<BatchValue>::velocity);
+void BatchRecorder::restart(std::span<const BatchStep> batches,
+                            const std::vector<BatchValue>& supports) {
+  multiply(batches, &StateOf<BatchValue>::velocity, supports);
   last_velocity_ = values_;
   displacement_.assign(channels_, BatchValue{});
   ground_.fill(BatchValue{});
@@ -290,24 +214,33 @@ void BatchRecorder::add_step(double duration, const std::array<BatchValue, 3>& a
 }
 
 void BatchRecorder::multiply(std::span<const BatchStep> all,
-                             std::vector<BatchValue> StateOf<BatchValue>::*part) {
+                             std::vector<BatchValue> StateOf<BatchValue>::*part,
+                             const std::vector<BatchValue>& supports) {
   for (const Rows& rows : rows_) {
     const BatchValue* const x = (all[rows.structure].state().*part).data();
     multiply_rows(rows.values.data(), rows.channels.size(), rows.width, x, products_.data());
     for (std::size_t r = 0; r < rows.channels.size(); ++r) values_[rows.channels[r]] = products_[r];
+    if (rows.carried.empty()) continue;
+    multiply_rows(rows.carried.data(), rows.channels.size(), supports.size(), supports.data(),
+                  products_.data());
+    for (std::size_t r = 0; r < rows.channels.size(); ++r) {
+      values_[rows.channels[r]] += products_[r];
+    }
   }
 }
 
-void BatchRecorder::take_displacements(std::span<const BatchStep> batches) {
+void BatchRecorder::take_displacements(std::span<const BatchStep> batches,
+                                       const std::vector<BatchValue>& supports) {
   if (records_ < first_) return;
-  multiply(batches, &StateOf<BatchValue>::displacement);
+  multiply(batches, &StateOf<BatchValue>::displacement, supports);
   for (std::size_t c = 0; c < channels_; ++c) {
     displacement_[c] = larger(displacement_[c], magnitude(values_[c]));
   }
 }
 
-void BatchRecorder::record(std::span<const BatchStep> batches) {
-  multiply(batches, &StateOf<BatchValue>::velocity);
+void BatchRecorder::record(std::span<const BatchStep> batches,
+                           const std::vector<BatchValue>& supports) {
+  multiply(batches, &StateOf<BatchValue>::velocity, supports);
   BatchValue* const out = &block_[blocked_ * channels_];
   for (std::size_t c = 0; c < channels_; ++c) {
     out[c] = (values_[c] - last_velocity_[c] + ground_[c % 3]) / interval_;

@@ -9,6 +9,7 @@
 
 #include "common/memory.h"
 #include "dynamics/batch_step.h"
+#include "ensemble/batch_passes.h"
 #include "ensemble/member_scene.h"
 #include "mesh/mesh.h"
 #include "mesh/probe_set.h"
@@ -16,28 +17,6 @@
 #include "observers/run_statistics.h"
 
 namespace pounding {
-
-/// Numbers of one member of an ensemble, as ensemble.h5 holds them.
-struct MemberResult {
-  std::vector<double> spectra;      ///< PSA, shape (channels, damping ratios, frequencies) [m/s2]
-  std::vector<double> episodes;     ///< per contact, as the next ones
-  std::vector<double> first_time;   ///< [s]; not a number without an impact
-  std::vector<double> impulse_sum;  ///< [N s]
-  std::vector<double> impulse_largest;    ///< of an episode [N s]
-  std::vector<double> force_peak;         ///< [N]
-  std::vector<double> smallest_gap;       ///< [m]
-  std::vector<double> pair_initial_gap;   ///< per pair of the contacts, as the next ones [m]
-  std::vector<double> pair_least_gap;     ///< of the samples [m]
-  std::vector<double> pair_time;          ///< of that [s]
-  std::vector<double> pair_displacement;  ///< see PairMotion, shape (pairs, 3) [m]
-  std::vector<double> other_depth;        ///< see OtherPass [m]
-  std::vector<double> other_row;          ///< of the rows that are only looked at
-  std::vector<double> other_time;         ///< [s]
-  std::vector<double> displacement;       ///< largest per channel [m]
-  std::vector<double> acceleration;       ///< largest per channel after the low-pass [m/s2]
-  std::vector<double> energy_residual;    ///< one number: largest, relative
-  std::vector<double> contact_residual;   ///< one number: of complementarity, largest [-]
-};
 
 /// One run of a batch: the scheme of single runs in its place, with interactions, ledger and
 /// those outputs of single runs that an ensemble keeps. Local.
@@ -89,15 +68,17 @@ class BatchRecorder {
   /// Memory that records of so many channels take [bytes].
   static double memory(std::size_t channels, const Times& times);
 
-  /// Begins runs from their states at t = 0.
-  void restart(std::span<const BatchStep> batches);
+  /// Begins runs from their states at t = 0. `supports`, here and below: motion of the supports as
+  /// that of the coordinates is taken, per column; empty where the ground moves as one.
+  void restart(std::span<const BatchStep> batches, const std::vector<BatchValue>& supports);
   bool due(std::int64_t step) const { return step % stride_ == 0; }
   /// The ground's acceleration in a step [m/s2], and how long it acted [s].
   void add_step(double duration, const std::array<BatchValue, 3>& acceleration);
   /// Before the step to be recorded.
-  void take_displacements(std::span<const BatchStep> batches);
+  void take_displacements(std::span<const BatchStep> batches,
+                          const std::vector<BatchValue>& supports);
   /// After it.
-  void record(std::span<const BatchStep> batches);
+  void record(std::span<const BatchStep> batches, const std::vector<BatchValue>& supports);
   /// After the last record: samples of a channel of a run [m/s2].
   std::span<const double> acceleration(std::size_t channel, std::size_t member);
   double largest_displacement(std::size_t channel, std::size_t member) const {
@@ -110,10 +91,12 @@ class BatchRecorder {
     std::size_t structure = 0;
     std::size_t width = 0;              ///< coordinates
     std::vector<double> values;         ///< shape (channels, width)
+    std::vector<double> carried;        ///< by supports, shape (channels, columns); or empty
     std::vector<std::size_t> channels;  ///< numbers among all
   };
-  /// values_ := rows times the coordinates.
-  void multiply(std::span<const BatchStep> all, std::vector<BatchValue> StateOf<BatchValue>::*part);
+  /// values_ := rows times the coordinates, and the way with the supports.
+  void multiply(std::span<const BatchStep> all, std::vector<BatchValue> StateOf<BatchValue>::*part,
+                const std::vector<BatchValue>& supports);
   /// Brings the records of the block to the histories.
   void flush();
 
@@ -136,50 +119,6 @@ class BatchRecorder {
   std::size_t records_ = 0;  ///< made, those of the block included
 };
 
-/// Some rows over the coordinates of structures that are stepped in batches.
-class BatchRows {
- public:
-  /// The arguments are read here only; `systems` of any of the runs.
-  BatchRows(std::span<const interactions::Constraint> rows, std::span<const LinearSystem> systems,
-            std::span<const Mesh> meshes);
-  std::size_t size() const { return products_.size(); }
-  /// sums += the rows times the displacements.
-  void add_to(std::vector<BatchValue>& sums, std::span<const BatchStep> batches);
-  /// Value of a row in one run at rest.
-  double at_rest(std::size_t row, std::span<const LinearSystem> systems) const;
-
- private:
-  std::vector<std::vector<double>> values_;  ///< per structure, shape (rows, coordinates)
-  std::vector<BatchValue> products_;
-};
-
-/// Looks in eight runs how far nodes of primaries go into secondaries in passes that are not taken,
-/// and how far pairs move, as often as a single run does.
-class BatchPasses {
- public:
-  /// `scenes` and `models`: per member, `models` with the gaps at the start. The arguments are read
-  /// here only.
-  BatchPasses(std::span<const MemberScene* const> scenes, std::span<const Model> models,
-              std::span<const Mesh> meshes);
-
-  bool due(std::int64_t step) const { return moving_.size() > 0 && step % stride_ == 0; }
-  void look(std::span<const BatchStep> batches, std::int64_t step, double time);
-  void fill(std::size_t member, MemberResult& result) const;
-
- private:
-  BatchRows watched_;
-  BatchRows moving_;              ///< three for each pair
-  std::vector<BatchValue> gaps_;  ///< per row that is watched, unloaded [m]
-  std::vector<int> contact_;      ///< per row that is watched
-  std::vector<BatchValue> openings_;
-  std::vector<BatchValue> start_;    ///< per moving row, of the rest with its sign turned [m]
-  std::vector<BatchValue> moved_;    ///< since then
-  std::vector<BatchValue> largest_;  ///< without signs
-  std::vector<std::array<OtherPass, batch_size>> deepest_;        ///< per contact
-  std::vector<std::array<std::size_t, batch_size>> deepest_row_;  ///< and where
-  std::int64_t stride_ = 1;
-};
-
 /// Up to eight members of an ensemble from t_0 to the end time, stepped together: the structures in
 /// batches (BatchStep), interactions and outputs member by member (MemberRun). A member's results
 /// depend neither on its place nor on its companions. Local: nothing is communicated.
@@ -198,6 +137,8 @@ class MemberBatch {
 
  private:
   void step(std::int64_t n);
+  /// Motion of the supports of all members, per column; `part`: of a stepper.
+  const std::vector<BatchValue>& motion_of_supports(const auto& part);
 
   const Scene& scene_;
   const Model& shared_;
@@ -207,6 +148,7 @@ class MemberBatch {
   std::vector<BatchStep> batches_;  ///< per structure
   std::vector<std::unique_ptr<MemberRun>> runs_;
   std::array<BatchValue, 3> acceleration_{};
+  std::vector<BatchValue> supports_;
   std::size_t failed_ = 0;
 };
 

@@ -100,7 +100,13 @@ double check_motion(const MemberScene& member, Doubts doubts) {
       }
     }
     Model model;  // as far as it is known
-    model.motion = std::make_unique<GroundMotion>(recorded, Resampling::linear);
+    model.motion = std::make_unique<GroundMotion>(scene.supports.empty() ? recorded : scene.motion,
+                                                  Resampling::linear);
+    if (!scene.supports.empty()) {
+      model.supports =
+          std::make_unique<SupportMotion>(scene.supports, *model.motion, Resampling::linear);
+      doubts.add(model.supports->doubts());
+    }
     for (const MotionDescription& description : model.motion->descriptions()) {
       interval = std::min(interval, description.time_step);
     }

@@ -9,6 +9,7 @@
 #include "model/rest.h"
 #include "model/time_step.h"
 #include "scene/stiffness_factor.h"
+#include "scene/support_reader.h"
 #include "stability/stable_time_step.h"
 #include "system/load_shapes.h"
 
@@ -45,6 +46,21 @@ void require_shared_modes(const Scene& scene, const MemberTable& table) {
   }
 }
 
+/// The columns of the supports' motion are those of all members.
+void require_same_columns(const Scene& scene, const Scene& member) {
+  for (std::size_t s = 0; s < scene.supports.size(); ++s) {
+    for (std::size_t c = 0; c < 6; ++c) {
+      const std::size_t axis = axis_of_motion(c);
+      const bool moves = moves_otherwise(member.supports[s], c, member.motion[axis].has_value());
+      if (moves == moves_otherwise(scene.supports[s], c, scene.motion[axis].has_value())) continue;
+      throw UserError("support " + scene.supports[s].name + " has a motion of its own (" +
+                      std::string(motion_names[c]) + ") " +
+                      (moves ? "here and not in the scene" : "in the scene and not here") +
+                      "; give the scene and every member one, or none");
+    }
+  }
+}
+
 /// Part of a member's model without motion: systems and limits of its structures, gaps.
 Model member_structures(const MemberScene& member, const EnsembleModel& shared) {
   const Scene& scene = member.scene;
@@ -68,8 +84,8 @@ Model member_structures(const MemberScene& member, const EnsembleModel& shared) 
     building.system = &model.systems[s];
     building.basis = shared.bases[s];
     scale_stiffness(member.stiffness_factors[s], *building.basis);
-    model.systems[s] =
-        build_reduced_system(MPI_COMM_SELF, 0, structure, *building.mesh, *building.basis);
+    model.systems[s] = build_reduced_system(MPI_COMM_SELF, 0, structure, *building.mesh,
+                                            *building.basis, shared.model->support_columns());
     model.systems[s].loads = shape_reduced_loads(shared.model->scene_loads(), static_cast<int>(s),
                                                  building.basis->load_parts, true);
     model.systems[s].start =
@@ -88,7 +104,6 @@ Model member_structures(const MemberScene& member, const EnsembleModel& shared) 
 void require_ensemble_scene(const Scene& scene) {
   for (const Structure& structure : scene.structures) require_reduced(structure);
   for (const Contact& contact : scene.contacts) require_lasting_pairs(contact);
-  if (!scene.supports.empty()) refuse("supports move on their own", "leave -supports out");
   if (!scene.forces.empty()) refuse("forces are recorded", "give -forces none");
   if (!scene.equipment.empty()) {
     refuse("equipment is set beside its floors' spectra", "give -equipment none");
@@ -106,11 +121,12 @@ void require_ensemble_scene(const Scene& scene) {
   if (scene.allow_unstable) refuse("-allow_unstable is for single runs", "leave it out");
 }
 
-MemberScene read_member(const OptionsDatabase& scene, const MemberTable& table,
+MemberScene read_member(const Scene& shared, const OptionsDatabase& scene, const MemberTable& table,
                         std::size_t member) {
   try {
     ReadScene read = read_scene(member_options(scene, table, member));
     require_shared_modes(read.scene, table);
+    require_same_columns(shared, read.scene);
     for (std::size_t s = 0; s < read.stiffness_factors.size(); ++s) {
       scale_stiffness(read.stiffness_factors[s], read.scene.structures[s]);
     }
@@ -162,8 +178,7 @@ Model member_model(const MemberScene& member, const EnsembleModel& shared) {
   const Scene& scene = member.scene;
   try {
     Model model = member_structures(member, shared);
-    model.motion = std::make_unique<GroundMotion>(scene.motion, scene.resampling);
-    if (!scene.loads.empty()) model.load_histories = std::make_unique<LoadHistories>(scene.loads);
+    read_histories(scene, model);
     Profile profile;
     put_at_rest(MPI_COMM_SELF, scene, shared.model->meshes, profile, model);
     find_start_gaps(scene, model);

@@ -22,11 +22,13 @@ struct MemberScene {
 };
 
 /// Refuses scenes that cannot be stepped together: structures at full order, pairs that are found
-/// anew, supports of their own, records beside those of probes. Throws UserError.
+/// anew, records beside those of probes. Throws UserError.
 void require_ensemble_scene(const Scene& scene);
 
-/// The scene of a member. Throws UserError with the line of the table.
-MemberScene read_member(const OptionsDatabase& scene, const MemberTable& table, std::size_t member);
+/// The scene of a member; `shared`: that of the ensemble, whose options are `scene`. Throws
+/// UserError with the line of the table.
+MemberScene read_member(const Scene& shared, const OptionsDatabase& scene, const MemberTable& table,
+                        std::size_t member);
 
 /// Lays the foundations on soil that a scene got from its meshes into that of a member.
 void lay_foundations(const Scene& scene, MemberScene& member);

@@ -117,13 +117,15 @@ class Ensemble {
 
   void read_members() {
     std::vector<std::string> structures;
+    std::vector<std::string> supports;
     for (const Structure& structure : scene_.structures) structures.push_back(structure.name);
     for (const Contact& contact : scene_.contacts) layout_.contacts.push_back(contact.name);
-    table_ = read_member_table(comm_, read_.ensemble, structures, layout_.contacts);
+    for (const Support& support : scene_.supports) supports.push_back(support.name);
+    table_ = read_member_table(comm_, read_.ensemble, structures, layout_.contacts, supports);
     layout_.table = &table_;
     if (root()) print(warning_facts(repeated_members(table_)));
     for (std::size_t m = 0; m < table_.members(); ++m) {
-      members_.push_back(read_member(database_, table_, m));
+      members_.push_back(read_member(scene_, database_, table_, m));
     }
     layout_.identity = ensemble_identity(read_.resolved, table_);
     if (!scene_.dry_run) {

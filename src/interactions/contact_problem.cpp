@@ -145,8 +145,9 @@ void ContactProblem::set_displacement(std::size_t structure, const double* displ
   interface_.set(structure, 0, 1, displacement, supports);
 }
 
-void ContactProblem::set_place_displacement(std::size_t structure, std::span<const double> places) {
-  interface_.set_places(structure, places);
+void ContactProblem::set_place_displacement(std::size_t structure, std::span<const double> places,
+                                            std::span<const double> supports) {
+  interface_.set_places(structure, places, supports);
 }
 
 void ContactProblem::gather_displacements() {

@@ -48,8 +48,9 @@ class ContactProblem {
   void set_displacement(std::size_t structure, const double* displacement,
                         std::span<const double> supports = {});
   /// u_n at the known places of the structure's trace, where it is at hand, in place of that over
-  /// the dofs.
-  void set_place_displacement(std::size_t structure, std::span<const double> places);
+  /// the dofs; the supports carry them along.
+  void set_place_displacement(std::size_t structure, std::span<const double> places,
+                              std::span<const double> supports);
   /// The places of dof_list() move beside their structures: displacement [m], and velocity
   /// before and in the step [m/s], which the next gathers add. Members only.
   struct Carried {

@@ -158,9 +158,11 @@ void InterfaceRows::set(std::size_t structure, std::size_t field, std::size_t fi
   traces_[structure].apply(owned, values, fields, supports);
 }
 
-void InterfaceRows::set_places(std::size_t structure, std::span<const double> places) {
-  std::copy(places.begin(), places.end(),
-            mine_.begin() + static_cast<std::ptrdiff_t>(first_known_[structure]));
+void InterfaceRows::set_places(std::size_t structure, std::span<const double> places,
+                               std::span<const double> supports) {
+  double* const values = mine_.data() + first_known_[structure];
+  std::copy(places.begin(), places.end(), values);
+  traces_[structure].carry(supports, values, 1);
 }
 
 void InterfaceRows::gather(std::size_t fields, std::span<double> values) {

@@ -98,8 +98,10 @@ class InterfaceRows {
   /// of a structure; `supports`: motion of the supports that carries it along, see Trace::apply.
   void set(std::size_t structure, std::size_t field, std::size_t fields, const double* owned,
            std::span<const double> supports);
-  /// A single field from its values at the known places of the structure's trace.
-  void set_places(std::size_t structure, std::span<const double> places);
+  /// A single field from its values at the known places of the structure's trace, which `supports`
+  /// carry along.
+  void set_places(std::size_t structure, std::span<const double> places,
+                  std::span<const double> supports);
   /// Gathers the fields that were set: shape (fields, dofs). Members only, collective over them.
   void gather(std::size_t fields, std::span<double> values);
   /// owned += f (row of L T)^T over the dofs of a structure that this rank owns. Local.

@@ -10,4 +10,14 @@ std::string Building::locate_largest(std::span<const double> values) const {
                : pounding::locate_largest(*mesh, values);
 }
 
+void read_histories(const Scene& scene, Model& model) {
+  model.motion = std::make_unique<GroundMotion>(scene.motion, scene.resampling);
+  if (scene.motion_from_below) model.motion->enter_from_below();
+  if (!scene.supports.empty()) {
+    model.supports =
+        std::make_unique<SupportMotion>(scene.supports, *model.motion, scene.resampling);
+  }
+  if (!scene.loads.empty()) model.load_histories = std::make_unique<LoadHistories>(scene.loads);
+}
+
 }  // namespace pounding

@@ -166,4 +166,8 @@ struct Model {
   }
 };
 
+/// Reads the motions of ground and supports and the histories of loads of a scene into its model.
+/// Throws UserError as they do. Every rank may do so.
+void read_histories(const Scene& scene, Model& model);
+
 }  // namespace pounding

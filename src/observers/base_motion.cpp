@@ -30,15 +30,17 @@ BaseMotion::BaseMotion(std::span<const ResolvedProbe> bases, std::span<const Lin
   }
 }
 
-std::vector<double> probe_rows(const Trace& trace, std::span<const std::size_t> nodes) {
-  const std::size_t width = trace.dofs().size();
+std::vector<double> probe_means(
+    std::span<const std::size_t> nodes,
+    const std::function<std::span<const double>(std::size_t place)>& row_of) {
+  const std::size_t width = nodes.empty() ? 0 : row_of(0).size();
   std::vector<double> rows(3 * nodes.size() * width, 0.0);
   std::size_t place = 0;
   for (std::size_t p = 0; p < nodes.size(); ++p) {
     for (std::size_t k = 0; k < 3 * nodes[p]; ++k, ++place) {
-      double* const mean = &rows[(3 * p + k % 3) * width];
+      const std::span<const double> row = row_of(place);
       for (std::size_t i = 0; i < width; ++i) {
-        mean[i] += trace.row(place)[i] / static_cast<double>(nodes[p]);
+        rows[(3 * p + k % 3) * width + i] += row[i] / static_cast<double>(nodes[p]);
       }
     }
   }

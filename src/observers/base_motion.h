@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -36,9 +37,11 @@ class BaseMotion {
   std::vector<Row> rows_;
 };
 
-/// Means of places over probes of a structure in generalised coordinates: three rows per probe, for
-/// x, y, z, over its coordinates, shape (3 probes, coordinates). `trace`: three components of every
-/// node, probe after probe; `nodes`: number of nodes of each probe.
-std::vector<double> probe_rows(const Trace& trace, std::span<const std::size_t> nodes);
+/// Means of the rows of places over probes of a structure in generalised coordinates: three rows
+/// per probe, for x, y, z, shape (3 probes, values of a row). Places are three components of every
+/// node, probe after probe; `nodes`: number of nodes of each probe; `row_of`: the row of a place.
+std::vector<double> probe_means(
+    std::span<const std::size_t> nodes,
+    const std::function<std::span<const double>(std::size_t place)>& row_of);
 
 }  // namespace pounding

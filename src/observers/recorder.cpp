@@ -118,18 +118,8 @@ Recorder::StructureNodes Recorder::find_nodes(std::size_t structure,
   StructureNodes nodes{structure, Trace(system, mesh, places, false), {}, {}, nodes_, {}};
   nodes.values.resize(system.generalised ? 3 * counts.size() : places.size());
   if (system.generalised) {
-    nodes.mean_rows = probe_rows(nodes.trace, counts);
-    const std::size_t columns = system.supports ? system.supports->columns.size() : 0;
-    nodes.mean_carried.assign(nodes.values.size() * columns, 0.0);
-    std::size_t place = 0;
-    for (std::size_t p = 0; p < counts.size(); ++p) {
-      for (std::size_t k = 0; k < 3 * counts[p]; ++k, ++place) {
-        for (std::size_t c = 0; c < columns; ++c) {
-          nodes.mean_carried[(3 * p + k % 3) * columns + c] +=
-              nodes.trace.carried(place)[c] / static_cast<double>(counts[p]);
-        }
-      }
-    }
+    nodes.mean_rows = probe_means(counts, [&](std::size_t k) { return nodes.trace.row(k); });
+    nodes.mean_carried = probe_means(counts, [&](std::size_t k) { return nodes.trace.carried(k); });
   }
   return nodes;
 }

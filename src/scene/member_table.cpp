@@ -16,11 +16,24 @@ namespace {
 
 /// Options that members may have of their own: those that change neither meshes nor modes.
 std::vector<std::string> free_options(const std::vector<std::string>& structures,
-                                      const std::vector<std::string>& contacts) {
+                                      const std::vector<std::string>& contacts,
+                                      const std::vector<std::string>& supports) {
   std::vector<std::string> names{"motion_level"};
   for (const OptionRow& row : option_table()) {
-    if (row.block != OptionBlock::motion) continue;
-    for (const char* axis : {"x", "y", "z"}) names.push_back(option_name(row.pattern, {axis}));
+    const bool of_support = row.pattern.starts_with("<support>_motion_") ||
+                            row.pattern.starts_with("<support>_rotation_");
+    if (row.block != OptionBlock::motion && !of_support) continue;
+    for (const char* axis : {"x", "y", "z"}) {
+      if (!of_support) names.push_back(option_name(row.pattern, {axis}));
+      for (std::size_t s = 0; of_support && s < supports.size(); ++s) {
+        names.push_back(option_name(row.pattern, {supports[s], axis}));
+      }
+    }
+  }
+  for (const std::string& support : supports) {
+    for (const char* pattern : {"<support>_delay", "<support>_factor"}) {
+      names.push_back(option_name(pattern, {support}));
+    }
   }
   for (const std::string& structure : structures) {
     for (const char* pattern : {"<structure>_damping_factor", "<structure>_stiffness_factor",
@@ -75,19 +88,20 @@ std::string read_table_text(const std::string& option, const std::string& file) 
 }
 
 void check_columns(const MemberTable& table, const std::vector<std::string>& structures,
-                   const std::vector<std::string>& contacts) {
-  const std::vector<std::string> free = free_options(structures, contacts);
+                   const std::vector<std::string>& contacts,
+                   const std::vector<std::string>& supports) {
+  const std::vector<std::string> free = free_options(structures, contacts, supports);
   std::set<std::string> seen;
   for (const std::string& column : table.columns) {
     if (std::ranges::find(free, column) == free.end()) {
-      throw UserError(
-          table.file + ": column '" + column +
-          "' is no option that may differ from run to run; those are motion_..., "
-          "motion_level, <contact>_gap, _gap_deviation, _gap_length, _gap_seed, _gap_patches and "
-          "_static_closing, "
-          "<structure>_damping_factor, _stiffness_factor "
-          "and _modal_damping" +
-          suggestion(column, free));
+      throw UserError(table.file + ": column '" + column +
+                      "' is no option that may differ from run to run; those are motion_..., "
+                      "motion_level, <support>_motion_..., _rotation_..., _delay and _factor, "
+                      "<contact>_gap, _gap_deviation, _gap_length, _gap_seed, _gap_patches and "
+                      "_static_closing, "
+                      "<structure>_damping_factor, _stiffness_factor "
+                      "and _modal_damping" +
+                      suggestion(column, free));
     }
     if (!seen.insert(column).second) {
       throw UserError(table.file + ": two columns are called '" + column + "'");
@@ -139,16 +153,13 @@ MemberTable read_table(const std::string& option, const std::string& file) {
 
 MemberTable read_member_table(MPI_Comm comm, const std::string& file,
                               const std::vector<std::string>& structures,
-                              const std::vector<std::string>& contacts) {
+                              const std::vector<std::string>& contacts,
+                              const std::vector<std::string>& supports) {
   std::string text;
   on_rank0(comm, [&] { text = read_table_text("option -ensemble", file); });
   broadcast(comm, text);
   MemberTable table = parse_table(file, text);
-  if (table.members() == 0) {
-    throw UserError("option -ensemble " + file +
-                    ": no runs in it; the first line names options, every other one is a run");
-  }
-  check_columns(table, structures, contacts);
+  check_columns(table, structures, contacts, supports);
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     std::map<std::string, std::string> found;  // each path is looked for once
     for (std::size_t m = 0; m < table.members(); ++m) {

@@ -144,6 +144,10 @@ void Trace::apply(const double* owned, double* out, std::size_t stride,
       out[stride * k] = own_dof_[k] < 0 ? 0 : owned[dofs_[own_dof_[k]]];
     }
   }
+  carry(supports, out, stride);
+}
+
+void Trace::carry(std::span<const double> supports, double* out, std::size_t stride) const {
   if (columns_ > 0) add_columns(carried_, supports, out, stride);
 }
 

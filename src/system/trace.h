@@ -36,6 +36,8 @@ class Trace {
   /// the supports, per column of SupportShapes, which carries the places along; may be empty.
   void apply(const double* owned, double* out, std::size_t stride,
              std::span<const double> supports = {}) const;
+  /// out[stride * k] += the way of known place k that a motion of the supports carries it.
+  void carry(std::span<const double> supports, double* out, std::size_t stride) const;
   /// How far each column of the supports' motion carries known place k; empty where none does.
   std::span<const double> carried(std::size_t k) const {
     return {carried_.data() + k * columns_, columns_};
