@@ -264,14 +264,13 @@ def motions(record: np.ndarray, step: float, factors: Factors, noise: Noise, ran
     return found
 
 
-def base_motions(records: dict, step: float, factors: dict, seed: int, noises: dict | None = None) -> dict:
+def base_motions(records: dict, step: float, factors: dict, seed: int | tuple) -> dict:
     """Accelerations of every mat by component, {mat: {component: samples}}, out of the records per axis; rotations about z are the
-    sum of those by x and y. One seed gives the same motions always. `noises`: per axis, where they are known already."""
+    sum of those by x and y. One seed, of a number or several, gives the same motions always."""
     found = {}
     for axis, record in records.items():
-        noise = noises[axis] if noises else Noise(record, step)
-        random = np.random.default_rng([seed, "xyz".index(axis)])
-        for (mat, component), values in motions(record, step, factors[axis], noise, random).items():
+        random = np.random.default_rng([*np.atleast_1d(seed), "xyz".index(axis)])
+        for (mat, component), values in motions(record, step, factors[axis], Noise(record, step), random).items():
             own = found.setdefault(mat, {})
             own[component] = own[component] + values if component in own else values
     return found

@@ -48,14 +48,14 @@ def motion_columns(study: Study) -> list:
     names = []
     for axis, one in study.axes.items():
         names += [f"motion_{axis}_{'record' if one.records else 'seed'}", f"motion_{axis}_pga"]
-    return names
+    return names + (study.moved.columns if study.moved else [])
 
 
 def motion_values(study: Study, motion: int, level: float) -> tuple:
     values = []
     for one in study.axes.values():
         values += [str((one.records or one.seeds)[motion]), text_of(level * one.ratio)]
-    return tuple(values)
+    return tuple(values) + (study.moved.values(motion, text_of(level)) if study.moved else ())
 
 
 def build(study: Study) -> Design:

@@ -18,6 +18,7 @@ from pounding.results import load
 from pounding.runs import Job, clear, environment
 from pounding.scenes import write_scene
 
+from . import coherence
 from .study import Axis, Study
 
 STEP = 0.005  # of the accelerograms that are compared [s]
@@ -48,7 +49,7 @@ class Motions:
         self.study, self.folder, self.jobs = study, folder, jobs
         self.variables = environment()
 
-    def _name(self, axis: str, motion) -> str:
+    def name(self, axis: str, motion) -> str:
         one = self.study.axes[axis]
         content = Path(motion if one.records else one.target).read_bytes()
         told = str(sorted(options_of(one, motion, not one.records).items())).encode()
@@ -56,7 +57,7 @@ class Motions:
 
     def make(self, wanted: list, of: str = "") -> None:
         """Runs what is not there; `wanted`: pairs of an axis and a motion. Throws UserError."""
-        todo = [pair for pair in wanted if not (self.folder / f"{self._name(*pair)}.npy").is_file()]
+        todo = [pair for pair in wanted if not (self.folder / f"{self.name(*pair)}.npy").is_file()]
         if not todo:
             return
         self.folder.mkdir(parents=True, exist_ok=True)
@@ -66,7 +67,7 @@ class Motions:
         def start(pair: tuple) -> Job:
             axis, motion = pair
             one = self.study.axes[axis]
-            place = self.folder / self._name(axis, motion)
+            place = self.folder / self.name(axis, motion)
             scene = {**SCENE, "end_time": _duration(one) or 400.0,
                      "motion": {"x": options_of(one, motion, not one.records)}}
             path = write_scene(self.folder / f"{place.name}.yaml", scene)
@@ -91,7 +92,7 @@ class Motions:
 
     def signal(self, axis: str, motion) -> np.ndarray:
         """Throws UserError where the kept one is damaged."""
-        path = self.folder / f"{self._name(axis, motion)}.npy"
+        path = self.folder / f"{self.name(axis, motion)}.npy"
         try:
             found = np.load(path, allow_pickle=False)
         except (OSError, ValueError, EOFError) as error:
@@ -139,6 +140,8 @@ def check(study: Study, folder: Path, jobs: int, write: bool = True, kept: Path 
             choose_seeds(study, made)
         pairs = [(name, motion) for name, axis in study.axes.items() for motion in axis.records or axis.seeds]
         made.make(pairs)
+        if study.coherence:
+            coherence.make(study, made, STEP)
     labels = [f"{name} {Path(str(motion)).name}" for name, motion in pairs]
     matrix = correlations([made.signal(*pair) for pair in pairs])
     off = abs(matrix - np.eye(len(matrix)))

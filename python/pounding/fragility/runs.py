@@ -25,7 +25,7 @@ SCOUTED = "scouted.json"
 
 def scene_options(study: Study, reduced: bool, folder: Path) -> dict:
     """Options of all members in a file of their own, which includes the scene; bases are kept in the folder."""
-    found = {"include": str(study.scene), **study.options}
+    found = {"include": str(study.scene), **study.options, **(study.moved.options if study.moved else {})}
     for axis, one in study.axes.items():
         kind = {"target": one.target} if one.target else {"record": one.records[0]}
         found |= {f"motion_{axis}_{key}": value for key, value in {**kind, **one.understood}.items()}

@@ -8,16 +8,18 @@ import yaml
 
 from pounding import UserError
 from pounding.fragility import DISTRIBUTIONS, Variable
+from pounding.mats import Coherence
 from pounding.motion_rules import read_rules
 from pounding.motion_signals import MotionError
 from pounding.results import DIRECTIONS
 from pounding.scenes import SceneError, flatten
 
+from .coherence import Moved, read as read_coherence
 from .study_file import Reader, beside, load
 
 KEYS = ("title", "scene", "output", "options", "reduction", "seed", "samples", "confidence", "motions", "levels",
-        "motion_rules", "gaps", "apart", "joints", "soils", "states", "submittal", "uncertainty", "exchange", "field_factors", "factors",
-        "capacities", "full_order", "frequencies", "dampings", "show")
+        "motion_rules", "gaps", "apart", "joints", "coherence", "soils", "states", "submittal", "uncertainty", "exchange", "field_factors",
+        "factors", "capacities", "full_order", "frequencies", "dampings", "show")
 DAMPINGS = (0.02, 0.03, 0.04, 0.05, 0.07)
 SYNTHETIC = {"duration": "25", "envelope": "2,15"}
 RECORDED = {"unit": "auto", "time_step": "0", "column": "0"}
@@ -104,6 +106,8 @@ class Study:
     named: dict = field(default_factory=dict)  # `soils`, `states` and `submittal` as the file has them
     uncertainty: float | None = None  # beta_U of capacities, given by the user
     rules: Path | None = None  # table that judges the motions
+    coherence: Coherence | None = None  # of the ground under mats that move apart
+    moved: Moved | None = None  # these as supports, once their motions are made
 
     @property
     def variables(self) -> list:
@@ -352,4 +356,5 @@ def read(path: Path) -> Study:
         _capacities(reader, frequencies, dampings), full.number("share", 0.0, -1e-12, 1.0 + 1e-12),
         full.options("options"), full.number("noise", 1e-3, 0.0), frequencies, dampings,
         _show(reader, gaps, levels), {key: reader.values.get(key) for key in ("soils", "states", "submittal")},
-        reader.number("uncertainty", None, 0.0) if "uncertainty" in reader.values else None, _motion_rules(reader))
+        reader.number("uncertainty", None, 0.0) if "uncertainty" in reader.values else None, _motion_rules(reader),
+        read_coherence(reader))

@@ -125,7 +125,7 @@ def assumptions(one: Envelope) -> list:
             ("Levels", ", ".join(f"{level:g}" for level in study.levels) + " m/s² (peak ground acceleration)"),
             ("Soils", ", ".join(dict.fromkeys(condition.soil for condition in one.conditions))),
             ("States", ", ".join(dict.fromkeys(condition.state for condition in one.conditions))),
-            ("Coherence", "supports move by a coherency model" if study.named.get("coherence") else "all supports move alike"),
+            ("Coherence", f"mats move apart by {study.coherence.model.name}" if study.coherence else "all mats move alike"),
             ("Joint", ", ".join(f"{1e3 * gap:g} mm" for gap in study.gaps) + "; " + "; ".join(
                 f"{name}: deviation {'drawn' if joint.deviation else 'none'}, field {'drawn' if joint.field else 'none'}"
                 for name, joint in study.joints.items())),
@@ -164,7 +164,7 @@ def write(study: Study, analyses: dict, folder: Path) -> Path | None:
     inputs[str(study.path)] = digest(study.path)
     touched = any(each.hits(CONTACT, gap).any() for each in analyses.values() for gap in study.gaps)
     points = open_points(one)
-    missing = [] if study.named.get("coherence") else ["Motions that differ from mat to mat (coherence)."]
+    missing = [] if study.coherence else ["Motions that differ from mat to mat (coherence)."]
     missing += [f"Other {word} than the one given." for word, key in (("soils", "soil"), ("states of the concrete", "state"))
                 if len({condition.place[key] for condition in one.conditions}) == 1]
     joint = [row for row in one.joint_rows() if row["pga [m/s2]"] in (told.design, told.beyond)]

@@ -1,0 +1,72 @@
+"""run/fragility with a block `coherence`: each sample's records move the mats, in ensembles as in single runs, and mistakes."""
+import csv
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+import program
+import two_buildings
+import yaml
+from fragility_conditions_test import STUDY
+
+PROCESSORS = 2  # it starts runs
+
+MATS = {"west": {"centre": "3,2,0", "sides": "6,4", "groups": "left"}, "east": {"centre": "9,2,0", "sides": "6,4", "groups": "right"}}
+COHERENCE = {"mats": MATS, "model": {"luco_wong": {"gamma": 0.3, "vs": 100}}}
+
+
+class Coherence(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="pounding-")
+        self.addCleanup(folder.cleanup)
+        self.place = Path(folder.name)
+
+    def fragility(self, *words, status=0, **changes):
+        told = {**{key: value for key, value in STUDY.items() if key not in ("soils", "states")}, "coherence": COHERENCE, **changes}
+        (self.place / "study.yaml").write_text(yaml.safe_dump(told, sort_keys=False))
+        done = subprocess.run([os.path.join(program.SOURCE, "run", "fragility"), "study.yaml", *words, "--out", "out"],
+                              cwd=self.place, capture_output=True, text=True, timeout=600, check=False,
+                              env={**os.environ, "POUNDING_BUILD": os.path.abspath(program.BUILD)})
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done
+
+    @program.long
+    def test_members_move_their_mats_and_are_single_runs(self):
+        said = self.fragility("--runner", "ensemble").stdout
+        self.assertIn("mats move by motion 2 of 2", said)
+        place = next((self.place / "out" / "runs").glob("*/ensemble-*"))
+        with open(place / "members.csv", newline="") as file:
+            columns, *rows = csv.reader(file)
+        self.assertIn("west_motion_x_record", columns)
+        self.assertIn("east_rotation_z_scale", columns)
+        result = two_buildings.pounding.load_ensemble(place)
+        step = next(line.split()[2] for line in result.identity if line.startswith("time step")) if hasattr(result, "identity") else None
+        words = [word for name, value in zip(columns, rows[1]) for word in (f"-{name}", value)]
+        folder, _ = program.must_run(self, ["-options_file", str(place.parent / "scene.yaml"), *words,
+                                            *(["-time_step", step] if step else [])], 1)
+        single = two_buildings.pounding.load(folder)
+        self.assertEqual(len(single.summary["supports"]), 4)
+        for c, channel in enumerate(result.channels):
+            peak = np.abs(single.series("displacement", *channel.split())[1]).max()
+            self.assertAlmostEqual(result.displacement[1, c], peak, delta=1e-9 * max(peak, 1e-6))
+        files = sorted((self.place / "out" / "motions").glob("west-*.csv"))
+        self.assertEqual(len(files), 2)
+        before = [file.stat().st_mtime_ns for file in files]
+        self.assertNotIn("mats move", self.fragility("--collect").stdout)
+        self.assertEqual(before, [file.stat().st_mtime_ns for file in files])
+
+    def test_wrong_use_is_told_in_one_line(self):
+        for changes, told in (({"mats": {"west": MATS["west"]}}, "coherence: mats: coherence tells how mats move apart, and there is one"),
+                              ({"model": "abramson"}, "coherence: model: 'abramson' is unknown"),
+                              ({"records": 1}, "coherence: records is unknown"),
+                              ({"model": {"table": "none.csv"}}, "coherence:")):
+            line = self.fragility("--dry-run", status=1, coherence={**COHERENCE, **changes}).stderr
+            self.assertIn(told, line)
+            self.assertEqual(len(line.splitlines()), 1, line)
+
+
+if __name__ == "__main__":
+    unittest.main()
