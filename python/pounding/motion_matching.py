@@ -19,7 +19,7 @@ from scipy.signal import lfilter
 from .files import write_text
 from .motion_kinds import KINDS, SPECTRAL, Bench, Motion, acceleration, own_target
 from .motion_rules import DIRECTIONS, REFUSED, is_accepted, judge, lines_of, motions_of, read_rules, source_of, table_of
-from .motion_signals import MotionError, Signal, correlation, read_signals, response_spectra
+from .motion_signals import STRONG, MotionError, Signal, correlation, mean_around, read_signals, response_spectra
 
 POINTS_A_CYCLE = 10  # of the highest frequency, at which motions are sampled
 OSCILLATORS = 130  # at most about twice as many are followed at first, of finer grids each second or so
@@ -32,6 +32,8 @@ HEAVIEST = 8.0  # weight of an oscillator that stays too low
 EARLIER = (1.0, 0.0)  # periods by which a wavelet comes before its oscillator's peak; the next where one does not do
 HELD = 20.0  # weight of a row that holds a displacement, beside one of an oscillator
 LOWEST = 4.0  # over the lowest frequency: until there spectra decide by how much a record is scaled
+ABOVE = 1.3  # part of the least density to which it is raised
+ROUNDS = 4  # in which it is raised again
 ENOUGH = 0.8  # part of a limit on displacement within which it counts as kept while it is looked for
 
 
@@ -45,6 +47,23 @@ class Limits:
 
 
 @dataclass(frozen=True)
+class Power:
+    """A power spectral density [m2/s3] over frequencies [Hz] of which the motion's, its mean over a part `width` to both
+    sides, is at least a part."""
+
+    frequency: np.ndarray
+    target: np.ndarray
+    least: float
+    width: float = 0.2
+    window: tuple = STRONG
+
+    def ratio(self, signal: Signal) -> np.ndarray:
+        """Density over the target, over the least."""
+        found = mean_around(*signal.power(self.window), self.frequency, 1 - self.width, 1 + self.width)
+        return found / self.target / self.least
+
+
+@dataclass(frozen=True)
 class Goal:
     """What a component is matched to: pseudo-accelerations [m/s2] over frequencies [Hz] at a damping ratio, `aim` times
     which are sought; done where no oscillator is below the target or above `ceiling` times it."""
@@ -54,6 +73,7 @@ class Goal:
     damping: float = 0.05
     aim: float = 1.06
     ceiling: float = 1.25
+    power: Power | None = None
 
     @property
     def thinned(self) -> "Goal":
@@ -235,6 +255,22 @@ class _Search:
         self.move(self.signal.values + step * (amounts @ shapes))
 
 
+def raised(signal: Signal, power: Power) -> Signal:
+    """The motion with more of the frequencies whose density is too low, in its own phases; its end stays at rest."""
+    lacking = np.sqrt(np.maximum(ABOVE / power.ratio(signal), 1))
+    size, step = 2 * len(signal.values), signal.step
+    frequency = np.fft.rfftfreq(size, step)
+    low, high = power.frequency[0], power.frequency[-1]
+    at = np.concatenate([[0, low / 1.5], power.frequency, [1.5 * high, frequency[-1] + 1.5 * high]])
+    gain = np.interp(frequency, at, np.concatenate([[1, 1], lacking, [1, 1]])) - 1
+    circular = np.maximum(2 * np.pi * frequency, 1e-9)
+    moved = np.fft.irfft(-gain / circular**2 * np.fft.rfft(signal.values, size), size)[:len(signal.values)]
+    time = step * np.arange(len(moved))
+    start = 2 * step * low
+    moved *= _rise(time * low - start) * _rise((time[-1] - time) * low - start)
+    return Signal(signal.name, step, signal.values + np.diff(np.pad(moved, 1), 2) / step**2)
+
+
 def _best(record: Signal, goal: Goal, limits: Limits, start: Signal, turns: int, gone: int) -> tuple:
     """The motion that `start` becomes within so many turns, and how many they were; where none does, the best of them. Steps
     are those behind `gone` turns."""
@@ -260,9 +296,15 @@ def match(record: Signal, goal: Goal, limits: Limits = Limits(), scale: float = 
     if not record.peak:
         raise MotionError(f"motion {record.name}: the ground does not move")
     fine = resampled(Signal(record.name, record.step, scale * record.values), 1 / goal.frequency[-1] / POINTS_A_CYCLE)
-    signal, count = _best(fine, goal.thinned, limits, fine, turns, 0)
-    if len(goal.thinned.frequency) < len(goal.frequency):
-        signal, more = _best(fine, goal, limits, signal, turns, HALVING)
+    goals = [goal.thinned, goal] if len(goal.thinned.frequency) < len(goal.frequency) else [goal]
+    goals += [goal] * (ROUNDS if goal.power else 0)
+    signal, count = fine, 0
+    for round_, one in enumerate(goals):
+        if goal.power:
+            if round_ and one is goals[round_ - 1] and goal.power.ratio(signal).min() >= 1:
+                break
+            signal = raised(signal, goal.power)
+        signal, more = _best(fine, one, limits, signal, turns, HALVING if round_ else 0)
         count += more
     return Matched(fine, signal, scale, count)
 
@@ -290,8 +332,11 @@ def goal_of(rules: list, direction: str, anchor: float | None, aim: float, grids
     frequency = np.unique(np.concatenate([grids(rule) for rule in spectral]))
     ceiling = min([rule.most for rule in spectral if rule.kind == "largest_above"], default=30.0)
     rule = spectral[0]
+    power = [Power(at, own_target(one, True).at(at, one.peak(anchor)), one.least, one.numbers("smoothing", (20.0,))[0] / 100,
+                   one.numbers("window", STRONG))
+             for one in rules if one.kind == "psd_ratio" and one.looks_at(direction) and one.least > 0 for at in [grids(one)]]
     return Goal(frequency, own_target(rule).at(frequency, rule.peak(anchor)), float(rule.cells.get("damping", "0.05")), aim,
-                1 + 0.95 * ceiling / 100)
+                1 + 0.95 * ceiling / 100, power[0] if power else None)
 
 
 def match_motion(motion: Motion, rules: list, anchor: float | None = None, limits: Limits = Limits(), scale: float | None = None,
