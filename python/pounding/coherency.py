@@ -7,6 +7,8 @@ from typing import Callable
 
 import numpy as np
 
+from pounding import UserError
+
 # Plane-wave coherency of hard rock, N. A. Abrahamson, Hard-Rock Coherency Functions Based on the Pinyon Flat Data (2007), as
 # EPRI 1015110 gives it: [1 + (f t / (a1 fc))^n1]^-1/2 [1 + (f t / a2)^n2]^-1/2, t = tanh(0.4 xi), l = ln(xi + 1), with
 # n1 = c0 + c1 l + c2 (l - 3.6)^2 and fc likewise; distances up to 150 m.
@@ -19,7 +21,7 @@ WAYS = ("horizontal", "vertical")
 FORMULAS = ("abrahamson_2007_hard_rock", "luco_wong", "coherent")
 
 
-class CoherencyError(Exception):
+class CoherencyError(UserError):
     """One line for the user."""
 
 

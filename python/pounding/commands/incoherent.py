@@ -13,15 +13,12 @@ import yaml
 from pounding import incoherent, mats
 from pounding.coherency import CoherencyError
 from pounding.files import file_name
-from pounding.motion_signals import MotionError, read_signals
+from pounding.motion_signals import read_signals
 from pounding.results import DIRECTIONS
-from pounding.runs import RunError
 from pounding.scenes import write_scene
 
-from .process import called, parser_of
+from .process import parser_of
 
-NAME = called("run/incoherent")
-FAULTS = (CoherencyError, MotionError, RunError)
 WORDS = {"unit": "--unit", "column": "--columns", "time_step": "--time-step"}  # of pounding-spectra
 
 
@@ -72,7 +69,7 @@ def report(found: mats.Coherence, records: dict, step: float, motions: dict) -> 
 
 
 def main() -> int:
-    parser = parser_of(NAME, __doc__)
+    parser = parser_of(__doc__)
     parser.add_argument("file", metavar="FILE", type=Path, help="mats, records and model")
     parser.add_argument("--seed", metavar="N", type=int, help="in place of that of the file (default there: 1)")
     parser.add_argument("--out", metavar="DIR", type=Path, default=Path("incoherent"), help="(default: %(default)s)")

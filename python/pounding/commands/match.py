@@ -12,6 +12,5 @@ from pounding.motion_matching import arguments, carry_out
 from .process import parser_of
 
 
-
 def main() -> int:
     return carry_out(arguments(parser_of(__doc__)).parse_args())
