@@ -79,15 +79,14 @@ class FlowingElement final : public ElementLaw {
   std::vector<double> stiffness_;  ///< shape (elements, size, size)
 };
 
-/// Bricks of three materials on springs, some of scaled mass; two of the materials are marked.
-DampedStructure thrown_body(bool inelastic, bool uniform) {
+/// Bricks of three materials on springs, some of scaled mass.
+DampedStructure thrown_body(bool uniform) {
   DampedStructure damped = testing_support::scaled_structure(3);
   damped.structure.initial_velocity = {0.4, -0.1, 0.2};
   damped.structure.initial_displacement = {1e-5, 0, 0};
   for (Region& region : damped.structure.regions) {
     if (region.element != ElementType::hex8) continue;
     region.damping.reset();
-    region.inelastic = inelastic && region.group != "part0";
   }
   if (uniform) {
     damped.structure.damping = {0, 0};
@@ -99,21 +98,22 @@ DampedStructure thrown_body(bool inelastic, bool uniform) {
 /// The stepper of such a body.
 struct BodyRun {
   BodyRun(bool inelastic, bool uniform, double strength)
-      : damped(thrown_body(inelastic, uniform)),
+      : damped(thrown_body(uniform)),
         built(build_system(damped.mesh, damped.structure)),
         time_step(0.5 *
                   stable_time_step(built.system.damping, built.system.element_frequency_bound *
                                                              std::sqrt(built.system.stiffening()))),
-        laws(mark(strength)),
+        laws(mark(inelastic, strength)),
         stepper(PETSC_COMM_WORLD, {&built.system, 1}, still, time_step, profile) {
     if (!inelastic) return;
     stepper.add(std::make_unique<InelasticElements>(0, built.mesh, built.system, time_step, laws));
   }
-  /// Laws of the marked regions, whose dofs the system then knows.
-  std::vector<interactions::RegionLaw> mark(double strength) {
+  /// Laws of two of the materials if any, whose dofs the system then knows.
+  std::vector<interactions::RegionLaw> mark(bool inelastic, double strength) {
     std::vector<interactions::RegionLaw> found;
-    for (std::size_t r = 0; r < damped.structure.regions.size(); ++r) {
-      if (!damped.structure.regions[r].inelastic) continue;
+    for (std::size_t r = 0; inelastic && r < damped.structure.regions.size(); ++r) {
+      const Region& own = damped.structure.regions[r];
+      if (own.element != ElementType::hex8 || own.group == "part0") continue;
       const auto region = static_cast<int>(r);
       found.push_back({region, std::make_unique<FlowingElement>(damped.structure, built.mesh,
                                                                 region, strength)});
