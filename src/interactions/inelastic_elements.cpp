@@ -6,7 +6,7 @@
 
 #include "common/parallel.h"
 #include "elements/element_traits.h"
-#include "system/inelastic_laws.h"
+#include "system/law_forces.h"
 #include "system/support_shapes.h"
 
 namespace pounding::interactions {

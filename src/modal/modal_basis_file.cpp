@@ -143,7 +143,7 @@ std::string hash_of(std::span<const NodalLoad> loads) {
   return hash.text();
 }
 
-/// Columns of the supports' motion, and what of the structure is on the supports.
+/// Columns of the supports' motion, and the parts of the structure on the supports.
 std::string hash_of(std::span<const SupportColumn> columns, const GlobalMesh& mesh) {
   Hash hash;
   for (const SupportColumn& column : columns) {

@@ -46,8 +46,8 @@ struct InitialGap {
   int seed = 1;                   ///< of that part
   std::vector<GapPatch> patches;  ///< of two that share a place the last counts
   std::string survey;             ///< file of gaps measured, in place of `values`; empty: none
-  /// By which the joint is narrower before the run, without patches: elevation and closing, rising,
-  /// straight between and even beyond [m].
+  /// Points of elevation and closing by which the joint is narrower before the run, without
+  /// patches: elevations rise, straight between them and even beyond [m].
   std::vector<std::array<double, 2>> static_closing;
 
   bool has_deviation() const { return deviation > 0; }

@@ -12,7 +12,7 @@
 #include "common/parallel.h"
 #include "statics/unilateral_rows.h"
 #include "system/factor_plan.h"
-#include "system/inelastic_laws.h"
+#include "system/law_forces.h"
 #include "system/linear_system.h"
 
 namespace pounding {

@@ -15,7 +15,7 @@
 #include "statics/assembled_statics.h"
 #include "statics/tried_rows.h"
 #include "system/admissible_motions.h"
-#include "system/inelastic_laws.h"
+#include "system/law_forces.h"
 #include "system/load_shapes.h"
 
 namespace pounding {

@@ -16,6 +16,7 @@
 #include "system/each_element.h"
 #include "system/element_bounds.h"
 #include "system/inelastic_laws.h"
+#include "system/law_forces.h"
 #include "system/links.h"
 #include "system/massless_followers.h"
 #include "system/matrix_system.h"

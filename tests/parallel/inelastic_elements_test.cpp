@@ -14,7 +14,7 @@
 #include "support/built_system.h"
 #include "support/scaled_structure.h"
 #include "system/each_element.h"
-#include "system/inelastic_laws.h"
+#include "system/law_forces.h"
 
 namespace pounding {
 namespace inelastic_elements_test {

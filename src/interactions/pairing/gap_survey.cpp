@@ -152,7 +152,7 @@ LinearField::LinearField(std::span<const Place> places, std::span<const double> 
   std::vector<Place> x = places_;
   x.insert(x.end(), {{-far_away, -far_away}, {far_away, -far_away}, {0, far_away}});
   triangles_ = {{count, count + 1, count + 2}};
-  for (int i = 0; i < count; ++i) {  // Bowyer and Watson: what holds it is cut out and filled anew
+  for (int i = 0; i < count; ++i) {  // Bowyer and Watson: triangles that hold it are cut out
     std::set<std::pair<int, int>> border;
     std::vector<Triangle> kept;
     for (const Triangle& triangle : triangles_) {
@@ -185,8 +185,9 @@ LinearField::Value LinearField::at(const Place& place) const {
       value[k] = values_[static_cast<std::size_t>(triangle[k])];
     }
     std::array<double, 3> share{};
-    for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < 3; ++k) {
       share[k] = doubled_area(from[(k + 1) % 3], from[(k + 2) % 3]);
+    }
     const double all = share[0] + share[1] + share[2];
     if (std::ranges::min(share) >= 0) {
       return {(share[0] * value[0] + share[1] * value[1] + share[2] * value[2]) / all, 0};
