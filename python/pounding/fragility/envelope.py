@@ -4,12 +4,13 @@ from pathlib import Path
 
 import numpy as np
 
+from pounding import joint
 from pounding.fragility import Fragility, hclpf, moments, widened
 from pounding.plot.markup import answer_box, figure_parts, html_table, linked, write_page
 from pounding.plot.style import WIDTH, WITH, WITHOUT, g_axis, log_scale, plt, save
 from pounding.tables import cells_of, markdown, write_csv
 
-from . import figures
+from . import figures, report
 from .analysis import CONTACT, EXCEEDED, Analysis, gap_text, name_of, quantile
 from .conditions import ALONE, Condition
 from .study import Study
@@ -210,6 +211,8 @@ def write(study: Study, analyses: dict, folder: Path) -> tuple:
               "sensitivity": one.sensitivity_rows(), "hclpf": one.hclpf_rows()}
     for name, rows in tables.items():
         write_csv(folder / f"{name}.csv", rows)
+    joint.write(folder, {f"{run}, {condition.folder}": rows for condition, analysis in analyses.items()
+                         for run, rows in report.elevation_runs(analysis).items()})
     lines = one.told(tables["joint"], tables["sensitivity"])
     pages = one.draw_sensitivity(tables["sensitivity"], folder) + one.draw_spectra(folder)
     parts = [("Joint that would be needed [m]", tables["joint"]), ("Each soil and state", tables["conditions"]),

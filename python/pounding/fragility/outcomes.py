@@ -143,8 +143,8 @@ def of_run(result: Result) -> Outcomes:
     return Outcomes(frequency, damping, channels, contacts, owner, place, spectra[None], of_contact("episodes", 0),
                     of_impacts("start", True), of_contact("total_impulse", 0), of_contact("largest_impulse", 0),
                     of_impacts("peak_force", False), np.array(gaps), np.array(peaks["peak_displacement"]),
-                    np.array(peaks["peak_acceleration"]), np.array([told["energy"]["relative_residual"] or 0.0]), of_pairs["initial_gap"][None],
-                    of_pairs["least_gap"][None], of_pairs["time"][None],
+                    np.array(peaks["peak_acceleration"]), np.array([told["energy"]["relative_residual"] or 0.0]),
+                    of_pairs["initial_gap"][None], of_pairs["least_gap"][None], of_pairs["time"][None],
                     np.stack([of_pairs[f"d{axis}"] for axis in "xyz"], -1)[None])
 
 

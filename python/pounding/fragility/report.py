@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
+from pounding import joint
 from pounding.tables import cells_of, markdown, write_csv, write_rows
 from pounding.plot import design_spectra
 from pounding.plot.answer import plural
@@ -14,6 +15,7 @@ from . import figures
 from .analysis import CONTACT, EXCEEDED, TOLERANCE, Analysis, fit_row, gap_text, name_of
 from .design import OWN_FIELD
 from .outcomes import Outcomes
+from .study import StudyError
 
 PLACES = ("gap [m]", "pga [m/s2]")
 
@@ -62,6 +64,19 @@ def repeats_summary(rows: list) -> list:
     return found
 
 
+def elevation_runs(analysis: Analysis) -> dict:
+    """Rows of the joint by elevation, with pounding in the joint that the study shows and of the runs apart, at its level.
+    Throws StudyError."""
+    study, (gap, level, *_) = analysis.study, figures.shown(analysis)
+    members = analysis.of(gap, level)
+    try:
+        return {"with pounding": joint.by_elevation(analysis.outcomes, study.elevations, members),
+                "apart": joint.by_elevation(analysis.outcomes, study.elevations, analysis.of(None, level),
+                                            analysis.outcomes.pair_gap[members])}
+    except joint.JointError as error:
+        raise StudyError(f"{study.path}: {error}") from error
+
+
 def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, folder: Path) -> tuple:
     """Writes everything and returns the page's path and what the terminal shows."""
     study = analysis.study
@@ -75,6 +90,9 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
     enough_rows = analysis.enough_rows()
     pages = figures.summary(analysis, folder) + figures.curves(analysis, fits, folder)
     pages += figures.joints(analysis, rules, folder)
+    by_elevation = elevation_runs(analysis)
+    joint.write(folder, by_elevation)
+    pages = joint.draw(folder, by_elevation) + pages
     more, widths = figures.enough(analysis, folder)
     pages += more + (figures.scatter_parts(analysis, folder) if study.exchange else [])
     first_rows = [{"sample": sample, "motion": analysis.design.motions[sample],
@@ -101,7 +119,7 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
     shown = [*figure_parts(folder, pages), ("Floor spectra", floor_table(analysis)),
              *((caption, html_table("", *cells_of(rows), text=(0,))) for caption, rows in parts)]
     names = ", ".join(f"{name}.csv" for name, rows in tables.items() if rows)
-    after = paragraphs([f"Tables beside this page: {names}, design.csv, motions.csv, correlation.csv, spectra/*.csv."])
+    after = paragraphs([f"Tables beside this page: {names}, design.csv, motions.csv, correlation.csv, {joint.TABLE}, spectra/*.csv."])
     text = "\n".join(f"{line}" for line in lines) + "\n\n" + "\n".join(
         markdown(caption, *cells_of(rows)) for caption, rows in parts if rows)
     return write_page(folder / "fragility.html", study.title, shown, answer=box, after=after, under=f"study {study.path.name}"), text

@@ -19,7 +19,7 @@ from .study_file import Reader, beside, load
 
 KEYS = ("title", "scene", "output", "options", "reduction", "seed", "samples", "confidence", "motions", "levels",
         "motion_rules", "gaps", "apart", "joints", "coherence", "soils", "states", "submittal", "uncertainty", "exchange", "field_factors",
-        "factors", "capacities", "full_order", "frequencies", "dampings", "show")
+        "factors", "capacities", "full_order", "frequencies", "dampings", "show", "elevations")
 DAMPINGS = (0.02, 0.03, 0.04, 0.05, 0.07)
 SYNTHETIC = {"duration": "25", "envelope": "2,15"}
 RECORDED = {"unit": "auto", "time_step": "0", "column": "0"}
@@ -108,6 +108,7 @@ class Study:
     rules: Path | None = None  # table that judges the motions
     coherence: Coherence | None = None  # of the ground under mats that move apart
     moved: Moved | None = None  # these as supports, once their motions are made
+    elevations: list | None = None  # between bands of the table of the joint [m]; None: those that suit its pairs
 
     @property
     def variables(self) -> list:
@@ -357,4 +358,5 @@ def read(path: Path) -> Study:
         full.options("options"), full.number("noise", 1e-3, 0.0), frequencies, dampings,
         _show(reader, gaps, levels), {key: reader.values.get(key) for key in ("soils", "states", "submittal")},
         reader.number("uncertainty", None, 0.0) if "uncertainty" in reader.values else None, _motion_rules(reader),
-        read_coherence(reader))
+        read_coherence(reader),
+        elevations=reader.increasing("elevations", None, -1e9) if "elevations" in reader.values else None)
