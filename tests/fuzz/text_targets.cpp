@@ -109,8 +109,9 @@ void read_members(const std::string& path, Random&) {
                                        {"top_structure", "left"},
                                        {"top_group", "face"},
                                        {"end_time", "1"}};
-  const MemberTable table = read_member_table(MPI_COMM_SELF, path, {"left"}, {"joint"});
-  for (std::size_t m = 0; m < table.members(); ++m) read_member(options, table, m);
+  static const Scene shared = read_scene(options).scene;
+  const MemberTable table = read_member_table(MPI_COMM_SELF, path, {"left"}, {"joint"}, {});
+  for (std::size_t m = 0; m < table.members(); ++m) read_member(shared, options, table, m);
 }
 
 void read_scene_file(const std::string& path, Random&) {
