@@ -236,10 +236,18 @@ def _to_rest(motion: np.ndarray, first: int, step: float) -> np.ndarray:
     return motion - np.array(shapes).T @ np.linalg.solve(ends, _end(motion, step))
 
 
+def _ended(record: np.ndarray, count: int) -> np.ndarray:
+    """The record and zeros behind it, but for two samples that take back the straight line from its last one: velocity and
+    displacement end as they do where the ground stops with that."""
+    found = np.pad(record, (0, count - len(record)))
+    found[len(record):len(record) + 2] = record[-1] * np.array([-5 / 6, 1 / 3])
+    return found
+
+
 def motions(record: np.ndarray, step: float, factors: Factors, noise: Noise, random: np.random.Generator) -> dict:
     """Accelerations [m/s2, rad/s2] of the components that a record moves, by (mat, component): as long as the record and a tail
     behind it, in which they end. `noise`: of the record."""
-    count = len(record) + int(round(TAIL / step))
+    count = len(record) + max(2, int(round(TAIL / step)))
     size = next_fast_len(count + int(round(SEGMENT / step)), real=True)
     frequency = np.fft.rfftfreq(size, step)
 
@@ -254,7 +262,7 @@ def motions(record: np.ndarray, step: float, factors: Factors, noise: Noise, ran
     ease = np.clip(np.minimum(instant - noise.first, count - 1 - instant) * step / EASE, 0, 1)
     for number, name in enumerate(factors.names):
         # What all mats share passes as it is; the rest comes to rest.
-        shared = np.pad(record, (0, count - len(record))) if name[1] in "xyz" else np.zeros(count)
+        shared = _ended(record, count) if name[1] in "xyz" else np.zeros(count)
         told = factors.told[:, number]
         spectrum = (at(told) - (name[1] in "xyz")) * whole
         for other, one in enumerate(drawn):

@@ -123,16 +123,18 @@ class Motions(unittest.TestCase):
     def test_a_coherent_ground_moves_all_alike(self):
         for motion in self.made(coherency.model_of("coherent")).values():
             for name, values in motion.items():
-                expected = numpy.zeros(len(values))
-                if name in self.RECORDS:
-                    expected[:len(self.RECORDS[name])] = self.RECORDS[name]
-                numpy.testing.assert_allclose(values, expected, atol=1e-12 * abs(self.RECORDS["x"]).max())
+                record_ = self.RECORDS.get(name, numpy.zeros(len(self.RECORDS["x"])))
+                count, peak = len(record_), abs(self.RECORDS["x"]).max()
+                numpy.testing.assert_allclose(values[:count], record_, atol=1e-12 * peak)
+                self.assertLess(abs(values[count + 2:]).max(), 1e-15 * peak)
+                velocity, _ = way_of(values)
+                self.assertAlmostEqual(velocity[-1], way_of(record_)[0][-1], delta=1e-12 * peak)
 
     def test_mats_come_to_rest_where_the_record_does(self):
-        for motion in self.made().values():
+        coherent = self.made(coherency.model_of("coherent"))
+        for mat, motion in self.made().items():
             for name, values in motion.items():
-                shared = numpy.pad(self.RECORDS[name], (0, len(values) - len(self.RECORDS[name]))) if name in "xyz" else 0
-                apart = values - shared
+                apart = values - coherent[mat][name]
                 velocity, displacement = way_of(apart)
                 self.assertGreater(abs(displacement).max(), 1e-6)
                 self.assertLess(abs(velocity[-1]), 1e-9 * abs(velocity).max())
