@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from pounding import joint
+from pounding import UserError, joint
 from pounding.tables import cells_of, markdown, write_csv, write_rows
 from pounding.plot import design_spectra
 from pounding.plot.answer import plural
@@ -15,7 +15,6 @@ from . import figures
 from .analysis import CONTACT, EXCEEDED, TOLERANCE, Analysis, fit_row, gap_text, name_of
 from .design import OWN_FIELD
 from .outcomes import Outcomes
-from .study import StudyError
 
 PLACES = ("gap [m]", "pga [m/s2]")
 
@@ -66,7 +65,7 @@ def repeats_summary(rows: list) -> list:
 
 def elevation_runs(analysis: Analysis) -> dict:
     """Rows of the joint by elevation, with pounding in the joint that the study shows and of the runs apart, at its level.
-    Throws StudyError."""
+    Throws UserError."""
     study, (gap, level, *_) = analysis.study, figures.shown(analysis)
     members = analysis.of(gap, level)
     try:
@@ -74,7 +73,7 @@ def elevation_runs(analysis: Analysis) -> dict:
                 "apart": joint.by_elevation(analysis.outcomes, study.elevations, analysis.of(None, level),
                                             analysis.outcomes.pair_gap[members])}
     except joint.JointError as error:
-        raise StudyError(f"{study.path}: {error}") from error
+        raise UserError(f"{study.path}: {error}") from error
 
 
 def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, folder: Path) -> tuple:
