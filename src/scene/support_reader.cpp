@@ -111,7 +111,6 @@ void require_plain(const OptionReader& options, const Scene& scene, const Suppor
                   "structure " + structure.name + ": -" + structure.name +
                       "_matrices do not hold the forces of its clamped dofs on the others");
   }
-  if (structure.soil && !all_ground) refuse_with("_soil_mat, unless all its ground moves with one");
   if (!structure.absorbing.empty()) refuse_with("_absorbing");
   if (all_ground && turns(support) && structure.p_delta) {
     refuse_groups(options, support,

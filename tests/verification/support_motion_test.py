@@ -355,6 +355,46 @@ class TravellingWave(WithPulses):
         assert_continues(self, words, 0.15, 2500)
 
 
+class SoilUnderOneFoot(WithPulses):
+    """Two feet on a support of their own, the third on soil, whose ground moves as `motion` says."""
+    END = 0.3
+
+    def run_of(self, *more):
+        return Recorded(self, ["-structures", "v", *viaduct("v", 2, 0.0), *STEEL, *SECTION, *self.ground(), "-end_time", self.END,
+                               "-time_step", 1e-5, "-output_interval", 1e-3, *probes(("deck", "v", "deck"), ("feet", "v", "feet")),
+                               *more], identity=1e-11)
+
+    def moved(self, *more):
+        return self.run_of("-supports", "s,still", "-s_groups", "v:foot0,v:foot1", "-s_delay", 0.02, "-s_factor", "1,1,0.5",
+                           *self.z.words("s_motion_y"), "-s_rotation_y_record", self.z.file, "-s_rotation_y_scale", 0.05,
+                           "-s_point", "4,0.5,-1", *more)
+
+    def soil(self, speed):
+        return ["-supports", "s", "-v_clamp", "foot0,foot1", "-v_soil_mat", "foot2", "-v_soil_size", "2,2", "-v_soil_vs", speed,
+                "-v_soil_density", 1900, "-v_soil_poisson", 0.35]
+
+    def test_stiff_soil_is_a_clamp(self):
+        clamped = self.moved("-still_groups", "v:foot2")
+        apart = [abs(clamped.displacement(channel) - run.displacement(channel)).max() / abs(clamped.displacement("deck.1.x")).max()
+                 for run in (self.moved(*self.soil(2000)), self.moved(*self.soil(500)))
+                 for channel in ("deck.1.x", "deck.5.y", "deck.7.z")]
+        self.assertLess(max(apart[:3]), 0.01, apart)
+        self.assertGreater(max(apart[3:]), 4 * max(apart[:3]), "soft soil gives way")
+
+    def test_all_modes(self):
+        soil = self.soil(150)
+        full, modes = self.moved(*soil), self.moved(*soil, "-v_model", "modal", "-v_modal_vectors", 10000)
+        for channel in ("deck.1.x", "deck.5.y", "deck.7.z"):
+            assert_follows(self, modes.displacement(channel), full.displacement(channel), 1e-8, channel)
+
+    def test_moved_alike_it_is_a_ground(self):
+        soil = self.soil(150)
+        alike = [*soil, "-s_groups", "v:foot0,v:foot1", *self.x.words("s_motion_x"), *self.z.words("s_motion_z")]
+        moved, still = self.run_of(*alike), self.run_of(*soil[2:])
+        for channel in ("deck.1.x", "deck.7.z"):
+            assert_follows(self, moved.displacement(channel), still.displacement(channel), 1e-8, channel)
+
+
 class AllGround(WithPulses):
     """A structure named without a group: what is clamped and the ground of its springs, dashpots and soil move with
     the support."""
