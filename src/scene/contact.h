@@ -51,7 +51,7 @@ struct InitialGap {
   std::vector<std::array<double, 2>> static_closing;
 
   bool has_deviation() const { return deviation > 0; }
-  /// The meshes tell the gap.
+  /// Whether the gap is that of the meshes.
   bool is_of_meshes() const { return values.empty() && survey.empty(); }
   double closing_at(double elevation) const;
 

@@ -287,7 +287,7 @@ void read_gap_state(OptionReader& options, const Scene& scene, Contact& contact)
                        option_name("<contact>_gap_at", {contact.name}) +
                        " rest or unloaded in which state the joint has these gaps");
   }
-  // A survey is of the joint as it stands.
+  // A survey is of the joint at rest.
   const bool assumed =
       state == "auto" && (open || laid_in || (faces && !contact.gap.survey.empty()));
   contact.gap_at_rest = scene.preload && (state == "rest" || assumed);

@@ -17,7 +17,7 @@ class LinearField {
  public:
   using Place = std::array<double, 2>;
 
-  /// No two of `places` are one, and they do not lie on a line: `triangles` tells.
+  /// No two of `places` are one, nor do all lie on one line; see `triangles`.
   LinearField(std::span<const Place> places, std::span<const double> values);
 
   struct Value {
