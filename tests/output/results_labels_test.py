@@ -26,7 +26,7 @@ ALPHA = (0.3958406743523139, 0.697433569096934)
 ACCELERATION, FREQUENCY = 0.30 * 9.81, 2.6
 TIME_STEP, END = 5e-4, 1.5
 FREE_FLIGHT = 0.3  # s: nothing touches before
-FILES = {"history.h5", "spectra.csv", "impacts.csv", "contact_points.csv", "energy.csv", "summary.json", "resolved.yaml"}
+FILES = {"history.h5", "spectra.csv", "impacts.csv", "contact_points.csv", "joint_pairs.csv", "energy.csv", "summary.json", "resolved.yaml"}
 
 
 def scene(record, interval, merge_time=1e-3):
