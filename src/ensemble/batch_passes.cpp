@@ -30,8 +30,9 @@ BatchRows::BatchRows(std::span<const interactions::Constraint> rows,
         for (std::size_t i = 0; i < width; ++i) {
           values[w * width + i] += term.coefficient * of_term[i];
         }
-        for (std::size_t c = 0; c < columns; ++c) {
-          carried_[w * columns + c] += term.coefficient * trace.carried(place)[c];
+        const std::span<const double> carried = trace.carried(place);  // none without supports
+        for (std::size_t c = 0; c < carried.size(); ++c) {
+          carried_[w * columns + c] += term.coefficient * carried[c];
         }
         ++place;
       }

@@ -14,7 +14,7 @@ TIMEOUT = 7200  # s, with --all
 NAMED = {f.name: f for f in FEATURES}
 MENDED = [("bar with a rule", "uniform damping"), ("stiffness damping", "reactions"), ("uniform damping", "reactions"),
           ("uniform damping", "storey force"), ("friction pendulum", "wall of shells"), ("friction pendulum", "constant force"),
-          ("feet that lift off", "rocking support"), ("lead-rubber bearings", "embedded support")]
+          ("ensemble", "supports"), ("feet that lift off", "rocking support"), ("lead-rubber bearings", "embedded support")]
 
 
 def ring(*steps):
