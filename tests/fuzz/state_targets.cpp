@@ -144,7 +144,8 @@ const EnsembleLayout& layout() {
       "members.csv", {"motion_level", "joint_gap"}, {2, 3, 4}, {"1", "0.1", "2", "", "1", "0.2"}};
   static const EnsembleLayout layout{&table,       {"top x", "top y"},
                                      {0.02, 0.05}, {1, 2, 4},
-                                     {"joint"},    {"option a 1", "columns", "member 1"}};
+                                     {"joint"},    {0},
+                                     {1, 2, 3},    {"option a 1", "columns", "member 1"}};
   return layout;
 }
 
