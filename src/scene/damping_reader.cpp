@@ -101,19 +101,17 @@ std::optional<UniformDamping> read_uniform_damping(OptionReader& options,
 std::optional<Rayleigh> read_region_damping(OptionReader& options, const Names& names,
                                             const Region& region, const Rayleigh& inherited) {
   bool given = false;
-  const auto forbid_of_laws = [&](std::string_view pattern) {
-    if (!is_nonlinear(region)) return;
-    options.forbid(
-        pattern, names,
-        "elements with tension_only or compression_only take the damping of their structure, "
-        "those that yield none; leave it out");
-  };
+  const std::string why =
+      "elements with tension_only or compression_only take the damping of their structure, "
+      "those that yield none; leave it out";
   for (const std::string_view pattern : {region_damping.alpha, region_damping.beta,
                                          region_damping.ratio, region_damping.frequencies}) {
-    forbid_of_laws(pattern);
+    if (is_nonlinear(region)) options.forbid(pattern, names, why);
     given = given || options.given(pattern, names);
   }
-  forbid_of_laws("<structure>_<group>_damping_factor");
+  if (is_nonlinear(region) && region.damping_factor != 1) {
+    options.refuse(region_damping_factor, names, why);
+  }
   if (!given) return std::nullopt;
   return read_damping(options, region_damping, names, inherited);
 }

@@ -2,11 +2,14 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "scene/option_reader.h"
 #include "scene/scene.h"
 
 namespace pounding {
+
+inline constexpr std::string_view region_damping_factor = "<structure>_<group>_damping_factor";
 
 /// Rayleigh damping of a structure: alpha and beta, or one damping ratio at two frequencies. Throws
 /// UserError.

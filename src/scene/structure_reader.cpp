@@ -186,12 +186,13 @@ void forbid_laws(const OptionReader& options, const Structure& structure) {
 /// The filters follow the forces of all elements together.
 void forbid_damping_beside_uniform(const OptionReader& options, const Structure& structure) {
   for (const Region& region : structure.regions) {
-    for (const char* option : {"alpha", "beta", "ratio", "frequencies", "factor"}) {
-      options.forbid(std::string("<structure>_<group>_damping_") + option,
-                     {structure.name, region.group},
-                     "not in a structure with -" + structure.name +
-                         "_damping_uniform, whose ratio is that of all its elements");
+    const Names names{structure.name, region.group};
+    const std::string why = "not in a structure with -" + structure.name +
+                            "_damping_uniform, whose ratio is that of all its elements";
+    for (const char* option : {"alpha", "beta", "ratio", "frequencies"}) {
+      options.forbid(std::string("<structure>_<group>_damping_") + option, names, why);
     }
+    if (region.damping_factor != 1) options.refuse(region_damping_factor, names, why);
   }
 }
 
@@ -211,9 +212,10 @@ void forbid_damping_of_regions(const OptionReader& options, const Structure& str
     const Rayleigh own = structure.damping_of(region);
     if (own.alpha != structure.damping.alpha || own.beta != structure.damping.beta) {
       const std::string here = remedy + "give the structure's own here, or nothing";
-      for (const char* option : {"alpha", "beta", "ratio", "factor"}) {
+      for (const char* option : {"alpha", "beta", "ratio"}) {
         options.forbid(std::string("<structure>_<group>_damping_") + option, names, here);
       }
+      if (region.damping_factor != 1) options.refuse(region_damping_factor, names, here);
     }
   }
 }
