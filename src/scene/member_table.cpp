@@ -159,6 +159,10 @@ MemberTable read_member_table(MPI_Comm comm, const std::string& file,
   on_rank0(comm, [&] { text = read_table_text("option -ensemble", file); });
   broadcast(comm, text);
   MemberTable table = parse_table(file, text);
+  if (table.members() == 0) {
+    throw UserError("option -ensemble " + file +
+                    ": no runs in it; the first line names options, every other one is a run");
+  }
   check_columns(table, structures, contacts, supports);
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     std::map<std::string, std::string> found;  // each path is looked for once
