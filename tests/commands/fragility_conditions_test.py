@@ -10,7 +10,8 @@ import numpy as np
 import program
 import two_buildings
 import yaml
-from pounding import fragility
+from pounding import UserError, fragility
+from pounding.fragility import design, runs, study
 
 PROCESSORS = 2  # it starts runs
 
@@ -103,6 +104,46 @@ class Conditions(unittest.TestCase):
                 done = self.fragility("--dry-run", status=1, **changes)
                 self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
                 self.assertIn(words, done.stderr)
+
+
+class Surveyed(unittest.TestCase):
+    """Joints as they were measured: gaps of the study are changes of the survey, made by its static closing."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="pounding-")
+        self.addCleanup(folder.cleanup)
+        self.place = Path(folder.name)
+        (self.place / "survey.csv").write_text("x,y,z,gap\n6,0,2.8,0.012\n6,4,2.8,0.009\n6,0,3.2,0.012\n6,4,3.2,0.009\n")
+
+    def study(self, **joint):
+        changes = {"soils": None, "states": None, "joints": {"floor1": joint or {"survey": "survey.csv", "static_closing": "0:0,6:0.002"}}, "gaps": [0, 0.01]}
+        (self.place / "study.yaml").write_text(yaml.safe_dump({**STUDY, **changes}, sort_keys=False))
+        return study.read(self.place / "study.yaml")
+
+    def test_members_shift_the_closing(self):
+        found = self.study()
+        plan = design.build(found)
+        at = plan.columns.index("floor1_static_closing")
+        texts = {member.gap: member.values[at] for member in plan.members}
+        self.assertEqual(texts, {None: f"0:{-found.apart:g},6:{0.002 - found.apart:.9g}", 0.0: "0:0,6:0.002", 0.01: "0:-0.01,6:-0.008"})
+        self.assertAlmostEqual(found.joints["floor1"].shape[0], 0.007)
+        self.assertEqual(found.joint_named(0.01), "joint as surveyed and 10 mm wider")
+
+    def test_the_program_takes_the_survey(self):
+        found = self.study()
+        plan = design.build(found)
+        options = {**runs.scene_options(found, True, self.place), "end_time": 0.01}
+        options |= {column: value for column, value in zip(plan.columns, next(one for one in plan.members if one.gap == 0).values)}
+        options.pop("include")
+        words = [word for name, value in options.items() for word in (f"-{name}", value)]
+        _, summary = program.must_run(self, ["-options_file", two_buildings.SCENE, *words])
+        self.assertAlmostEqual(summary["contacts"]["floor1"]["survey"]["smallest"], 0.009 - 0.001)  # of which half is closed at 3 m
+
+    def test_mistakes(self):
+        for words, joint in (("is no file", {"survey": "none.csv"}), ("is that of the survey", {"survey": "survey.csv", "shape": [0.01]}),
+                             ("goes with a survey", {"static_closing": "0:0"}), ("is not elevation:closing", {"survey": "survey.csv", "static_closing": "2"})):
+            with self.subTest(words), self.assertRaisesRegex(UserError, words):
+                self.study(**joint)
 
 
 class Capacity(unittest.TestCase):

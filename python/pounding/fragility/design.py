@@ -78,7 +78,7 @@ def build(study: Study) -> Design:
         for contact, joint in study.joints.items():
             off = drawn[owner, names.index(f"{contact}_gap")] if joint.deviation else 0.0
             nominal = study.apart if gap is None else gap
-            values += (",".join(text_of(max(0.0, nominal + one + off)) for one in joint.shape),)
+            values += (joint.text(nominal + off),)
             values += (str((study.seed * MOST_SAMPLES + owner) % 2**31),) if joint.field else ()
             if joint.field and study.field_factors:
                 values += tuple(text_of(factor * one) for factor, one in zip(factors, joint.field))
@@ -95,7 +95,7 @@ def build(study: Study) -> Design:
     repeated = choose(study, members)
     members += [member(one.sample, one.gap, one.level, True) for one in (members[index] for index in repeated)]
     joints = [column for name, joint in study.joints.items()
-              for column in (f"{name}_gap", *(f"{name}_gap_{part}" for part in field_columns(study, joint)))]
+              for column in (f"{name}_{joint.column}", *(f"{name}_gap_{part}" for part in field_columns(study, joint)))]
     columns = motion_columns(study) + joints + [one.name for one in study.factors]
     return Design(columns, members, drawn, motions, repeated)
 

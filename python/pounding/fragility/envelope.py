@@ -181,11 +181,11 @@ class Envelope:
         lines = []
         for row in joint:
             if row["joint"] == "any" and row["exceeded in"] == "5 %":
-                lines.append(f"So that no joint closes in 95 % of the cases at {row['pga [m/s2]']:g} m/s2 it must be as wide as "
-                             f"{1e3 * row['needed [m]']:.3g} mm; {governs(row)}.")
+                lines.append(f"So that no joint closes in 95 % of the cases at {row['pga [m/s2]']:g} m/s2 it must be "
+                             f"{'wider than surveyed by' if self.study.is_surveyed else 'as wide as'} {1e3 * row['needed [m]']:.3g} mm; {governs(row)}.")
         for gap in self.study.gaps:
             share, place = self.governing([one.hits(CONTACT, gap)[:, -1].mean() for one in self.analyses.values()])
-            lines.append(f"In a joint of {1e3 * gap:g} mm the buildings touch at {self.study.levels[-1]:g} m/s2 in "
+            lines.append(f"In a {self.study.joint_named(gap)} the buildings touch at {self.study.levels[-1]:g} m/s2 in "
                          f"{100 * share:.3g} % of the cases at most; {governs(place)}.")
         moved = max((row for row in sensitivity if row["quantity"] == "joint needed [m]" and row["moved by"] != "motion"),
                     key=lambda row: row["range over reference"], default=None)

@@ -195,7 +195,8 @@ def needed_joint(rows: list, study) -> str:
 
     widths = "; ".join(f"{1e3 * row[f'{key} [m]']:.3g} mm at {row['pga [m/s2]']:g} m/s2 ({end(row[f'{key} low'])} to "
                        f"{end(row[f'{key} high'])})" for row in rows if row["joint"] == "any")
-    return (f"So that no joint closes in {100 * (1 - part):g} % of the cases it must be as wide as {widths}; in brackets the "
+    wide = "wider than surveyed by" if study.is_surveyed else "as wide as"
+    return (f"So that no joint closes in {100 * (1 - part):g} % of the cases it must be {wide} {widths}; in brackets the "
             f"interval at {100 * study.confidence:g} % confidence.")
 
 
@@ -205,16 +206,16 @@ def touching(fits: dict, analysis: Analysis) -> list:
         for gap in study.gaps:
             count = int(analysis.hits(CONTACT, gap).sum())
             low, high = binomial_interval(count, study.samples, study.confidence)
-            lines.append(f"Joint of {1e3 * gap:g} mm: touches in {percent(count / study.samples)} % of the cases at "
+            lines.append(f"{study.joint_named(gap).capitalize()}: touches in {percent(count / study.samples)} % of the cases at "
                          f"{study.levels[0]:g} m/s2 ({percent(low)} to {percent(high)}).")
         return lines
     for gap, fit in fits[CONTACT].items():
         if isinstance(fit, Fragility):
-            lines.append(f"Joint of {1e3 * gap:g} mm: touches in half of the cases at {fit.theta:.3g} m/s2 "
+            lines.append(f"{study.joint_named(gap).capitalize()}: touches in half of the cases at {fit.theta:.3g} m/s2 "
                          f"({fit.theta_interval[0]:.3g} to {fit.theta_interval[1]:.3g}), beta {fit.beta:.2g} "
                          f"({fit.beta_interval[0]:.2g} to {fit.beta_interval[1]:.2g}).")
         else:
-            lines.append(f"Joint of {1e3 * gap:g} mm: no curve, {fit}.")
+            lines.append(f"{study.joint_named(gap).capitalize()}: no curve, {fit}.")
     return lines
 
 
@@ -226,7 +227,7 @@ def failing(analysis: Analysis) -> list:
         for gap in analysis.gaps_of(item):
             count = int(analysis.hits(item, gap)[:, -1].sum())
             low, high = binomial_interval(count, study.samples, study.confidence)
-            place = "apart" if gap is None else f"in a joint of {1e3 * gap:g} mm"
+            place = "apart" if gap is None else f"in a {study.joint_named(gap)}"
             shares.append(f"{100 * count / study.samples:.3g} % {place} ({percent(low)} to {percent(high)})")
         lines.append(f"{item.title} fails at {study.levels[-1]:g} m/s2 in {', '.join(shares)}.")
     return lines

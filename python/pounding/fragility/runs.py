@@ -30,6 +30,9 @@ def scene_options(study: Study, reduced: bool, folder: Path) -> dict:
         kind = {"target": one.target} if one.target else {"record": one.records[0]}
         found |= {f"motion_{axis}_{key}": value for key, value in {**kind, **one.understood}.items()}
     for name, joint in study.joints.items():
+        if joint.survey:
+            found[f"{name}_survey"] = joint.survey
+            found[f"{name}_gap"] = "geometry"  # in place of that of the scene
         if joint.field:
             found |= {f"{name}_gap_deviation": str(joint.field[0]), f"{name}_gap_length": str(joint.field[1])}
     if reduced:

@@ -1,5 +1,6 @@
 """The study file of run/fragility: which keys it may have, what they mean, and what is wrong with them."""
 
+import csv
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -51,11 +52,26 @@ class Axis:
 class Joint:
     """A contact: by how much its gap differs from the nominal one, `shape` [m] (one value, two or four), and a
     deviation that is drawn, of all values alike. `field`: standard deviation and length of correlation [m] of a random
-    part over the face, another one in each sample; empty: none."""
+    part over the face, another one in each sample; empty: none. `survey`: file of the gaps as they were measured, of
+    which `shape` has the least then, and the gaps of the study are wider or narrower than these; `closing`: elevation and
+    static closing [m] taken off them."""
 
     shape: tuple = (0.0,)
     deviation: Variable | None = None
     field: tuple = ()
+    survey: str = ""
+    closing: tuple = ()
+
+    @property
+    def column(self) -> str:
+        """Option by which members have joints of their own."""
+        return "static_closing" if self.survey else "gap"
+
+    def text(self, width: float) -> str:
+        """Value of the option in a joint that is wider by so much [m] than its shape."""
+        if self.survey:
+            return ",".join(f"{z:g}:{closing - width:.9g}" for z, closing in self.closing)
+        return ",".join(f"{max(0.0, width + one):.9g}" for one in self.shape)
 
 
 @dataclass(frozen=True)
@@ -109,6 +125,16 @@ class Study:
     coherence: Coherence | None = None  # of the ground under mats that move apart
     moved: Moved | None = None  # these as supports, once their motions are made
     elevations: list | None = None  # between bands of the table of the joint [m]; None: those that suit its pairs
+
+    @property
+    def is_surveyed(self) -> bool:
+        return any(joint.survey for joint in self.joints.values())
+
+    def joint_named(self, gap: float) -> str:
+        """A joint of the study in a sentence."""
+        if not self.is_surveyed:
+            return f"joint of {1e3 * gap:g} mm"
+        return f"joint as surveyed{f' and {1e3 * gap:g} mm wider' if gap else ''}"
 
     @property
     def variables(self) -> list:
@@ -185,13 +211,51 @@ def _joints(reader: Reader) -> dict:
                         "`joints: {roof: {}}`")
     found = {}
     for name in values:
-        one = Reader(values[name] or {}, reader.path, f"joints: {name}", ("shape", "deviation", "field"))
+        one = Reader(values[name] or {}, reader.path, f"joints: {name}", ("shape", "deviation", "field", "survey", "static_closing"))
         shape = tuple(one.numbers("shape", [0.0]))
         if len(shape) not in (1, 2, 4):
             one.fail("shape", "has neither one value nor two or four")
+        survey, closing = _survey(one)
+        if survey:
+            shape = (min(least for _, least in survey_points(one, survey)) - max(taken for _, taken in closing),)
         drawn = _variable(one.part("deviation", SPREAD), f"{name}_gap") if one.values.get("deviation") else None
-        found[name] = Joint(shape, drawn, _field(one))
+        found[name] = Joint(shape, drawn, _field(one), survey, closing)
+    if len({bool(joint.survey) for joint in found.values()}) > 1:
+        raise UserError(f"{reader.path}: joints: gaps are widths of joints by drawing and changes of surveyed ones; give all of "
+                        "them a survey, or none")
     return found
+
+
+def _survey(one: Reader) -> tuple:
+    """File of a survey, and elevations with their static closing."""
+    if one.values.get("survey") is None:
+        if one.values.get("static_closing") is not None:
+            one.fail("static_closing", "goes with a survey; of a joint by drawing it is an option of the scene")
+        return "", ()
+    if one.values.get("shape") is not None:
+        one.fail("shape", "is that of the survey; leave one of the two out")
+    path = beside(one.path, str(one.values["survey"]))
+    if not Path(path).is_file():
+        one.fail("survey", "is no file")
+    try:
+        points = [tuple(map(float, point.split(":"))) for point in str(one.values.get("static_closing", "0:0")).split(",")]
+    except ValueError:
+        points = [()]
+    if any(len(point) != 2 for point in points):
+        one.fail("static_closing", "is not elevation:closing between commas")
+    return path, tuple(points)
+
+
+def survey_points(one: Reader, path: str) -> list:
+    """Elevation and gap of the points of a survey [m]; the program checks the rest of the file."""
+    try:
+        with open(path, newline="", encoding="utf-8-sig") as file:
+            lines = [line for line in file if line.strip() and not line.startswith("#")]
+        separator = ";" if ";" in lines[0] else ","
+        return [(float(row["z"]), float(row["gap"])) for row in
+                csv.DictReader(lines, delimiter=separator, skipinitialspace=True)]
+    except (OSError, ValueError, KeyError, TypeError, IndexError):
+        return one.fail("survey", "is no table of points with the columns x, y, z and gap")
 
 
 def _field(reader: Reader) -> tuple:

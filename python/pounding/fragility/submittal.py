@@ -57,15 +57,16 @@ def read(study: Study) -> Submittal | None:
 def answers(one: Envelope, told: Submittal) -> list:
     """The answer at the design level and beyond it."""
     lines, study = [], one.study
+    widened = "a joint wider than surveyed by" if study.is_surveyed else "a joint of"
     for words, level in dict.fromkeys((("at design level", told.design), ("beyond design", told.beyond))):
         at = study.levels.index(level)
         needed, place = one.governing([np.quantile(each.needed()[:, at], 0.84) for each in one.analyses.values()])
         shares = []
         for gap in study.gaps:
             count, where = one.governing([int(each.hits(CONTACT, gap)[:, at].sum()) for each in one.analyses.values()])
-            shares.append(f"in a joint of {1e3 * gap:g} mm they touch in {count} of {study.samples} cases"
+            shares.append(f"in a {study.joint_named(gap)} they touch in {count} of {study.samples} cases"
                           + (f" ({governs(where)})" if len(one.conditions) > 1 and count else ""))
-        lines.append(f"{words.capitalize()} ({level:g} m/s²) {'; '.join(shares)}; a joint of {1e3 * needed:.3g} mm is wide enough "
+        lines.append(f"{words.capitalize()} ({level:g} m/s²) {'; '.join(shares)}; {widened} {1e3 * needed:.3g} mm is wide enough "
                      f"for 84 % of the cases" + (f" ({governs(place)})." if len(one.conditions) > 1 else "."))
     return lines
 
@@ -126,7 +127,7 @@ def assumptions(one: Envelope) -> list:
             ("Soils", ", ".join(dict.fromkeys(condition.soil for condition in one.conditions))),
             ("States", ", ".join(dict.fromkeys(condition.state for condition in one.conditions))),
             ("Coherence", f"mats move apart by {study.coherence.model.name}" if study.coherence else "all mats move alike"),
-            ("Joint", ", ".join(f"{1e3 * gap:g} mm" for gap in study.gaps) + "; " + "; ".join(
+            ("Joint", ", ".join(study.joint_named(gap) for gap in study.gaps) + "; " + "; ".join(
                 f"{name}: deviation {'drawn' if joint.deviation else 'none'}, field {'drawn' if joint.field else 'none'}"
                 for name, joint in study.joints.items())),
             ("Drawn beside the motion", ", ".join(one_of.name for one_of in study.factors) or "nothing"),
