@@ -21,7 +21,7 @@ def on(feature, structure):
 
 def clash(first, second):
     """Why two features, given by their options, cannot be on one scene by a rule of their kinds; else none."""
-    for key in first.keys() & second.keys():
+    for key in sorted(first.keys() & second.keys()):
         one, other = first[key], second[key]
         more = isinstance(one, str) and one.startswith("+")
         weight = key in ("gravity", "preload") and one == other
