@@ -97,7 +97,8 @@ void look_at_region(const std::string& structure, const Region& region, SceneDou
   if (is_shell(region.element)) {
     doubts.look_at(owner, thickness, region.thickness);
   }
-  if (has_element_law(region) && region.drilling_factor > most_beside_yielding) {
+  if (is_shell(region.element) && has_element_law(region) &&
+      region.drilling_factor > most_beside_yielding) {
     doubts.add(owner,
                "it yields or cracks, and the stiffness against turning about its normal does not: "
                "it carries shear along edges that do not turn; give drilling_factor 0.01");

@@ -311,11 +311,13 @@ class Stick(unittest.TestCase):
 
     def test_refusals(self):
         for more, said in ((["-s_model", "modal", "-s_modal_vectors", 5, "-s_damping_uniform", .04], "-s_damping_uniform"),
-                           (["-s_model", "modal", "-s_modal_vectors", 5, "-s_stiffness_factor", 2], "_skeleton_y"),
                            (["-s_column_bending_skeleton_y", "1,5e6"], "not on the line of the stiffness"),
                            (["-export_matrices", "/tmp/nothing"], "elements that yield"),
                            (["-s_column_pinch", "0.2,0.5"], "goes with")):
             program.must_refuse(self, stick(*more), said, ranks=1)
+
+    def test_doubts_of_shells_are_none_of_beams(self):
+        self.assertNotIn("drilling", program.must_end(self, stick("-dry_run"), ranks=1).stdout)
 
     REDUCED = ["-s_model", "modal", "-time_step", repr(STICK_STEP / 2), "-s_gravity", "0,0,-9.81"]
 
