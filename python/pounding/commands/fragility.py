@@ -162,7 +162,7 @@ def members_of(found: study.Study, folder: Path, options: argparse.Namespace,
     if missing:
         raise UserError(f"{len(missing)} of {len(repeats)} repeats at full order are not there yet; "
                         "run what is missing")
-    ruled, note = rules.find(found, plan, runner.scene(True), folder, options.jobs)
+    ruled, note = ({}, "") if found.is_surveyed else rules.find(found, plan, runner.scene(True), folder, options.jobs)
     notes += [note] if note else []
     analysis = Analysis(found, plan, gathered, runner.equipment, notes, runner.scouted[True].inputs)
     page, text = report.write(analysis, full, ruled, notes, folder)

@@ -193,10 +193,13 @@ def needed_joint(rows: list, study) -> str:
     def end(value) -> str:
         return f"{1e3 * value:.3g}" if value != "" else "beyond these samples"
 
-    widths = "; ".join(f"{1e3 * row[f'{key} [m]']:.3g} mm at {row['pga [m/s2]']:g} m/s2 ({end(row[f'{key} low'])} to "
+    def width(value: float) -> str:
+        return study.width_told(value) if study.is_surveyed else f"{1e3 * value:.3g} mm"
+
+    widths = "; ".join(f"{width(row[f'{key} [m]'])} at {row['pga [m/s2]']:g} m/s2 ({end(row[f'{key} low'])} to "
                        f"{end(row[f'{key} high'])})" for row in rows if row["joint"] == "any")
-    wide = "wider than surveyed by" if study.is_surveyed else "as wide as"
-    return (f"So that no joint closes in {100 * (1 - part):g} % of the cases it must be {wide} {widths}; in brackets the "
+    return (f"So that no joint closes in {100 * (1 - part):g} % of the cases it must be {'' if study.is_surveyed else 'as wide as '}"
+            f"{widths}; in brackets{' the change in mm,' if study.is_surveyed else ''} the "
             f"interval at {100 * study.confidence:g} % confidence.")
 
 

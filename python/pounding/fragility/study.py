@@ -130,6 +130,14 @@ class Study:
     def is_surveyed(self) -> bool:
         return any(joint.survey for joint in self.joints.values())
 
+    def width_told(self, width: float) -> str:
+        """How wide a joint must be, or by how much wider or narrower than surveyed."""
+        if not self.is_surveyed:
+            return f"as wide as {1e3 * width:.3g} mm"
+        if width >= 0:
+            return f"{1e3 * width:.3g} mm wider than surveyed"
+        return f"no wider than {1e3 * -width:.3g} mm less than surveyed"
+
     def joint_named(self, gap: float) -> str:
         """A joint of the study in a sentence."""
         if not self.is_surveyed:

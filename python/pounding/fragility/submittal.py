@@ -57,7 +57,6 @@ def read(study: Study) -> Submittal | None:
 def answers(one: Envelope, told: Submittal) -> list:
     """The answer at the design level and beyond it."""
     lines, study = [], one.study
-    widened = "a joint wider than surveyed by" if study.is_surveyed else "a joint of"
     for words, level in dict.fromkeys((("at design level", told.design), ("beyond design", told.beyond))):
         at = study.levels.index(level)
         needed, place = one.governing([np.quantile(each.needed()[:, at], 0.84) for each in one.analyses.values()])
@@ -66,8 +65,8 @@ def answers(one: Envelope, told: Submittal) -> list:
             count, where = one.governing([int(each.hits(CONTACT, gap)[:, at].sum()) for each in one.analyses.values()])
             shares.append(f"in a {study.joint_named(gap)} they touch in {count} of {study.samples} cases"
                           + (f" ({governs(where)})" if len(one.conditions) > 1 and count else ""))
-        lines.append(f"{words.capitalize()} ({level:g} m/s²) {'; '.join(shares)}; {widened} {1e3 * needed:.3g} mm is wide enough "
-                     f"for 84 % of the cases" + (f" ({governs(place)})." if len(one.conditions) > 1 else "."))
+        lines.append(f"{words.capitalize()} ({level:g} m/s²) {'; '.join(shares)}; so that it stays open in 84 % of the "
+                     f"cases it must be {study.width_told(needed)}" + (f" ({governs(place)})." if len(one.conditions) > 1 else "."))
     return lines
 
 
