@@ -113,7 +113,7 @@ class Instructions(unittest.TestCase):
                 self.assertEqual(whole["dofs"], 6 * 7 * 2 * 3)
                 for kind in instructions.KINDS:
                     self.assertAlmostEqual(whole[kind], sum(row[kind] for row in functions), delta=1e-9 * whole[kind])
-                self.assertIn("advance_values", {row["function"] for row in functions})
+                self.assertIn("StructureStep::advance_in_order", {row["function"] for row in functions})
                 self.assertLess(0.5, whole["arithmetic"])
                 self.assertLess(whole["arithmetic"], whole["instructions"])
             wholes = [row["instructions"] for row in rows if row["function"] == instructions.WHOLE]
