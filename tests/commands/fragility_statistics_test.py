@@ -1,4 +1,5 @@
 """Statistics of pounding.fragility: intervals that hold as often as they say, curves that are found again, samples."""
+import functools
 import os
 import shutil
 import sys
@@ -213,7 +214,8 @@ class OneLevel(unittest.TestCase):
     def setUp(self):
         hits = {0.01: 4, 0.02: 2, None: 0}
         self.study = SimpleNamespace(levels=[4.0], gaps=[0.01, 0.02], samples=4, confidence=0.95, scene=Path("none.yaml"), options={},
-                                     joints={"roof": study.Joint((0.001, -0.001))})
+                                     joints={"roof": study.Joint((0.001, -0.001))}, is_surveyed=False)
+        self.study.joint_named = functools.partial(study.Study.joint_named, self.study)
         self.analysis = SimpleNamespace(study=self.study, gaps_of=lambda event: list(hits),
                                         hits=lambda event, gap: np.arange(4)[:, None] < hits[gap])
 

@@ -15,6 +15,8 @@ from .analysis import CONTACT, EXCEEDED, Analysis, gap_text, name_of, quantile
 from .conditions import ALONE, Condition
 from .study import Study
 
+SHOWN_BY_ELEVATION = ("contact", "from [m]", "to [m]", "gap [m]", "closing mean [m]", "closing 84 % [m]", "closing largest [m]", "ratio",
+                      "margin [m]")
 SHOWN = (5.0, 20.0, 100.0)  # frequencies of the sensitivities unless the study shows others [Hz]
 
 
@@ -99,6 +101,19 @@ class Envelope:
         cell = one.of(self.gap if gap is None else gap, self.level)
         return moments(one.outcomes.spectra[cell][:, self.channel, self.damping]).high
 
+    def elevation_rows(self) -> list:
+        """Of each contact and band of elevation, with pounding and apart, the soil and state in which it closes most: least
+        gap as built, closing, their ratio and margin."""
+        each = [(condition, run, row) for condition, one in self.analyses.items()
+                for run, rows in report.elevation_runs(one).items() for row in rows]
+        most = {}
+        for condition, run, row in each:
+            key = run, row["contact"], row["from [m]"]
+            if key not in most or row["closing largest [m]"] > most[key][1]["closing largest [m]"]:
+                most[key] = condition, row
+        return [{"runs": run, **{name: row[name] for name in SHOWN_BY_ELEVATION}, **condition.place}
+                for (run, *_), (condition, row) in most.items()]
+
     def hclpf_rows(self) -> list:
         rows = []
         for event in self.first.events:
@@ -181,7 +196,7 @@ class Envelope:
         lines = []
         for row in joint:
             if row["joint"] == "any" and row["exceeded in"] == "5 %":
-                lines.append(f"So that no joint closes in 95 % of the cases at {row['pga [m/s2]']:g} m/s2 it must be "
+                lines.append(f"So that no joint closes in 95 % of the cases at {row['pga [m/s2]']:g} m/s2 it "
                              f"{self.study.width_told(row['needed [m]'])}; {governs(row)}.")
         for gap in self.study.gaps:
             share, place = self.governing([one.hits(CONTACT, gap)[:, -1].mean() for one in self.analyses.values()])

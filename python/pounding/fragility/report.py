@@ -198,7 +198,7 @@ def needed_joint(rows: list, study) -> str:
 
     widths = "; ".join(f"{width(row[f'{key} [m]'])} at {row['pga [m/s2]']:g} m/s2 ({end(row[f'{key} low'])} to "
                        f"{end(row[f'{key} high'])})" for row in rows if row["joint"] == "any")
-    return (f"So that no joint closes in {100 * (1 - part):g} % of the cases it must be {'' if study.is_surveyed else 'as wide as '}"
+    return (f"So that no joint closes in {100 * (1 - part):g} % of the cases it {'' if study.is_surveyed else 'must be as wide as '}"
             f"{widths}; in brackets{' the change in mm,' if study.is_surveyed else ''} the "
             f"interval at {100 * study.confidence:g} % confidence.")
 

@@ -131,12 +131,12 @@ class Study:
         return any(joint.survey for joint in self.joints.values())
 
     def width_told(self, width: float) -> str:
-        """How wide a joint must be, or by how much wider or narrower than surveyed."""
+        """How wide a joint must be, or by how much wider it must be or narrower it may be than surveyed."""
         if not self.is_surveyed:
-            return f"as wide as {1e3 * width:.3g} mm"
+            return f"must be as wide as {1e3 * width:.3g} mm"
         if width >= 0:
-            return f"{1e3 * width:.3g} mm wider than surveyed"
-        return f"no wider than {1e3 * -width:.3g} mm less than surveyed"
+            return f"must be {1e3 * width:.3g} mm wider than surveyed"
+        return f"may be {1e3 * -width:.3g} mm narrower than surveyed"
 
     def joint_named(self, gap: float) -> str:
         """A joint of the study in a sentence."""

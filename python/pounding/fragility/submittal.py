@@ -66,7 +66,7 @@ def answers(one: Envelope, told: Submittal) -> list:
             shares.append(f"in a {study.joint_named(gap)} they touch in {count} of {study.samples} cases"
                           + (f" ({governs(where)})" if len(one.conditions) > 1 and count else ""))
         lines.append(f"{words.capitalize()} ({level:g} m/s²) {'; '.join(shares)}; so that it stays open in 84 % of the "
-                     f"cases it must be {study.width_told(needed)}" + (f" ({governs(place)})." if len(one.conditions) > 1 else "."))
+                     f"cases it {study.width_told(needed)}" + (f" ({governs(place)})." if len(one.conditions) > 1 else "."))
     return lines
 
 
@@ -77,12 +77,15 @@ def open_points(one: Envelope) -> list:
     lines += [f"Open: {wrong} members touch otherwise than the runs apart say."] if wrong else []
     worst = max(float(abs(each.outcomes.residual).max()) for each in one.analyses.values())
     lines += [f"Open: the energy balance of a member is off by {worst:.2g} of its largest term."] if worst > 1e-9 else []
-    return list(dict.fromkeys(lines))
+    alike = {}
+    for line in dict.fromkeys(lines):  # those of other soils and states differ in their numbers
+        alike.setdefault(re.sub(r"\d+(\.\d+)?", "", line), []).append(line)
+    return [some[0] + (f" (likewise in {len(some) - 1} others of soil and state)" if len(some) > 1 else "") for some in alike.values()]
 
 
 def spectra_rows(one: Envelope, told: Submittal) -> list:
     """Envelope over soils and states of the 84 % spectra, widened, with pounding and without, at both levels."""
-    found, rows = one.first.outcomes, []
+    study, found, rows = one.study, one.first.outcomes, []
     at = np.array([f for f in design_spectra.SHOWN if found.frequency[0] <= f <= found.frequency[-1]], float)
     for channel_at, channel in enumerate(one.first.channels):
         if channel not in one.first.main(found.spectra):
@@ -92,7 +95,7 @@ def spectra_rows(one: Envelope, told: Submittal) -> list:
                 high = one.spectra(gap, level)[:, channel_at, one.damping].max(0)
                 wide = np.exp(np.interp(np.log(at), np.log(found.frequency), np.log(np.maximum(widened(found.frequency, high), 1e-300))))
                 rows.append({"floor": found.channels[channel], "level [m/s²]": level,
-                             "joint": "apart" if gap is None else f"{1e3 * gap:g} mm",
+                             "joint": "apart" if gap is None else study.joint_named(gap).removeprefix("joint "),
                              **{f"{f:g} Hz": f"{value:.3g}" for f, value in zip(at, wide)}})
     return rows
 
@@ -168,7 +171,9 @@ def write(study: Study, analyses: dict, folder: Path) -> Path | None:
     missing += [f"Other {word} than the one given." for word, key in (("soils", "soil"), ("states of the concrete", "state"))
                 if len({condition.place[key] for condition in one.conditions}) == 1]
     joint = [row for row in one.joint_rows() if row["pga [m/s2]"] in (told.design, told.beyond)]
-    parts = [("The joint that is needed [m]", html_table("", *cells_of(joint), text=(0,))),
+    elevations = one.elevation_rows()
+    parts = [(f"The joint by elevation, at {one.level:g} m/s²", html_table("", *cells_of(elevations), text=(0, 1))),
+             ("The joint that is needed [m]", html_table("", *cells_of(joint), text=(0,))),
              (f"Floor spectra for design: 84 % of the cases, the envelope of soils and states, widened by 15 %, "
               f"{100 * one.first.outcomes.damping[one.damping]:g} % damping [m/s²]", html_table("", *cells_of(spectra), text=(0, 2))),
              *figure_parts(folder, one.draw_spectra(folder)),
