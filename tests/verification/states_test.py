@@ -201,6 +201,15 @@ class Soil(unittest.TestCase):
         self.assertIn(words, result.stderr)
 
 
+def with_factors():
+    Soil.setUpClass()
+    return Soil.block(Soil, "-block_soil_factor", 2, "-block_stiffness_factor", .5, "-block_legs_stiffness_factor", .8,
+                      "-block_damping_beta", 1e-4, "-block_legs_damping_factor", 1.5)
+
+
+ON_RANKS = {"factors on soil, structure and a group": with_factors}
+
+
 class Leaning(Meshed):
     """Forces at rest that turn with a column have no part in the factor on its stiffness."""
 
