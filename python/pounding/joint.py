@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from pounding import UserError
 from pounding.tables import write_csv
 
 TABLE = "joint_by_elevation.csv"
@@ -13,7 +14,7 @@ MOST_PLACES = 12  # elevations that are bands of their own where none are given
 ROUND_OFF = 1e-9  # of an elevation [m]
 
 
-class JointError(Exception):
+class JointError(UserError):
     """Bands or outcomes that no table can be made of: one line."""
 
 
@@ -28,7 +29,7 @@ def bands_of(places: np.ndarray) -> list:
     return [float(levels[0]), *between.tolist(), float(levels[-1])]
 
 
-def _bands(elevations, places: np.ndarray) -> list:
+def split(elevations, places: np.ndarray) -> list:
     """(from, to, pairs) of each band, and of what lies below the first and above the last where pairs do: none is lost. An
     elevation between two bands belongs to the upper one. Throws JointError."""
     edges = np.asarray(bands_of(places) if elevations is None else elevations, float)
@@ -69,7 +70,7 @@ def by_elevation(outcomes, elevations=None, members=None, built=None) -> list:
     ratio = np.where(gap > 0, closing / np.where(gap > 0, gap, 1.0), np.where(closing > 0, np.inf, 1.0))
     first = ratio.argmax(1)
     rows = []
-    bands = _bands(elevations, outcomes.pair_place)
+    bands = split(elevations, outcomes.pair_place)
     for number, contact in enumerate(outcomes.contacts):
         for low, high, inside in bands:
             pairs = np.flatnonzero(inside & (outcomes.pair_contact == number))

@@ -99,6 +99,7 @@ class Conditions(unittest.TestCase):
                                ("soils: upper: factors is unknown", {"soils": {"upper": {"factors": 2}}}),
                                ("soils: upper: factor: 0 is not above 0", {"soils": {"upper": {"factor": 0}}}),
                                ("is no list of named states", {"states": ["cracked"]}),
+                               ("between 100 and 120 m lies no pair", {"soils": None, "states": None, "elevations": [100, 120]}),
                                ("has other axes", {"soils": {"own": {"motions": {"y": STUDY["motions"]["x"]}}}})):
             with self.subTest(words):
                 done = self.fragility("--dry-run", status=1, **changes)

@@ -7,7 +7,9 @@ import json
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
-from pounding import UserError, finished
+import numpy as np
+
+from pounding import UserError, finished, joint
 from pounding.commands import called
 from pounding.study import alone_in, announcement, run_side_by_side, understood
 from pounding.tables import write_rows
@@ -29,12 +31,12 @@ def scene_options(study: Study, reduced: bool, folder: Path) -> dict:
     for axis, one in study.axes.items():
         kind = {"target": one.target} if one.target else {"record": one.records[0]}
         found |= {f"motion_{axis}_{key}": value for key, value in {**kind, **one.understood}.items()}
-    for name, joint in study.joints.items():
-        if joint.survey:
-            found[f"{name}_survey"] = joint.survey
+    for name, one in study.joints.items():
+        if one.survey:
+            found[f"{name}_survey"] = one.survey
             found[f"{name}_gap"] = "geometry"  # in place of that of the scene
-        if joint.field:
-            found |= {f"{name}_gap_deviation": str(joint.field[0]), f"{name}_gap_length": str(joint.field[1])}
+        if one.field:
+            found |= {f"{name}_gap_deviation": str(one.field[0]), f"{name}_gap_length": str(one.field[1])}
     if reduced:
         found |= study.reduction
         for structure in [name.removesuffix("_model") for name, value in found.items()
@@ -69,6 +71,7 @@ class Scouted:
     contacts: list
     equipment: list = field(default_factory=list)  # see equipment.of_run
     doubts: list = field(default_factory=list)  # that spectra go beyond modes or mesh
+    heights: list = field(default_factory=list)  # elevations of the pairs of contacts [m]
 
 
 class Runner:
@@ -88,6 +91,14 @@ class Runner:
             with alone_in(folder / "runs", called("run/fragility"), wait=True):  # parts of a study look once
                 self._find_base(reduced, options, key_of(study, options, design), only_look)
         check_names(study, self.scouted[True].probes, self.scouted[True].contacts)
+        self._check_elevations(self.scouted[True].heights)
+
+    def _check_elevations(self, heights: list) -> None:
+        if heights and self.study.elevations:
+            try:
+                joint.split(self.study.elevations, np.array([(0, 0, z) for z in heights]))
+            except joint.JointError as error:
+                raise UserError(f"{self.study.path}: {error}") from error
 
     def _find_base(self, reduced: bool, options: dict, key: str, only_look: bool) -> None:
         """The folder of the members whose scene's files are those of today; a new one where there is none."""
@@ -124,11 +135,13 @@ class Runner:
             raise UserError(f"{self.study.path}: {failure}")
         found = load(place)
         summary, items = found.summary, equipment.of_run(found)
+        with open(place / "joint_pairs.csv", newline="", encoding="utf-8") as file:
+            heights = sorted({float(row["z"]) for row in csv.DictReader(file)})
         clear(place)
         own = str(self.scene(reduced).absolute())
         inputs = {path: found for path, found in finished.inputs_of(summary).items() if path != own}
         doubts = [line for line in summary["warnings"] if "its modes end at" in line or "its mesh carries waves" in line]
-        return Scouted(inputs, list(summary.get("probes", {})), list(summary.get("contacts", {})), items, doubts)
+        return Scouted(inputs, list(summary.get("probes", {})), list(summary.get("contacts", {})), items, doubts, heights)
 
     def _words(self, member, reduced: bool) -> list:
         words = ["-options_file", str(self.scene(reduced).absolute())]
