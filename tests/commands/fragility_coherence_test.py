@@ -1,16 +1,11 @@
 """run/fragility with a block `coherence`: each sample's records move the mats, in ensembles as in single runs, and mistakes."""
 import csv
-import os
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 import program
 import two_buildings
-import yaml
-from fragility_conditions_test import STUDY
+from study_command import StudyCommand
 
 PROCESSORS = 2  # it starts runs
 
@@ -18,20 +13,9 @@ MATS = {"west": {"centre": "3,2,0", "sides": "6,4", "groups": "left"}, "east": {
 COHERENCE = {"mats": MATS, "model": {"luco_wong": {"gamma": 0.3, "vs": 100}}}
 
 
-class Coherence(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="pounding-")
-        self.addCleanup(folder.cleanup)
-        self.place = Path(folder.name)
-
-    def fragility(self, *words, status=0, **changes):
-        told = {**{key: value for key, value in STUDY.items() if key not in ("soils", "states")}, "coherence": COHERENCE, **changes}
-        (self.place / "study.yaml").write_text(yaml.safe_dump(told, sort_keys=False))
-        done = subprocess.run([os.path.join(program.SOURCE, "run", "fragility"), "study.yaml", *words, "--out", "out"],
-                              cwd=self.place, capture_output=True, text=True, timeout=600, check=False,
-                              env={**os.environ, "POUNDING_BUILD": os.path.abspath(program.BUILD)})
-        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
-        return done
+class Coherence(StudyCommand):
+    def fragility(self, *words, **changes):
+        return super().fragility(*words, **{"soils": None, "states": None, "coherence": COHERENCE, **changes})
 
     @program.long
     def test_members_move_their_mats_and_are_single_runs(self):

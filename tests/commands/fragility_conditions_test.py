@@ -1,10 +1,8 @@
 """run/fragility over soils and states: each pair of them, the envelope and the conditions that govern it, mistakes."""
 import csv
 import os
-import subprocess
 import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 import program
@@ -12,25 +10,10 @@ import two_buildings
 import yaml
 from pounding import UserError, fragility
 from pounding.fragility import design, runs, study
+from study_command import STUDY, StudyCommand
 
 PROCESSORS = 2  # it starts runs
 
-ON_SOIL = {"left_clamp": "none", "left_soil_mat": "base", "left_soil_vs": 150, "left_soil_density": 1900,
-           "left_soil_poisson": 0.33, "left_soil_size": "6,4"}
-STUDY = {
-    "scene": str(two_buildings.SCENE),
-    "options": {**two_buildings.SHORT, **ON_SOIL, "probes": "left_roof", "output_interval": 2e-4},
-    "reduction": {name: {"model": "modal", "modal_vectors": 8} for name in ("left", "right")},
-    "motions": {"correlation": 0.9, "x": {"target": str(two_buildings.FOLDER / "ground.csv"), "seeds": [1, 2],
-                                          "options": {"duration": 6, "envelope": "0.3,4"}}},
-    "levels": [4.0],
-    "gaps": [0.01],
-    "joints": {"floor1": {}, "floor2": {}},
-    "soils": {"best": {}, "upper": {"factor": 2.25}},
-    "states": {"sound": {}, "cracked": {"left": {"columns": {"stiffness_factor": 0.5}}}},
-    "frequencies": [1, 2, 5, 10, 20, 50, 100],
-    "dampings": [0.05],
-}
 BY_HAND = {"soil": {"best": {}, "upper": {"left_soil_vs": 225}}, "state": {"sound": {}, "cracked": {"left_columns_stiffness_factor": 0.5}}}
 
 
@@ -39,20 +22,7 @@ def rows_of(path):
         return list(csv.DictReader(file))
 
 
-class Conditions(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="pounding-")
-        self.addCleanup(folder.cleanup)
-        self.place = Path(folder.name)
-
-    def fragility(self, *words, status=0, **changes):
-        (self.place / "study.yaml").write_text(yaml.safe_dump({**STUDY, **changes}, sort_keys=False))
-        done = subprocess.run([os.path.join(program.SOURCE, "run", "fragility"), "study.yaml", *words, "--out", "out"],
-                              cwd=self.place, capture_output=True, text=True, timeout=600, check=False,
-                              env={**os.environ, "POUNDING_BUILD": os.path.abspath(program.BUILD)})
-        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
-        return done
-
+class Conditions(StudyCommand):
     @program.long
     def test_envelope_is_the_largest_of_single_runs(self):
         said = self.fragility("--runner", "ensemble").stdout
@@ -107,13 +77,11 @@ class Conditions(unittest.TestCase):
                 self.assertIn(words, done.stderr)
 
 
-class Surveyed(unittest.TestCase):
+class Surveyed(StudyCommand):
     """Joints as they were measured: gaps of the study are changes of the survey, made by its static closing."""
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="pounding-")
-        self.addCleanup(folder.cleanup)
-        self.place = Path(folder.name)
+        super().setUp()
         (self.place / "survey.csv").write_text("x,y,z,gap\n6,0,2.8,0.012\n6,4,2.8,0.009\n6,0,3.2,0.012\n6,4,3.2,0.009\n")
 
     def study(self, **joint):

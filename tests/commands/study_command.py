@@ -1,0 +1,44 @@
+"""run/fragility over the two small buildings, the left one on soil, for tests of soils, states, surveys and coherence."""
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import program
+import two_buildings
+import yaml
+
+ON_SOIL = {"left_clamp": "none", "left_soil_mat": "base", "left_soil_vs": 150, "left_soil_density": 1900,
+           "left_soil_poisson": 0.33, "left_soil_size": "6,4"}
+STUDY = {
+    "scene": str(two_buildings.SCENE),
+    "options": {**two_buildings.SHORT, **ON_SOIL, "probes": "left_roof", "output_interval": 2e-4},
+    "reduction": {name: {"model": "modal", "modal_vectors": 8} for name in ("left", "right")},
+    "motions": {"correlation": 0.9, "x": {"target": str(two_buildings.FOLDER / "ground.csv"), "seeds": [1, 2],
+                                          "options": {"duration": 6, "envelope": "0.3,4"}}},
+    "levels": [4.0],
+    "gaps": [0.01],
+    "joints": {"floor1": {}, "floor2": {}},
+    "soils": {"best": {}, "upper": {"factor": 2.25}},
+    "states": {"sound": {}, "cracked": {"left": {"columns": {"stiffness_factor": 0.5}}}},
+    "frequencies": [1, 2, 5, 10, 20, 50, 100],
+    "dampings": [0.05],
+}
+
+
+class StudyCommand(unittest.TestCase):
+    """The command in a folder of its own, `place`, over STUDY with changes: `fragility` gives how it ended."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="pounding-")
+        self.addCleanup(folder.cleanup)
+        self.place = Path(folder.name)
+
+    def fragility(self, *words, status=0, **changes):
+        (self.place / "study.yaml").write_text(yaml.safe_dump({**STUDY, **changes}, sort_keys=False))
+        done = subprocess.run([os.path.join(program.SOURCE, "run", "fragility"), "study.yaml", *words, "--out", "out"],
+                              cwd=self.place, capture_output=True, text=True, timeout=600, check=False,
+                              env={**os.environ, "POUNDING_BUILD": os.path.abspath(program.BUILD)})
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done
