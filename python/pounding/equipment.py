@@ -6,17 +6,11 @@ spectra of their floors, and those inside their cabinets."""
 import numpy as np
 
 from .fragility import widened
+from .log_interpolation import log_interpolated
 
 CABINET = " cabinet"  # behind an item's name, for a probe in spectra.csv
 RIGID = 33.0  # Hz: oscillators no softer feel the peak of their floor
 SIXTH = 2 ** (1 / 6)  # of an octave
-
-
-def log_interpolated(at, frequency, values) -> np.ndarray:
-    """Values at some frequencies, linear in logarithms, constant beyond the ends."""
-    with np.errstate(divide="ignore"):
-        logs = np.log(np.maximum(values, 1e-300))
-    return np.exp(np.interp(np.log(at), np.log(frequency), logs))
 
 
 def counting(frequency: np.ndarray, band: list | None) -> np.ndarray:

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from pounding import UserError
+from .log_interpolation import log_interpolated
 from .runs import program as program_of
 
 G = 9.80665  # [m/s2]
@@ -200,8 +201,7 @@ class Target:
             piece = np.minimum(np.searchsorted([row[0] for row in rows], frequency), len(rows) - 1)
             _, value, own, exponent = np.array(rows)[piece].T
             return scale * value * (frequency / own) ** exponent
-        f, values = np.log(np.array(self.points)).T
-        return scale * np.exp(np.interp(np.log(frequency), f, values))
+        return scale * log_interpolated(frequency, *np.array(self.points).T)
 
 
 def read_target(name: str, folder: Path, power: bool = False) -> Target:

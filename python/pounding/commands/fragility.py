@@ -75,8 +75,7 @@ def run(options: argparse.Namespace) -> int:
     if options.samples:
         found.samples = max(2, options.samples)
     folder = options.out or found.output
-    if options.pdf:
-        require_browser("--pdf")
+    options.browser = require_browser("--pdf") if options.pdf else None
     require_room(options.ranks, options.jobs)
     program()
     with alone(folder, options):
@@ -90,7 +89,8 @@ def carry_out(found: study.Study, folder: Path, options: argparse.Namespace) -> 
     if not in_conditions:
         one = members_of(found, folder, options)
         if one:
-            submitted(found, {conditions.Condition(conditions.ALONE, conditions.ALONE, found): one}, folder, options)
+            alone_there = conditions.Condition(conditions.ALONE, conditions.ALONE, found)
+            submitted(envelope.Envelope(found, {alone_there: one}, folder), options)
         return 0
     told, analyses = [], {}
     for number, condition in enumerate(in_conditions, 1):
@@ -108,20 +108,21 @@ def carry_out(found: study.Study, folder: Path, options: argparse.Namespace) -> 
         if one:
             analyses[condition] = one
     if analyses:
-        page, text = envelope.write(found, analyses, folder)
+        whole = envelope.Envelope(found, analyses, folder)
+        page, text = envelope.write(whole)
         print("\n" + text)
         print(f"see {page}")
-        submitted(found, analyses, folder, options)
+        submitted(whole, options)
     return 0
 
 
-def submitted(found: study.Study, analyses: dict, folder: Path, options: argparse.Namespace) -> None:
+def submitted(one: envelope.Envelope, options: argparse.Namespace) -> None:
     """Writes the submittal where the study has one, and prints it on paper where that is asked for."""
-    page = submittal.write(found, analyses, folder)
+    page = submittal.write(one)
     if page:
         print(f"see {page}")
-    if options.pdf:
-        print(f"see {print_pdf(page or folder / 'fragility.html', require_browser('--pdf'), subprocess.run)}")
+    if options.browser:
+        print(f"see {print_pdf(page or one.folder / 'fragility.html', options.browser, subprocess.run)}")
 
 
 def members_of(found: study.Study, folder: Path, options: argparse.Namespace,

@@ -50,11 +50,11 @@ def make(study, made, step: float) -> None:
     """Makes the supports' motions of all samples in the folder of the study's motions (`made`), where they are not there yet, and
     gives them to the study. Throws UserError."""
     found: mats.Coherence = study.coherence
-    count = len(next(iter(study.axes.values())).records or next(iter(study.axes.values())).seeds)
+    count = study.motion_count
     told = [found.told, found.model.name, [[axis, one.ratio] for axis, one in study.axes.items()]]
     factors, names, files = None, None, []
     for number in range(count):
-        motion = {axis: (one.records or one.seeds)[number] for axis, one in study.axes.items()}
+        motion = {axis: one.motions[number] for axis, one in study.axes.items()}
         key = hashlib.sha256(str([told, number, [made.name(*pair) for pair in motion.items()]]).encode()).hexdigest()[:12]
         own = {mat.name: (made.folder / f"{file_name(mat.name)}-{key}.csv").absolute() for mat in found.mats}
         files.append(own)

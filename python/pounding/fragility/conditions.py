@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass, replace
 
 from pounding import UserError
-from .study import Axis, Study, given_options, read_motions
+from .study import Study, given_options, read_motions
 from .study_file import Reader
 
 NAME = re.compile(r"\w[\w-]*")
@@ -71,14 +71,9 @@ def _soil(reader: Reader, name: str, block: dict, study: Study) -> Soil:
     if "motions" not in one.values:
         return Soil(options, {})
     axes, *_, count = read_motions(one)
-    if list(axes) != list(study.axes) or count != number_of_motions(study.axes):
+    if list(axes) != list(study.axes) or count != study.motion_count:
         one.fail("motions", "has other axes, or another number of motions, than the study")
     return Soil(options, axes)
-
-
-def number_of_motions(axes: dict) -> int:
-    one: Axis = next(iter(axes.values()))
-    return len(one.records or one.seeds)
 
 
 def find(study: Study) -> list:

@@ -54,14 +54,14 @@ def motion_columns(study: Study) -> list:
 def motion_values(study: Study, motion: int, level: float) -> tuple:
     values = []
     for one in study.axes.values():
-        values += [str((one.records or one.seeds)[motion]), text_of(level * one.ratio)]
+        values += [str(one.motions[motion]), text_of(level * one.ratio)]
     return tuple(values) + (study.moved.values(motion, text_of(level)) if study.moved else ())
 
 
 def build(study: Study) -> Design:
     """All members, sample by sample, so that the first samples are whole where not all have been run. Throws UserError
     where a drawn value cannot be."""
-    count = len(next(iter(study.axes.values())).records or next(iter(study.axes.values())).seeds)
+    count = study.motion_count
     drawn = latin_hypercube(study.variables, study.samples, study.seed)
     names = [one.name for one in study.variables]
     for place, name in enumerate(names):

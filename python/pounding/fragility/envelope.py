@@ -1,5 +1,6 @@
 """The answer of a study over all of its soils and states: the largest of each number, and the condition that governs it."""
 
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -22,10 +23,10 @@ SHOWN = (5.0, 20.0, 100.0)  # frequencies of the sensitivities unless the study 
 
 class Envelope:
     """`analyses`: Condition -> Analysis of all of its members; the first condition is the one that others are seen
-    beside."""
+    beside. Rows and figures of several pages are made once; `folder`: of the study, where the figures go."""
 
-    def __init__(self, study: Study, analyses: dict):
-        self.study, self.analyses = study, analyses
+    def __init__(self, study: Study, analyses: dict, folder: Path):
+        self.study, self.analyses, self.folder = study, analyses, folder
         self.conditions: list[Condition] = list(analyses)
         self.first: Analysis = analyses[self.conditions[0]]
         self.gap, self.level, self.channel, self.damping = figures.shown(self.first)
@@ -44,6 +45,7 @@ class Envelope:
 
     # Tables.
 
+    @cached_property
     def joint_rows(self) -> list:
         rows = []
         for name in [*self.study.joints, "any"]:
@@ -101,11 +103,16 @@ class Envelope:
         cell = one.of(self.gap if gap is None else gap, self.level)
         return moments(one.outcomes.spectra[cell][:, self.channel, self.damping]).high
 
+    @cached_property
+    def elevation_runs(self) -> dict:
+        """Condition -> rows of the joint by elevation, see report.elevation_runs."""
+        return {condition: report.elevation_runs(one) for condition, one in self.analyses.items()}
+
     def elevation_rows(self) -> list:
         """Of each contact and band of elevation, with pounding and apart, the soil and state in which it closes most: least
         gap as built, closing, their ratio and margin."""
-        each = [(condition, run, row) for condition, one in self.analyses.items()
-                for run, rows in report.elevation_runs(one).items() for row in rows]
+        each = [(condition, run, row) for condition, runs in self.elevation_runs.items()
+                for run, rows in runs.items() for row in rows]
         most = {}
         for condition, run, row in each:
             key = run, row["contact"], row["from [m]"]
@@ -129,6 +136,7 @@ class Envelope:
 
     # What moves the answer.
 
+    @cached_property
     def sensitivity_rows(self) -> list:
         """Range of the needed joint (84 %, strongest level) and of the 84 % spectrum that figures show at some
         frequencies, by what moves it alone: soils in the first state, states on the first soil, the width of the joint, and
@@ -158,7 +166,9 @@ class Envelope:
 
     # Figures.
 
-    def draw_sensitivity(self, rows: list, folder: Path) -> list:
+    @cached_property
+    def sensitivity_figure(self) -> list:
+        rows = self.sensitivity_rows
         names = list(dict.fromkeys(row["quantity"] for row in rows))
         figure, panels = plt.subplots(1, len(names), figsize=(1.35 * WIDTH, 2.6), sharey=False, squeeze=False)
         for axes, name in zip(panels[0], names):
@@ -169,13 +179,14 @@ class Envelope:
             axes.axvline(scale * mine[0]["reference"], color=WITH, lw=1.5)
             axes.set(title=name.rsplit(" [", 1)[0], xlabel="mm" if scale > 1 else "m/s²")
         first = self.conditions[0].title
-        return save(figure, folder, "sensitivity.png", "How far each thing moves the answer alone",
+        return save(figure, self.folder, "sensitivity.png", "How far each thing moves the answer alone",
                     f"Bars: from the least to the largest value as soil, state or joint are changed alone, and from 16 to 84 % of "
                     f"the samples (motion). Line: {first}. Joint: wide enough for 84 % of the samples at {self.study.levels[-1]:g} "
                     f"m/s²; spectra: 84 %, {100 * self.first.outcomes.damping[self.damping]:g} % damping, joint of {1e3 * self.gap:g} mm, "
                     f"{self.level:g} m/s².", columns=[[axes] for axes in panels[0]])
 
-    def draw_spectra(self, folder: Path) -> list:
+    @cached_property
+    def spectra_figure(self) -> list:
         found = self.first.outcomes
         figure, axes = plt.subplots(figsize=(WIDTH, 3.8))
         high = [self.high(one) for one in self.analyses.values()]
@@ -188,13 +199,13 @@ class Envelope:
                  title=f"{found.channels[self.channel]}, joint {1e3 * self.gap:g} mm, {self.level / 9.81:.2g} g")
         axes.legend(loc="upper left", fontsize=7)
         g_axis(axes)
-        return save(figure, folder, "envelope.png", "Floor spectra by soil and state",
+        return save(figure, self.folder, "envelope.png", "Floor spectra by soil and state",
                     f"84 % of {self.study.samples} members in each condition, {100 * found.damping[self.damping]:g} % damping, and "
                     "their envelope with its peaks widened.")
 
-    def told(self, joint: list, sensitivity: list) -> list:
+    def told(self) -> list:
         lines = []
-        for row in joint:
+        for row in self.joint_rows:
             if row["joint"] == "any" and row["exceeded in"] == "5 %":
                 lines.append(f"So that no joint closes in 95 % of the cases at {row['pga [m/s2]']:g} m/s2 it "
                              f"{self.study.width_told(row['needed [m]'])}; {governs(row)}.")
@@ -202,7 +213,7 @@ class Envelope:
             share, place = self.governing([one.hits(CONTACT, gap)[:, -1].mean() for one in self.analyses.values()])
             lines.append(f"In a {self.study.joint_named(gap)} the buildings touch at {self.study.levels[-1]:g} m/s2 in "
                          f"{100 * share:.3g} % of the cases at most; {governs(place)}.")
-        moved = max((row for row in sensitivity if row["quantity"] == "joint needed [m]" and row["moved by"] != "motion"),
+        moved = max((row for row in self.sensitivity_rows if row["quantity"] == "joint needed [m]" and row["moved by"] != "motion"),
                     key=lambda row: row["range over reference"], default=None)
         if moved:
             lines.append(f"The {moved['moved by']} moves the joint needed by {100 * moved['range over reference']:.3g} % "
@@ -215,21 +226,21 @@ def governs(place: dict) -> str:
     return f"{' and '.join(named)} govern{'s' if len(named) == 1 else ''}"
 
 
-def write(study: Study, analyses: dict, folder: Path) -> tuple:
-    """Writes tables, figures and the page of the envelope; returns the page's path and what the terminal shows."""
-    one = Envelope(study, analyses)
+def write(one: Envelope) -> tuple:
+    """Writes tables and the page of the envelope; returns the page's path and what the terminal shows."""
+    study, folder = one.study, one.folder
     place = folder / "spectra"
     place.mkdir(parents=True, exist_ok=True)
     for gap, level in one.first.cells:
         write_csv(place / f"gap-{gap_text(gap)}_pga-{level:g}.csv", one.spectra_rows(gap, level))
-    tables = {"joint": one.joint_rows(), "probability": one.probability_rows(), "conditions": one.condition_rows(),
-              "sensitivity": one.sensitivity_rows(), "hclpf": one.hclpf_rows()}
+    tables = {"joint": one.joint_rows, "probability": one.probability_rows(), "conditions": one.condition_rows(),
+              "sensitivity": one.sensitivity_rows, "hclpf": one.hclpf_rows()}
     for name, rows in tables.items():
         write_csv(folder / f"{name}.csv", rows)
-    joint.write(folder, {f"{run}, {condition.folder}": rows for condition, analysis in analyses.items()
-                         for run, rows in report.elevation_runs(analysis).items()})
-    lines = one.told(tables["joint"], tables["sensitivity"])
-    pages = one.draw_sensitivity(tables["sensitivity"], folder) + one.draw_spectra(folder)
+    joint.write(folder, {f"{run}, {condition.folder}": rows for condition, runs in one.elevation_runs.items()
+                         for run, rows in runs.items()})
+    lines = one.told()
+    pages = one.sensitivity_figure + one.spectra_figure
     parts = [("Joint that would be needed [m]", tables["joint"]), ("Each soil and state", tables["conditions"]),
              ("What moves the answer", tables["sensitivity"]), ("Largest probability of each event", tables["probability"]),
              ("Capacity of high confidence and low probability of failure (HCLPF)", tables["hclpf"])]

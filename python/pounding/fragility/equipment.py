@@ -5,8 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pounding.equipment import SIXTH, counting, log_interpolated, ratio_of
+from pounding.equipment import SIXTH, counting, ratio_of
 from pounding.fragility import widened
+from pounding.log_interpolation import log_interpolated
 from pounding.results import Result
 
 

@@ -138,7 +138,7 @@ def check(study: Study, folder: Path, jobs: int, write: bool = True, kept: Path 
     with alone_in(kept, called("run/fragility"), wait=True):  # parts of a study make them once
         if study.wanted:
             choose_seeds(study, made)
-        pairs = [(name, motion) for name, axis in study.axes.items() for motion in axis.records or axis.seeds]
+        pairs = [(name, motion) for name, axis in study.axes.items() for motion in axis.motions]
         made.make(pairs)
         if study.coherence:
             coherence.make(study, made, STEP)
@@ -168,7 +168,7 @@ def judged(study: Study, folder: Path, jobs: int, write: bool = True, kept: Path
     if study.rules is None:
         return []
     made, level = Motions(study, kept or folder / "motions", jobs), study.levels[-1]
-    lists = {name: axis.records or axis.seeds for name, axis in study.axes.items()}
+    lists = {name: axis.motions for name, axis in study.axes.items()}
     motions = [Motion(", ".join(Path(str(lists[name][k])).name for name in lists),
                       {name: Signal(f"{name} {Path(str(lists[name][k])).name}", STEP, level * axis.ratio * made.signal(name, lists[name][k]))
                        for name, axis in study.axes.items()}) for k in range(len(next(iter(lists.values()))))]

@@ -25,7 +25,7 @@ def write_design(analysis: Analysis, folder: Path) -> None:
     names = [one.name for one in analysis.study.variables]
     head = ["sample", *(f"motion {name}" for name in axes),
             *(f"{name} deviation [m]" if name.endswith("_gap") else name for name in names)]
-    write_rows(folder / "design.csv", head, ([sample, *((one.records or one.seeds)[motion] for one in axes.values()),
+    write_rows(folder / "design.csv", head, ([sample, *(one.motions[motion] for one in axes.values()),
                                               *(f"{value:.9g}" for value in analysis.design.samples[sample])]
                                              for sample, motion in enumerate(analysis.design.motions)))
 

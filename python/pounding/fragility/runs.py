@@ -135,8 +135,7 @@ class Runner:
             raise UserError(f"{self.study.path}: {failure}")
         found = load(place)
         summary, items = found.summary, equipment.of_run(found)
-        with open(place / "joint_pairs.csv", newline="", encoding="utf-8") as file:
-            heights = sorted({float(row["z"]) for row in csv.DictReader(file)})
+        heights = np.unique(found.table("joint_pairs")["z"]).tolist()
         clear(place)
         own = str(self.scene(reduced).absolute())
         inputs = {path: found for path, found in finished.inputs_of(summary).items() if path != own}

@@ -43,6 +43,11 @@ class Axis:
     options: tuple = ()
 
     @property
+    def motions(self) -> tuple:
+        """Its records, or the seeds of its synthetic motions."""
+        return self.records or self.seeds
+
+    @property
     def understood(self) -> dict:
         """Options by which the motion is read or made, whatever the scene says of its own."""
         return {**(SYNTHETIC if self.target else RECORDED), **dict(self.options)}
@@ -127,6 +132,10 @@ class Study:
     elevations: list | None = None  # between bands of the table of the joint [m]; None: those that suit its pairs
 
     @property
+    def motion_count(self) -> int:
+        return len(next(iter(self.axes.values())).motions)
+
+    @property
     def is_surveyed(self) -> bool:
         return any(joint.survey for joint in self.joints.values())
 
@@ -202,7 +211,7 @@ def read_motions(reader: Reader) -> tuple:
     axes = {name: _axis(motions, name) for name in DIRECTIONS if name in motions.values}
     if not axes:
         raise UserError(f"{reader.path}: motions has no axis x, y or z")
-    counts = {name: len(axis.records or axis.seeds) for name, axis in axes.items() if axis.records or axis.seeds}
+    counts = {name: len(axis.motions) for name, axis in axes.items() if axis.motions}
     wanted = motions.whole("choose", 0, 0)
     if wanted and counts:
         motions.fail("choose", "goes with targets without seeds, from which it takes the first independent ones")

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from pounding.finished import digest
-from pounding.fragility import binomial_interval, widened
+from pounding.fragility import binomial_interval
 from pounding.plot import design_spectra
 from pounding.plot.markup import answer_box, figure_parts, folded, html_table, paragraphs, write_page
 from pounding.tables import cells_of, write_csv
@@ -87,16 +87,15 @@ def spectra_rows(one: Envelope, told: Submittal) -> list:
     """Envelope over soils and states of the 84 % spectra, widened, with pounding and without, at both levels."""
     study, found, rows = one.study, one.first.outcomes, []
     at = np.array([f for f in design_spectra.SHOWN if found.frequency[0] <= f <= found.frequency[-1]], float)
-    for channel_at, channel in enumerate(one.first.channels):
-        if channel not in one.first.main(found.spectra):
-            continue
-        for level in dict.fromkeys((told.design, told.beyond)):
-            for gap in (one.gap, None):
-                high = one.spectra(gap, level)[:, channel_at, one.damping].max(0)
-                wide = np.exp(np.interp(np.log(at), np.log(found.frequency), np.log(np.maximum(widened(found.frequency, high), 1e-300))))
-                rows.append({"floor": found.channels[channel], "level [m/s²]": level,
-                             "joint": "apart" if gap is None else study.joint_named(gap).removeprefix("joint "),
-                             **{f"{f:g} Hz": f"{value:.3g}" for f, value in zip(at, wide)}})
+    main = one.first.main(found.spectra)
+    high = {(level, gap): one.spectra(gap, level)[:, :, one.damping].max(0)
+            for level in dict.fromkeys((told.design, told.beyond)) for gap in (one.gap, None)}
+    for place, channel in enumerate(one.first.channels):
+        for (level, gap), spectra in high.items() if channel in main else ():
+            wide = design_spectra.design_spectrum(found.frequency, spectra[place], at)
+            rows.append({"floor": found.channels[channel], "level [m/s²]": level,
+                         "joint": "apart" if gap is None else study.joint_named(gap).removeprefix("joint "),
+                         **{f"{f:g} Hz": f"{value:.3g}" for f, value in zip(at, wide)}})
     return rows
 
 
@@ -120,7 +119,7 @@ def assumptions(one: Envelope) -> list:
     """Rows of subject and assumption, from the options of the study and its scene."""
     study = one.study
     options = {**given_options(study.scene), **study.options, **study.reduction}
-    motions = [f"{name}: {len(axis.records or axis.seeds)} {'records' if axis.records else f'synthetic motions to {Path(axis.target).name}'}"
+    motions = [f"{name}: {len(axis.motions)} {'records' if axis.records else f'synthetic motions to {Path(axis.target).name}'}"
                for name, axis in study.axes.items()]
     damping = sorted(f"{name}: {value}" for name, value in options.items() if re.fullmatch(r"\w+_(damping_(uniform|ratio|alpha|beta)|modal_damping)", name))
     modes = sorted(f"{name}: {value}" for name, value in options.items() if name.endswith(("modal_vectors", "modal_cutoff")))
@@ -151,12 +150,12 @@ def verification_rows(options: dict, page: Path) -> list:
             if len(row) == 5 and row[0] in names]
 
 
-def write(study: Study, analyses: dict, folder: Path) -> Path | None:
+def write(one: Envelope) -> Path | None:
     """Writes submittal.html beside the study's page, and its tables as CSV; None of a study without a submittal."""
+    study, folder, analyses = one.study, one.folder, one.analyses
     told = read(study)
     if told is None:
         return None
-    one = Envelope(study, analyses)
     spectra, items = spectra_rows(one, told), equipment_rows(one, told)
     for name, rows in (("submittal_spectra", spectra), ("submittal_equipment", items)):
         if rows:
@@ -170,15 +169,14 @@ def write(study: Study, analyses: dict, folder: Path) -> Path | None:
     missing = [] if study.coherence else ["Motions that differ from mat to mat (coherence)."]
     missing += [f"Other {word} than the one given." for word, key in (("soils", "soil"), ("states of the concrete", "state"))
                 if len({condition.place[key] for condition in one.conditions}) == 1]
-    joint = [row for row in one.joint_rows() if row["pga [m/s2]"] in (told.design, told.beyond)]
-    elevations = one.elevation_rows()
-    parts = [(f"The joint by elevation, at {one.level:g} m/s²", html_table("", *cells_of(elevations), text=(0, 1))),
+    joint = [row for row in one.joint_rows if row["pga [m/s2]"] in (told.design, told.beyond)]
+    parts = [(f"The joint by elevation, at {one.level:g} m/s²", html_table("", *cells_of(one.elevation_rows()), text=(0, 1))),
              ("The joint that is needed [m]", html_table("", *cells_of(joint), text=(0,))),
              (f"Floor spectra for design: 84 % of the cases, the envelope of soils and states, widened by 15 %, "
               f"{100 * one.first.outcomes.damping[one.damping]:g} % damping [m/s²]", html_table("", *cells_of(spectra), text=(0, 2))),
-             *figure_parts(folder, one.draw_spectra(folder)),
+             *figure_parts(folder, one.spectra_figure),
              ("Equipment that fails: cases on the worst soil and in the worst state", html_table("", *cells_of(items), text=(0,))),
-             *figure_parts(folder, one.draw_sensitivity(one.sensitivity_rows(), folder)),
+             *figure_parts(folder, one.sensitivity_figure),
              ("Assumptions", html_table("", ["subject", "assumption"], assumptions(one), text=(0, 1))),
              ("Not covered", paragraphs([*told.not_covered, *missing])),
              ("Verification of what is used", html_table("", *cells_of(verification_rows(options, page)), text=(0, 1, 2))),

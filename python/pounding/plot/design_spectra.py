@@ -6,6 +6,7 @@ import numpy as np
 
 from pounding.tables import write_csv
 from pounding.fragility import widened
+from pounding.log_interpolation import log_interpolated
 from pounding.results import DIRECTIONS
 from .markup import folded, html_table, paragraphs
 
@@ -27,8 +28,7 @@ def frequencies(low: float, high: float) -> np.ndarray:
 
 def design_spectrum(frequency: np.ndarray, spectrum: np.ndarray, at: np.ndarray) -> np.ndarray:
     """The spectrum [m/s2] with its peaks widened, at frequencies `at`: straight lines between logarithms."""
-    broad = widened(frequency, spectrum, BROADENING)
-    return np.exp(np.interp(np.log(at), np.log(frequency), np.log(np.maximum(broad, 1e-300))))
+    return log_interpolated(at, frequency, widened(frequency, spectrum, BROADENING))
 
 
 def rows_of(runs: dict, probes: list, damping: float) -> list:
