@@ -7,21 +7,13 @@
 #include <utility>
 
 #include "common/error.h"
+#include "common/series.h"
 #include "motion/records/record_text.h"
 
 namespace pounding {
 namespace {
 
 using Kind = LoadFunction::Kind;
-
-double interpolated(const std::vector<double>& times, const std::vector<double>& values, double t) {
-  const auto after = std::ranges::upper_bound(times, t);
-  if (after == times.begin()) return values.front();
-  if (after == times.end()) return values.back();
-  const auto i = static_cast<std::size_t>(after - times.begin());
-  const double share = (t - times[i - 1]) / (times[i] - times[i - 1]);
-  return values[i - 1] + share * (values[i] - values[i - 1]);
-}
 
 double history_at(const LoadFunction& f, double t) {
   switch (f.kind) {

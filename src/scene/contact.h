@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/series.h"
 #include "common/types.h"
 #include "scene/filler.h"
 #include "scene/option_row.h"
@@ -35,6 +36,16 @@ struct GapPatch {
   }
 };
 
+/// Closing of a joint by elevation, straight between points that rise and even beyond them.
+struct StaticClosing {
+  std::vector<double> elevations;  ///< [m]; empty: none
+  std::vector<double> closings;    ///< [m]
+
+  double at(double elevation) const {
+    return elevations.empty() ? 0 : interpolated(elevations, closings, elevation);
+  }
+};
+
 /// Initial gap: from the geometry, one number, two values (linear along the first tangent axis) or
 /// four (the corners of the face, going round). Tangent axes: the global axes other than the one
 /// closest to the contact normal, in the order x, y, z. Corners: (min t1, min t2), (max t1, min
@@ -46,14 +57,12 @@ struct InitialGap {
   int seed = 1;                   ///< of that part
   std::vector<GapPatch> patches;  ///< of two that share a place the last counts
   std::string survey;             ///< file of gaps measured, in place of `values`; empty: none
-  /// Points of elevation and closing by which the joint is narrower before the run, without
-  /// patches: elevations rise, straight between them and even beyond [m].
-  std::vector<std::array<double, 2>> static_closing;
+  /// Closing by which the joint is narrower before the run, without patches.
+  StaticClosing static_closing;
 
   bool has_deviation() const { return deviation > 0; }
   /// Whether the gap is that of the meshes.
   bool is_of_meshes() const { return values.empty() && survey.empty(); }
-  double closing_at(double elevation) const;
 
   static void describe(auto& option) {
     using namespace option_words;

@@ -97,9 +97,8 @@ constexpr std::string_view stop_dashpot = "<contact>_dashpot";
 
 constexpr std::string_view closing_option = "<contact>_static_closing";
 
-std::vector<std::array<double, 2>> read_static_closing(OptionReader& options,
-                                                       const OptionReader::Names& names) {
-  std::vector<std::array<double, 2>> points;
+StaticClosing read_static_closing(OptionReader& options, const OptionReader::Names& names) {
+  StaticClosing points;
   const std::string text = options.path(closing_option, names);
   for (const std::string& item : text.empty() ? std::vector<std::string>{} : split(text, ',')) {
     const std::vector<std::string> words = split(item, ':');
@@ -108,10 +107,11 @@ std::vector<std::array<double, 2>> read_static_closing(OptionReader& options,
     if (!elevation || !closing) {
       options.refuse(closing_option, names, "'" + shown_value(item) + "' is not elevation:closing");
     }
-    if (!points.empty() && !(*elevation > points.back()[0])) {
+    if (!points.elevations.empty() && !(*elevation > points.elevations.back())) {
       options.refuse(closing_option, names, "elevations must rise");
     }
-    points.push_back({*elevation, *closing});
+    points.elevations.push_back(*elevation);
+    points.closings.push_back(*closing);
   }
   return points;
 }
@@ -295,17 +295,6 @@ void read_gap_state(OptionReader& options, const Scene& scene, Contact& contact)
 }
 
 }  // namespace
-
-double InitialGap::closing_at(double elevation) const {
-  const auto next = std::ranges::upper_bound(static_closing, elevation, {},
-                                             [](const auto& point) { return point[0]; });
-  if (static_closing.empty()) return 0;
-  if (next == static_closing.begin()) return static_closing.front()[1];
-  if (next == static_closing.end()) return static_closing.back()[1];
-  const auto& [low, at_low] = *(next - 1);
-  const auto& [high, at_high] = *next;
-  return at_low + (elevation - low) / (high - low) * (at_high - at_low);
-}
 
 Contact read_contact(OptionReader& options, Scene& scene, const std::string& name) {
   Contact contact;

@@ -121,7 +121,7 @@ double GivenGap::of(const Constraint& row) const {
   const double base = !gap.survey.empty()   ? row.surveyed
                       : !gap.values.empty() ? given_gap(gap.values, row.share)
                                             : row.geometric_gap;
-  return base - gap.closing_at(row.at[2]) + field_.at(row.level);
+  return base - gap.static_closing.at(row.at[2]) + field_.at(row.level);
 }
 
 std::vector<double> node_areas(const ContactFace& face) {

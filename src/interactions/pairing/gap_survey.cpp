@@ -9,6 +9,7 @@
 #include "common/error.h"
 #include "common/facts.h"
 #include "common/matrix3.h"
+#include "common/series.h"
 #include "scene/member_table.h"
 #include "scene/option_values.h"
 
@@ -104,12 +105,6 @@ class SurveyFile {
   std::string path_;
 };
 
-double middle_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Refuses a survey most of which is not on the faces of a joint, or of gaps in another unit.
 void require_on_face(const SurveyFile& file, const Survey& survey, std::span<const Constraint> rows,
                      const InterfaceReport& report) {
@@ -133,13 +128,13 @@ void require_on_face(const SurveyFile& file, const Survey& survey, std::span<con
     }
     away.push_back(norm(beyond));
   }
-  if (const double off = middle_of(away); off > off_face * std::max(box.longest_side(), facet)) {
+  if (const double off = median(away); off > off_face * std::max(box.longest_side(), facet)) {
     file.refuse(
         sentence("half of its points lie {:.4g} m or more off the faces, which are {:.4g} m "
                  "long; give them in the coordinates of the meshes, in metres",
                  {off, box.longest_side()}));
   }
-  if (const double gap = middle_of(survey.gaps); gap > wide_gap && gap > 2 * widest) {
+  if (const double gap = median(survey.gaps); gap > wide_gap && gap > 2 * widest) {
     file.refuse(sentence("half of its gaps are {:.4g} m or more; gaps are in metres", {gap}));
   }
 }

@@ -8,6 +8,7 @@
 #include <regex>
 
 #include "common/error.h"
+#include "common/series.h"
 #include "motion/records/record_text.h"
 
 namespace pounding {
@@ -131,12 +132,6 @@ std::vector<double> steps_between(const std::string& file, const std::vector<Tim
     }
   }
   return steps;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The mean step, or a near one that is written shortly or of a whole number of samples a second,
