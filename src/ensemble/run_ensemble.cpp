@@ -116,12 +116,8 @@ class Ensemble {
   std::string path(const char* name) const { return scene_.output + "/" + name; }
 
   void read_members() {
-    std::vector<std::string> structures;
-    std::vector<std::string> supports;
-    for (const Structure& structure : scene_.structures) structures.push_back(structure.name);
     for (const Contact& contact : scene_.contacts) layout_.contacts.push_back(contact.name);
-    for (const Support& support : scene_.supports) supports.push_back(support.name);
-    table_ = read_member_table(comm_, read_.ensemble, structures, layout_.contacts, supports);
+    table_ = read_member_table(comm_, read_.ensemble, scene_);
     layout_.table = &table_;
     if (root()) print(warning_facts(repeated_members(table_)));
     for (std::size_t m = 0; m < table_.members(); ++m) {

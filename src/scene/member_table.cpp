@@ -15,9 +15,7 @@ namespace pounding {
 namespace {
 
 /// Options that members may have of their own: those that change neither meshes nor modes.
-std::vector<std::string> free_options(const std::vector<std::string>& structures,
-                                      const std::vector<std::string>& contacts,
-                                      const std::vector<std::string>& supports) {
+std::vector<std::string> free_options(const Scene& scene) {
   std::vector<std::string> names{"motion_level"};
   for (const OptionRow& row : option_table()) {
     const bool of_support = row.pattern.starts_with("<support>_motion_") ||
@@ -25,27 +23,27 @@ std::vector<std::string> free_options(const std::vector<std::string>& structures
     if (row.block != OptionBlock::motion && !of_support) continue;
     for (const char* axis : {"x", "y", "z"}) {
       if (!of_support) names.push_back(option_name(row.pattern, {axis}));
-      for (std::size_t s = 0; of_support && s < supports.size(); ++s) {
-        names.push_back(option_name(row.pattern, {supports[s], axis}));
+      for (std::size_t s = 0; of_support && s < scene.supports.size(); ++s) {
+        names.push_back(option_name(row.pattern, {scene.supports[s].name, axis}));
       }
     }
   }
-  for (const std::string& support : supports) {
+  for (const Support& support : scene.supports) {
     for (const char* pattern : {"<support>_delay", "<support>_factor"}) {
-      names.push_back(option_name(pattern, {support}));
+      names.push_back(option_name(pattern, {support.name}));
     }
   }
-  for (const std::string& structure : structures) {
+  for (const Structure& structure : scene.structures) {
     for (const char* pattern : {"<structure>_damping_factor", "<structure>_stiffness_factor",
                                 "<structure>_modal_damping"}) {
-      names.push_back(option_name(pattern, {structure}));
+      names.push_back(option_name(pattern, {structure.name}));
     }
   }
-  for (const std::string& contact : contacts) {
+  for (const Contact& contact : scene.contacts) {
     for (const char* pattern :
          {"<contact>_gap", "<contact>_gap_deviation", "<contact>_gap_length", "<contact>_gap_seed",
           "<contact>_gap_patches", "<contact>_static_closing"}) {
-      names.push_back(option_name(pattern, {contact}));
+      names.push_back(option_name(pattern, {contact.name}));
     }
   }
   return names;
@@ -87,10 +85,8 @@ std::string read_table_text(const std::string& option, const std::string& file) 
   return text;
 }
 
-void check_columns(const MemberTable& table, const std::vector<std::string>& structures,
-                   const std::vector<std::string>& contacts,
-                   const std::vector<std::string>& supports) {
-  const std::vector<std::string> free = free_options(structures, contacts, supports);
+void check_columns(const MemberTable& table, const Scene& scene) {
+  const std::vector<std::string> free = free_options(scene);
   std::set<std::string> seen;
   for (const std::string& column : table.columns) {
     if (std::ranges::find(free, column) == free.end()) {
@@ -151,10 +147,7 @@ MemberTable read_table(const std::string& option, const std::string& file) {
   return parse_table(file, read_table_text(option, file));
 }
 
-MemberTable read_member_table(MPI_Comm comm, const std::string& file,
-                              const std::vector<std::string>& structures,
-                              const std::vector<std::string>& contacts,
-                              const std::vector<std::string>& supports) {
+MemberTable read_member_table(MPI_Comm comm, const std::string& file, const Scene& scene) {
   std::string text;
   on_rank0(comm, [&] { text = read_table_text("option -ensemble", file); });
   broadcast(comm, text);
@@ -163,7 +156,7 @@ MemberTable read_member_table(MPI_Comm comm, const std::string& file,
     throw UserError("option -ensemble " + file +
                     ": no runs in it; the first line names options, every other one is a run");
   }
-  check_columns(table, structures, contacts, supports);
+  check_columns(table, scene);
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     std::map<std::string, std::string> found;  // each path is looked for once
     for (std::size_t m = 0; m < table.members(); ++m) {

@@ -6,6 +6,7 @@
 #include <mpi.h>
 
 #include "scene/option_table.h"
+#include "scene/scene.h"
 
 namespace pounding {
 
@@ -32,12 +33,9 @@ MemberTable read_table(const std::string& option, const std::string& file);
 /// Reads a table: the first line names options, every other one is a run. Fields are separated by
 /// commas, or by semicolons if there is one in the first line, and may be in double quotes. Rank 0
 /// reads; paths of input files are relative to the folder of the table if something of that name is
-/// there. `structures`, `contacts`, `supports`: names in the scene. Throws UserError on every rank
-/// alike: a line of another length, an option that no run may have of its own. Collective.
-MemberTable read_member_table(MPI_Comm comm, const std::string& file,
-                              const std::vector<std::string>& structures,
-                              const std::vector<std::string>& contacts,
-                              const std::vector<std::string>& supports);
+/// there. `scene`: the ensemble's. Throws UserError on every rank alike: a line of another length,
+/// an option that no run may have of its own. Collective.
+MemberTable read_member_table(MPI_Comm comm, const std::string& file, const Scene& scene);
 
 /// The options of a scene with those of a member in their places.
 OptionsDatabase member_options(const OptionsDatabase& scene, const MemberTable& table,

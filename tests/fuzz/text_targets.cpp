@@ -110,7 +110,7 @@ void read_members(const std::string& path, Random&) {
                                        {"top_group", "face"},
                                        {"end_time", "1"}};
   static const Scene shared = read_scene(options).scene;
-  const MemberTable table = read_member_table(MPI_COMM_SELF, path, {"left"}, {"joint"}, {});
+  const MemberTable table = read_member_table(MPI_COMM_SELF, path, shared);
   for (std::size_t m = 0; m < table.members(); ++m) read_member(shared, options, table, m);
 }
 
