@@ -261,13 +261,12 @@ void prepare(MPI_Comm comm, const GlobalMesh& whole, int owner, const Model& mod
 /// The structure with (1 + d) / 2 of the stiffness of each region whose damping has a factor d;
 /// nothing where none has. Collective over the workers.
 std::optional<LinearSystem> with_damping_factors(const Model& model, const Reduction& reduction) {
+  const auto has_factor = [](const Region& region) { return region.damping_factor != 1; };
+  if (std::ranges::none_of(reduction.structure.regions, has_factor)) return std::nullopt;
   Structure structure = reduction.structure;
-  bool given = false;
   for (Region& region : structure.regions) {
-    given = given || region.damping_factor != 1;
     scale_stiffness((1 + region.damping_factor) / 2, region);
   }
-  if (!given) return std::nullopt;
   return assemble_structure(model, reduction.s, structure, reduction.mesh,
                             StiffnessMethod::assembled, false);
 }

@@ -129,6 +129,13 @@ struct NonlinearSpring {
   bool yields_alone(std::size_t component) const {
     return yield_force[component] > 0 && !is_in_circle(component);
   }
+  /// Whether some component does.
+  bool yields_alone() const {
+    for (std::size_t c = 0; c < yield_force.size(); ++c) {
+      if (yields_alone(c)) return true;
+    }
+    return false;
+  }
   bool yields() const {
     return friction > 0 || std::ranges::any_of(yield_force, [](double force) { return force > 0; });
   }

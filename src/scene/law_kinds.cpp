@@ -21,7 +21,7 @@ constexpr std::array law_kinds{
     LawKind{"<structure>_<group>_compression_only", [](const Region& r) { return r.compression_only; }, beside_k | is_one_way},
     LawKind{"<structure>_<group>_sliding_friction", [](const Region& r) { return r.nonlinear.friction > 0; }, beside_k},
     LawKind{"<structure>_<group>_skeleton", [](const Region& r) { return r.nonlinear.has_skeleton(); }, beside_k | has_element_law},
-    LawKind{"<structure>_<group>_yield_force", [](const Region& r) { return r.nonlinear.yields() && !own_laws(r).empty(); }, beside_k | has_element_law},
+    LawKind{"<structure>_<group>_yield_force", [](const Region& r) { return r.nonlinear.yields_alone(); }, beside_k | has_element_law},
     LawKind{"<structure>_<group>_yield_force", [](const Region& r) { return r.nonlinear.yields(); }, beside_k},
     LawKind{"<structure>_<group>_tension_only", [](const Region& r) { return r.element == ElementType::tension_bar; }, beside_k | is_one_way},
     LawKind{"<structure>_<group>_dashpot_exponent", [](const Region& r) { return r.nonlinear.dashpot_exponent != 1; }, has_power},
