@@ -63,6 +63,20 @@ class GapSurvey(unittest.TestCase):
             self.assertAlmostEqual(gap, .04 + .005 * min(max(y, 1), 3), delta=1e-12)
         self.assertIn(f"16 pairs lie beyond the points, by at most {5 ** .5:.4g} m", said)
 
+    def test_along_an_edge_of_a_slab(self):
+        """A face that is a line takes points along it, in any order."""
+        scene = os.path.join(program.SOURCE, "petsc-options", "new", "two-buildings", "two-buildings.yaml")
+        words = ["-options_file", scene, "-floor1_gap", "geometry", "-floor1_survey", survey([(6, 3, 3, .02), (6, 0.5, 3, .01), (6, 2, 3, .04)]),
+                 *clock(1e-5, 1e-5), "-modes", 0, "-csv_digits", 17]
+        with tempfile.TemporaryDirectory() as folder:
+            done = program.must_end(self, [*words, "-output", folder])
+            rows = program.read_csv(os.path.join(folder, "joint_pairs.csv"))
+        found = {round(float(y), 9): float(gap) for y, gap, of in zip(rows["y"], rows["initial_gap"], rows["contact"]) if of == "floor1"}
+        self.assertEqual(sorted(found), [0, 1, 2, 3, 4])
+        for y, gap in {0: .01, 1: .02, 2: .04, 3: .02, 4: .02}.items():
+            self.assertAlmostEqual(found[y], gap, delta=1e-12)
+        self.assertIn("2 pairs lie beyond the points, by at most 1 m", done.stdout)
+
     def test_less_a_closing_by_elevation(self):
         plain, _ = self.gaps("-joint_survey", survey(CORNERS))
         found, _ = self.gaps("-joint_survey", survey(CORNERS), "-joint_static_closing", "2:.001,6:.005")

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -32,8 +33,11 @@ Place side(const Place& from, const Place& to) {
 double doubled_area(const Place& a, const Place& b) {
   return a[0] * b[1] - a[1] * b[0];
 }
+double product(const Place& a, const Place& b) {
+  return a[0] * b[0] + a[1] * b[1];
+}
 double squared(const Place& a) {
-  return a[0] * a[0] + a[1] * a[1];
+  return product(a, a);
 }
 
 /// Whether p is inside of the circle through the corners of a triangle, by more than round-off.
@@ -168,6 +172,20 @@ LinearField::LinearField(std::span<const Place> places, std::span<const double> 
     const auto corner = [&](std::size_t k) { return x[static_cast<std::size_t>(triangle[k])]; };
     return doubled_area(side(corner(0), corner(1)), side(corner(0), corner(2))) < least_turn;
   });
+  for (const auto& [i, j, k] : triangles_) edges_.insert(edges_.end(), {{i, j}, {j, k}, {k, i}});
+  if (triangles_.empty()) join_line();
+}
+
+void LinearField::join_line() {
+  std::vector<int> order(places_.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto from_first = [this](int i) {
+    return side(places_.front(), places_[static_cast<std::size_t>(i)]);
+  };
+  const Place along =
+      from_first(std::ranges::max(order, {}, [&](int i) { return squared(from_first(i)); }));
+  std::ranges::sort(order, {}, [&](int i) { return product(from_first(i), along); });
+  for (std::size_t i = 1; i < order.size(); ++i) edges_.push_back({order[i - 1], order[i]});
 }
 
 LinearField::Value LinearField::at(const Place& place) const {
@@ -183,18 +201,19 @@ LinearField::Value LinearField::at(const Place& place) const {
     for (std::size_t k = 0; k < 3; ++k) {
       share[k] = doubled_area(from[(k + 1) % 3], from[(k + 2) % 3]);
     }
+    if (std::ranges::min(share) < 0) continue;
     const double all = share[0] + share[1] + share[2];
-    if (std::ranges::min(share) >= 0) {
-      return {(share[0] * value[0] + share[1] * value[1] + share[2] * value[2]) / all, 0};
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Place along = side(from[k], from[(k + 1) % 3]);
-      const double part =
-          std::clamp(-(from[k][0] * along[0] + from[k][1] * along[1]) / squared(along), 0.0, 1.0);
-      const double away = std::hypot(from[k][0] + part * along[0], from[k][1] + part * along[1]);
-      if (away >= nearest.beyond) continue;
-      nearest = {value[k] + part * (value[(k + 1) % 3] - value[k]), away};
-    }
+    return {(share[0] * value[0] + share[1] * value[1] + share[2] * value[2]) / all, 0};
+  }
+  for (const auto& [i, j] : edges_) {
+    const auto begin = static_cast<std::size_t>(i);
+    const auto end = static_cast<std::size_t>(j);
+    const Place from = side(place, places_[begin]);
+    const Place along = side(places_[begin], places_[end]);
+    const double part = std::clamp(-product(from, along) / squared(along), 0.0, 1.0);
+    const double away = std::hypot(from[0] + part * along[0], from[1] + part * along[1]);
+    if (away >= nearest.beyond) continue;
+    nearest = {values_[begin] + part * (values_[end] - values_[begin]), away};
   }
   return nearest;
 }
@@ -237,7 +256,12 @@ void lay_survey(const Contact& contact, std::span<Constraint> rows, std::span<Co
     }
   }
   const LinearField field(places, survey.gaps);
-  if (field.triangles().empty()) {
+  if (field.triangles().empty() && std::ranges::any_of(rows, [&](const Constraint& row) {
+        const Place from = side(places.front(), scaled(row.level));
+        const Place along = side(places[static_cast<std::size_t>(field.edges().front()[0])],
+                                 places[static_cast<std::size_t>(field.edges().back()[1])]);
+        return std::abs(doubled_area(from, along)) > off_face * std::sqrt(squared(along));
+      })) {
     file.refuse("its points lie on one line of the face; give some beside it");
   }
   report.survey.points = static_cast<int>(places.size());

@@ -12,12 +12,12 @@ namespace pounding::interactions {
 
 /// Values at points of a plane, linear over the triangles between them that no other point is in
 /// the circle of (Delaunay). A place inside of their hull lies in one of these, and one beyond has
-/// the value of the nearest place of the hull.
+/// the value of the nearest place of the hull. Of points on one line the hull is the line.
 class LinearField {
  public:
   using Place = std::array<double, 2>;
 
-  /// No two of `places` are one, nor do all lie on one line; see `triangles`.
+  /// No two of `places` are one; two or more.
   LinearField(std::span<const Place> places, std::span<const double> values);
 
   struct Value {
@@ -26,11 +26,16 @@ class LinearField {
   };
   Value at(const Place& place) const;
   const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
+  /// Sides of the triangles or, of points on one line, the pieces of it in their order.
+  const std::vector<std::array<int, 2>>& edges() const { return edges_; }
 
  private:
+  void join_line();
+
   std::vector<Place> places_;
   std::vector<double> values_;
-  std::vector<std::array<int, 3>> triangles_;  ///< counter-clockwise
+  std::vector<std::array<int, 3>> triangles_;  ///< counter-clockwise; none of points on one line
+  std::vector<std::array<int, 2>> edges_;
 };
 
 /// A place in the mean plane of a face, lengths kept [m]; `axes`: tangent axes of the normal.
