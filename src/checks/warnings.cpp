@@ -89,27 +89,35 @@ void add_short_record(const Scene& scene, const Model& model, int direction, Dou
   }
 }
 
-/// The largest acceleration of a component until a time [m/s2].
-double peak_until(const Accelerogram& component, double end) {
-  double peak = std::abs(component.at(end));  // linear between samples, 0 beyond the last
-  for (std::size_t i = 0; i < component.acceleration.size(); ++i) {
-    if (component.start + component.time_step * static_cast<double>(i) > end * nearly) break;
-    peak = std::max(peak, std::abs(component.acceleration[i]));
-  }
-  return peak;
-}
-
-/// A motion whose peak comes after the end of the run.
-void add_late_peak(const Scene& scene, const Accelerogram& component, int direction,
-                   Doubts doubts) {
+/// A motion of which the run leaves out the peak, or more than follows the strong part, which ends
+/// at three quarters of the integral of the squared acceleration (Arias intensity).
+void add_late_motion(const Scene& scene, const Accelerogram& component, int direction,
+                     Doubts doubts) {
   constexpr double whole = 0.99;
-  const double peak = component.peak();
-  const double felt = peak_until(component, scene.end_time);
-  if (felt >= whole * peak) return;
-  doubts.say(
-      "option -end_time {:.4g} s: the motion along {} has its peak of {:.4g} m/s2 "
-      "later; the run feels {:.4g} m/s2 at most",
-      {scene.end_time, direction_names[direction], peak, felt});
+  constexpr double strong = 0.75;
+  double felt = std::abs(component.at(scene.end_time));  // linear between samples, 0 beyond
+  double squares = 0;
+  double all = 0;
+  for (std::size_t i = 0; i < component.acceleration.size(); ++i) {
+    const double a = component.acceleration[i];
+    all += a * a;
+    if (component.start + component.time_step * static_cast<double>(i) > scene.end_time * nearly) {
+      continue;
+    }
+    felt = std::max(felt, std::abs(a));
+    squares += a * a;
+  }
+  if (felt < whole * component.peak()) {
+    doubts.say(
+        "option -end_time {:.4g} s: the motion along {} has its peak of {:.4g} m/s2 "
+        "later; the run feels {:.4g} m/s2 at most",
+        {scene.end_time, direction_names[direction], component.peak(), felt});
+  } else if (squares < strong * all) {
+    doubts.say(
+        "option -end_time {:.4g} s: the run ends in the strong part of the motion along {}, after "
+        "{:.3g} % of its Arias intensity",
+        {scene.end_time, direction_names[direction], 100 * squares / all});
+  }
 }
 
 /// Between the samples of a direction as they are given: resampling adds nothing to step over.
@@ -336,7 +344,7 @@ void add_step_doubts(const Scene& scene, const Model& model, Doubts doubts) {
   for (int direction = 0; direction < 3; ++direction) {
     if (!samples(model, direction).acceleration.empty()) {
       add_short_record(scene, model, direction, doubts);
-      add_late_peak(scene, samples(model, direction), direction, doubts);
+      add_late_motion(scene, samples(model, direction), direction, doubts);
       add_long_step("a sample of the motion along " + std::string(direction_names[direction]),
                     given_interval(model, direction), model.time_step, doubts);
     }

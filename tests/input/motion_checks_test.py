@@ -160,6 +160,15 @@ class Motion(unittest.TestCase):
             for line, part in zip(found, said):
                 self.assertIn(part, line)
 
+    def test_an_end_within_the_strong_part_is_doubted(self):
+        """The peak comes first; half of the squares come later."""
+        path = self.record("t [s], a (g)\n" + "".join(
+            f"{0.02 * i:.2f},{value}\n" for i, value in enumerate([0, 0.2, -0.2, 0.2, -0.2, 0.1414, -0.1414] + [0.14142] * 6 + [0, 0])))
+        for end, felt in ((0.13, 62.5), (0.19, None)):
+            _, summary = program.must_run(self, scene("-motion_x_record", path, "-end_time", end))
+            self.assertEqual(summary["warnings"], [f"option -end_time {end} s: the run ends in the strong part of the motion along x, "
+                                                   f"after {felt} % of its Arias intensity"] if felt else [])
+
     def test_no_motion_at_all_is_said(self):
         result = program.run(scene("-mass_initial_velocity", "1,0,0", "-dry_run"), 1)
         self.assertIn("\nmotion: none\n", result.stdout)
