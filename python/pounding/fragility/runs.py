@@ -29,7 +29,7 @@ def scene_options(study: Study, reduced: bool, folder: Path) -> dict:
     """Options of all members in a file of their own, which includes the scene; bases are kept in the folder."""
     found = {"include": str(study.scene), **study.options, **(study.moved.options if study.moved else {})}
     for axis, one in study.axes.items():
-        kind = {"target": one.target} if one.target else {"record": one.records[0]}
+        kind = {"target": one.target, "pga": study.levels[0] * one.ratio} if one.target else {"record": one.records[0]}
         found |= {f"motion_{axis}_{key}": value for key, value in {**kind, **one.understood}.items()}
     for name, one in study.joints.items():
         if one.survey:
