@@ -180,9 +180,9 @@ class Envelope:
             axes.set(title=name.rsplit(" [", 1)[0], xlabel="mm" if scale > 1 else "m/s²")
         first = self.conditions[0].title
         return save(figure, self.folder, "sensitivity.png", "How far each thing moves the answer alone",
-                    f"Bars: from the least to the largest value as soil, state or joint are changed alone, and from 16 to 84 % of "
-                    f"the samples (motion). Line: {first}. Joint: wide enough for 84 % of the samples at {self.study.levels[-1]:g} "
-                    f"m/s²; spectra: 84 %, {100 * self.first.outcomes.damping[self.damping]:g} % damping, joint of {1e3 * self.gap:g} mm, "
+                    f"Bars: from the least to the largest value as soil, state, coherence or joint are changed alone, and from 16 to "
+                    f"84 % of the samples (motion). Line: {first}. Joint: wide enough for 84 % of the samples at {self.study.levels[-1]:g} "
+                    f"m/s²; spectra: 84 %, {100 * self.first.outcomes.damping[self.damping]:g} % damping, {self.study.joint_named(self.gap)}, "
                     f"{self.level:g} m/s².", columns=[[axes] for axes in panels[0]])
 
     @cached_property
@@ -196,7 +196,7 @@ class Envelope:
         log_scale(axes, "x", found.frequency)
         log_scale(axes, "y", np.array(high))
         axes.set(xlim=(found.frequency[0], found.frequency[-1]), xlabel="frequency [Hz]", ylabel="pseudo-acceleration [m/s²]",
-                 title=f"{found.channels[self.channel]}, joint {1e3 * self.gap:g} mm, {self.level / 9.81:.2g} g")
+                 title=f"{found.channels[self.channel]}, {self.study.joint_named(self.gap)}, {self.level / 9.81:.2g} g")
         axes.legend(loc="upper left", fontsize=7)
         g_axis(axes)
         return save(figure, self.folder, "envelope.png", "Floor spectra by soil and state",
@@ -241,7 +241,7 @@ def write(one: Envelope) -> tuple:
                          for run, rows in runs.items()})
     lines = one.told()
     pages = one.sensitivity_figure + one.spectra_figure
-    parts = [("Joint that would be needed [m]", tables["joint"]), ("Each soil and state", tables["conditions"]),
+    parts = [(f"{one.study.width_title} that would be needed [m]".capitalize(), tables["joint"]), ("Each soil and state", tables["conditions"]),
              ("What moves the answer", tables["sensitivity"]), ("Largest probability of each event", tables["probability"]),
              ("Capacity of high confidence and low probability of failure (HCLPF)", tables["hclpf"])]
     box = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))

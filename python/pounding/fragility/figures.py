@@ -46,11 +46,11 @@ def draw_floor(axes, analysis: Analysis) -> str:
     log_scale(axes, "y", found.spectra[analysis.of(gap, level)][:, channel, damping])
     axes.set(xlim=(found.frequency[0], found.frequency[-1]), xlabel="frequency [Hz]",
              ylabel="pseudo-acceleration [m/s²]",
-             title=f"{found.channels[channel]}, joint {1e3 * gap:g} mm, {level / 9.81:.2g} g")
+             title=f"{found.channels[channel]}, {analysis.study.joint_named(gap)}, {level / 9.81:.2g} g")
     axes.legend(loc="upper left")
     g_axis(axes)
     return (f"Median and 16-84 % band of {analysis.study.samples} members, {100 * found.damping[damping]:g} % damping: "
-            f"{found.channels[channel]}, nominal joint of {1e3 * gap:g} mm, peak ground acceleration {level:g} m/s².")
+            f"{found.channels[channel]}, {analysis.study.joint_named(gap)}, peak ground acceleration {level:g} m/s².")
 
 
 def _edges(values: list) -> np.ndarray:
@@ -80,7 +80,7 @@ def draw_map(axes, analysis: Analysis) -> str:
                   label=f"{100 * part:g} % would need more")
     axes.set(xlim=_edges(places)[[0, -1]], ylim=_edges(levels)[[0, -1]])
     axes.grid(False)
-    axes.set(xlabel="nominal joint [mm]", ylabel="peak ground acceleration [g]",
+    axes.set(xlabel=f"{study.width_title} [mm]", ylabel="peak ground acceleration [g]",
              title="Probability that the buildings touch")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), fontsize=8, ncol=3, columnspacing=1.0)
     axes.figure.colorbar(picture, ax=axes, label="P(contact)")
@@ -97,7 +97,7 @@ def draw_bars(axes, analysis: Analysis, event) -> str:
     axes.bar(range(len(gaps)), share, width=0.6, color=[WITHOUT if gap is None else WITH for gap in gaps], alpha=0.7,
              yerr=np.clip([share - low, high - share], 0, None), capsize=4, ecolor="#333333")
     axes.set_xticks(range(len(gaps)), ["apart" if gap is None else f"{1e3 * gap:g} mm" for gap in gaps])
-    axes.set(ylim=(0, 1.03), xlabel="nominal joint", ylabel="probability")
+    axes.set(ylim=(0, 1.03), xlabel=study.width_title, ylabel="probability")
     axes.grid(axis="x", visible=False)
     return (f"{study.samples} members in each joint at {study.levels[0]:g} m/s², with the {100 * study.confidence:g} % interval of "
             "Clopper and Pearson.")
@@ -127,11 +127,11 @@ def scatter_parts(analysis: Analysis, folder: Path) -> list:
     log_scale(axes, "x", found.frequency)
     axes.set(xlim=(found.frequency[0], found.frequency[-1]), ylim=(0, None), xlabel="frequency [Hz]",
              ylabel="deviation of ln S",
-             title=f"{found.channels[channel]}, joint {1e3 * gap:g} mm, {level / 9.81:.2g} g")
+             title=f"{found.channels[channel]}, {analysis.study.joint_named(gap)}, {level / 9.81:.2g} g")
     axes.legend(loc="upper left")
     return save(figure, folder, "scatter.png", "How much of the scatter is the joint's",
                 f"Standard deviation of the logarithm of the spectrum over {analysis.study.samples} samples, "
-                f"{100 * found.damping[damping]:g} % damping: {found.channels[channel]}, nominal joint of {1e3 * gap:g} mm, "
+                f"{100 * found.damping[damping]:g} % damping: {found.channels[channel]}, {analysis.study.joint_named(gap)}, "
                 f"{level:g} m/s²; and of what varies alone while the rest is held.")
 
 
@@ -197,7 +197,7 @@ def enough(analysis: Analysis, folder: Path) -> tuple:
     panels[0].set_ylabel(f"half width of the {100 * study.confidence:g} % interval")
     panels[1].legend(fontsize=8)
     pages = save(figure, folder, "enough.png", "How many motions were enough",
-                 f"{found.channels[channel]}, {100 * found.damping[damping]:g} % damping, joint of {1e3 * gap:g} mm, "
+                 f"{found.channels[channel]}, {100 * found.damping[damping]:g} % damping, {study.joint_named(gap)}, "
                  f"{level:g} m/s², over the frequencies: the first members of an order drawn by the seed.", columns=[[axes] for axes in panels])
     return pages, rows
 
@@ -218,7 +218,7 @@ def joints(analysis: Analysis, rules: dict, folder: Path) -> list:
     for part in EXCEEDED:
         axes.axhline(part, color="#BBBBBB", lw=0.7)
     axes.set_yscale("log")
-    axes.set(ylim=(0.8 / study.samples / 2, 1.1), xlabel="nominal joint [mm]",
+    axes.set(ylim=(0.8 / study.samples / 2, 1.1), xlabel=f"{study.width_title} [mm]",
              ylabel="part of the members that need more")
     axes.legend(fontsize=8, ncol=2)
     return save(figure, folder, "joint.png", "The joint that is wide enough",

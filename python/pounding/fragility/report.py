@@ -110,7 +110,7 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
     parts = [("Probability", tables["probability"]), ("Lognormal curves", fit_rows),
              ("Deviation of the logarithm of spectra, 5 % damping", of_shown(analysis, tables["joint_share"])),
              ("Other deviations and lengths of the joints' fields, 5 % damping", fields_summary(tables["fields"])),
-             ("Joint that would be needed [m]", tables["joint"]),
+             (f"{analysis.study.width_title} that would be needed [m]".capitalize(), tables["joint"]),
              (f"Members that the mean of any spectrum needs, within {100 * TOLERANCE:g} %",
               enough_summary(enough_rows)), ("Repeats at full order: ln-ratio of the spectra", repeats_summary(tables["full_order"]))]
     lines = told(analysis, fits, full, tables) + notes
@@ -142,7 +142,7 @@ def fields_summary(rows: list) -> list:
     return found
 
 
-def fields_told(rows: list) -> list:
+def fields_told(rows: list, study) -> list:
     """How far other fields than the study's own change the answer, in a sentence for each pair of factors."""
     lines = []
     for pair in dict.fromkeys((row["deviation times"], row["length times"]) for row in rows):
@@ -152,7 +152,7 @@ def fields_told(rows: list) -> list:
             middle = "; ".join(f"{row['84 % ratio, median']:.3g} at {row['band [Hz]']} Hz" for row in mine
                                if row["gap [m]"] == worst["gap [m]"])
             lines.append(f"Fields of {pair[0]:g} times the deviation and {pair[1]:g} times the length make the 84 % spectra of "
-                         f"the joint of {1e3 * float(worst['gap [m]']):g} mm at {worst['pga [m/s2]']:g} m/s2, in the median, {middle} "
+                         f"the {study.joint_named(float(worst['gap [m]']))} at {worst['pga [m/s2]']:g} m/s2, in the median, {middle} "
                          f"times those of the study's, and {worst['furthest']:.3g} times at most ({worst['of']}).")
     return lines
 
@@ -174,7 +174,7 @@ def floor_table(analysis: Analysis) -> str:
         for cell, words in ((gap, "with pounding"), (None, "without")):
             high = moments(found.spectra[analysis.of(cell, level)][:, channel, damping]).high
             rows.append((f"{name}, {words}", *(f"{value:.3g}" for value in design_spectra.design_spectrum(found.frequency, high, at))))
-    return html_table(f"84 % of the members in a joint of {1e3 * gap:g} mm at {level:g} m/s², {100 * found.damping[damping]:g} % damping, "
+    return html_table(f"84 % of the members in a {analysis.study.joint_named(gap)} at {level:g} m/s², {100 * found.damping[damping]:g} % damping, "
                       f"widened by {100 * design_spectra.BROADENING:g} % [m/s²], by frequency [Hz]",
                       ["", *(f"{f:g}" for f in at)], rows)
 
@@ -245,7 +245,7 @@ def scattered(analysis: Analysis, rows: list) -> list:
         low, high = (f"{100 * min(worst[end], 1):.0f}" for end in ("low", "high"))
         lines.append(f"{percent(np.median([row['share of the joint'] for row in some]))} % at {band} Hz, at most "
                      f"{percent(worst['share of the joint'])} % ({low} to {high}; {worst['channel']})")
-    return [f"Of the variance of ln-spectra in a joint of {1e3 * float(mine[0]['gap [m]']):g} mm at {mine[0]['pga [m/s2]']:g} m/s2 "
+    return [f"Of the variance of ln-spectra in a {analysis.study.joint_named(float(mine[0]['gap [m]']))} at {mine[0]['pga [m/s2]']:g} m/s2 "
             f"the joint's own width makes, in the median of the channels, {'; '.join(lines)}."] if lines else []
 
 
@@ -256,7 +256,7 @@ def told(analysis: Analysis, fits: dict, full: Outcomes | None, tables: dict) ->
     cells = len(study.gaps) * len(study.levels) * study.samples
     disturbed = f", and {len(analysis.design.repeated)} disturbed" if analysis.design.repeated else ""
     lines += touching(fits, analysis) + failing(analysis) + scattered(analysis, tables["joint_share"])
-    lines += fields_told(fields_summary(tables["fields"]))
+    lines += fields_told(fields_summary(tables["fields"]), study)
     exchanged = ", as many in the joint of the next sample" if study.exchange else ""
     others = sum(one.factors != OWN_FIELD for one in analysis.design.members)
     exchanged += f", at {study.levels[-1]:g} m/s2 in other fields ({others})" if others else ""

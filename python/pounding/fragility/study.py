@@ -154,6 +154,11 @@ class Study:
         return f"joint as surveyed{f' and {1e3 * gap:g} mm wider' if gap else ''}"
 
     @property
+    @property
+    def width_title(self) -> str:
+        """Heading of the widths that a study gives and finds: changes, where joints were surveyed."""
+        return "change of the joint as surveyed" if self.is_surveyed else "nominal joint"
+
     def variables(self) -> list:
         return self.factors + [joint.deviation for joint in self.joints.values() if joint.deviation]
 

@@ -171,7 +171,7 @@ def write(one: Envelope) -> Path | None:
                 if len({condition.place[key] for condition in one.conditions}) == 1]
     joint = [row for row in one.joint_rows if row["pga [m/s2]"] in (told.design, told.beyond)]
     parts = [(f"The joint by elevation, at {one.level:g} m/s²", html_table("", *cells_of(one.elevation_rows()), text=(0, 1))),
-             ("The joint that is needed [m]", html_table("", *cells_of(joint), text=(0,))),
+             (f"{study.width_title} that would be needed [m]".capitalize(), html_table("", *cells_of(joint), text=(0,))),
              (f"Floor spectra for design: 84 % of the cases, the envelope of soils and states, widened by 15 %, "
               f"{100 * one.first.outcomes.damping[one.damping]:g} % damping [m/s²]", html_table("", *cells_of(spectra), text=(0, 2))),
              *figure_parts(folder, one.spectra_figure),
