@@ -83,18 +83,23 @@ def write(path: Path, motion: dict, step: float, names: list) -> None:
                                         for number, row in enumerate(zip(*columns))), exact=True)
 
 
+def support_of(mat: str) -> str:
+    """Name of the support that moves a mat, which may be called as its structure is."""
+    return f"ground_{mat}"
+
+
 def option_of(mat: str, component: str) -> str:
-    """Beginning of the names of options of a component of the motion of a support."""
-    return f"{mat}_{'motion' if len(component) == 1 else 'rotation'}_{component[-1]}"
+    """Beginning of the names of options of a component of the motion of a mat's support."""
+    return f"{support_of(mat)}_{'motion' if len(component) == 1 else 'rotation'}_{component[-1]}"
 
 
 def support_options(coherence: Coherence, names: list, files: dict) -> dict:
     """Options of a scene in which the mats are supports that move by these files, per mat."""
-    found = {"supports": ",".join(mat.name for mat in coherence.mats)}
+    found = {"supports": ",".join(support_of(mat.name) for mat in coherence.mats)}
     for mat in coherence.mats:
-        found[f"{mat.name}_groups"] = coherence.groups[mat.name]
+        found[f"{support_of(mat.name)}_groups"] = coherence.groups[mat.name]
         if any(len(name) == 2 for name in names):
-            found[f"{mat.name}_point"] = ",".join(f"{one:.9g}" for one in mat.centre)
+            found[f"{support_of(mat.name)}_point"] = ",".join(f"{one:.9g}" for one in mat.centre)
         for place, name in enumerate(names):
             option = option_of(mat.name, name)
             found |= {f"{option}_record": str(files[mat.name]), f"{option}_column": str(place + 2)}

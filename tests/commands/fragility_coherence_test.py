@@ -24,8 +24,8 @@ class Coherence(StudyCommand):
         place = next((self.place / "out" / "runs").glob("*/ensemble-*"))
         with open(place / "members.csv", newline="") as file:
             columns, *rows = csv.reader(file)
-        self.assertIn("west_motion_x_record", columns)
-        self.assertIn("east_rotation_z_scale", columns)
+        self.assertIn("ground_west_motion_x_record", columns)
+        self.assertIn("ground_east_rotation_z_scale", columns)
         result = two_buildings.pounding.load_ensemble(place)
         step = next(line.split()[2] for line in result.identity if line.startswith("time step")) if hasattr(result, "identity") else None
         words = [word for name, value in zip(columns, rows[1]) for word in (f"-{name}", value)]
