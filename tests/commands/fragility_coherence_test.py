@@ -42,10 +42,28 @@ class Coherence(StudyCommand):
         self.assertNotIn("mats move", self.fragility("--collect").stdout)
         self.assertEqual(before, [file.stat().st_mtime_ns for file in files])
 
+    @program.long
+    def test_coherent_ground_beside_it_is_no_part_of_the_envelope(self):
+        self.fragility("--runner", "ensemble", soils={"one": {}}, coherence={**COHERENCE, "coherent_too": True})
+        out = self.place / "out"
+        joints = []
+        for place in ("conditions/one", "conditions/one_coherent", "."):
+            with open(out / place / "joint.csv", newline="") as file:
+                joints.append(list(csv.DictReader(file)))
+        apart, alike, envelope = joints
+        self.assertEqual({row["soil"] for row in envelope}, {"one"})
+        strongest = [row for row in apart if row["joint"] == "any"][-1]
+        self.assertEqual([float(row["needed [m]"]) for row in envelope if row["joint"] == "any"][-1], float(strongest["5 % [m]"]))
+        self.assertNotEqual(strongest["50 % [m]"], [row for row in alike if row["joint"] == "any"][-1]["50 % [m]"])
+        with open(out / "sensitivity.csv", newline="") as file:
+            moved = [row for row in csv.DictReader(file) if row["moved by"] == "coherence"]
+        self.assertEqual({row["at"] for row in moved} | {row["at "] for row in moved}, {"as given", "coherent"})
+
     def test_wrong_use_is_told_in_one_line(self):
         for changes, told in (({"mats": {"west": MATS["west"]}}, "coherence: mats: coherence tells how mats move apart, and there is one"),
                               ({"model": "abramson"}, "coherence: model: 'abramson' is unknown"),
                               ({"records": 1}, "coherence: records is unknown"),
+                              ({"coherent_too": "yes"}, "coherence: coherent_too: 'yes' is neither true nor false"),
                               ({"model": {"table": "none.csv"}}, "coherence:")):
             line = self.fragility("--dry-run", status=1, coherence={**COHERENCE, **changes}).stderr
             self.assertIn(told, line)

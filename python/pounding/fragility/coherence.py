@@ -35,13 +35,19 @@ class Moved:
         return tuple(text for mat in self.coherence.mats for _ in self.names for text in (str(self.files[motion][mat.name]), level))
 
 
-def read(reader: Reader) -> mats.Coherence | None:
-    """The block `coherence` of a study. Throws UserError."""
+TOO = "coherent_too"
+
+
+def read(reader: Reader) -> tuple:
+    """The block `coherence` of a study, None where it has none, and whether its samples are run on coherent ground too.
+    Throws UserError."""
     values = reader.values.get("coherence")
     if values is None:
-        return None
+        return None, False
+    too = isinstance(values, dict) and Reader({TOO: values.get(TOO, False)}, reader.path, "coherence", (TOO,)).flag(TOO)
+    values = {key: one for key, one in values.items() if key != TOO} if isinstance(values, dict) else values
     try:
-        return mats.read(values, reader.path.parent)
+        return mats.read(values, reader.path.parent), too
     except (CoherencyError, OSError) as error:
         raise UserError(f"{reader.path}: coherence: {error}") from error
 

@@ -1,4 +1,5 @@
-"""Soils under the mats and states of the buildings of a study: all of its samples are run in each pair of them."""
+"""Soils under the mats and states of the buildings of a study: all of its samples are run in each pair of them; and, beside
+incoherent ground, in the first of them on coherent ground."""
 
 import re
 from dataclasses import dataclass, replace
@@ -13,19 +14,22 @@ ALONE = "as given"  # soil or state of a study that names none
 
 @dataclass(frozen=True, eq=False)
 class Condition:
-    """Soil and state, and the study in them."""
+    """Soil and state, and the study in them. `coherent`: on ground that moves all mats alike, where the study's does not;
+    such a condition shows what coherence moves and is no part of the envelope."""
 
     soil: str
     state: str
     study: Study
+    coherent: bool = False
 
     @property
     def title(self) -> str:
-        return ", ".join([f"soil {self.soil}"] * (self.soil != ALONE) + [f"state {self.state}"] * (self.state != ALONE))
+        return ", ".join([f"soil {self.soil}"] * (self.soil != ALONE) + [f"state {self.state}"] * (self.state != ALONE)
+                         + ["coherent ground"] * self.coherent) or ALONE
 
     @property
     def folder(self) -> str:
-        return "_".join(name for name in (self.soil, self.state) if name != ALONE)
+        return "_".join([name for name in (self.soil, self.state) if name != ALONE] + ["coherent"] * self.coherent) or "as_given"
 
     @property
     def place(self) -> dict:
@@ -77,10 +81,11 @@ def _soil(reader: Reader, name: str, block: dict, study: Study) -> Soil:
 
 
 def find(study: Study) -> list:
-    """The conditions of a study; none where it names neither soils nor states. Throws UserError."""
+    """The conditions of a study; none where it names neither soils nor states, nor asks for coherent ground beside its own.
+    Throws UserError."""
     reader = Reader({key: study.named[key] for key in ("soils", "states") if study.named[key] is not None}, study.path, "",
                      ("soils", "states"))
-    if not reader.values:
+    if not reader.values and not study.coherent_too:
         return []
     soils = {name: _soil(reader, name, block, study) for name, block in _blocks(reader, "soils").items()}
     states = {name: Reader({name: block}, study.path, "states", (name,)).options(name)
@@ -93,4 +98,7 @@ def find(study: Study) -> list:
                 raise UserError(f"{study.path}: {twice[0]} is given by soil {soil} and by state {state}")
             options = {**study.options, **of_soil.options, **of_state}
             found.append(Condition(soil, state, replace(study, options=options, axes=of_soil.axes or study.axes)))
+    if study.coherent_too:
+        first = found[0]
+        found.append(replace(first, study=replace(first.study, coherence=None), coherent=True))
     return found

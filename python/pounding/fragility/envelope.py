@@ -23,12 +23,15 @@ SHOWN = (5.0, 20.0, 100.0)  # frequencies of the sensitivities unless the study 
 
 class Envelope:
     """`analyses`: Condition -> Analysis of all of its members; the first condition is the one that others are seen
-    beside. Rows and figures of several pages are made once; `folder`: of the study, where the figures go."""
+    beside, and one on coherent ground is kept apart. Rows and figures of several pages are made once; `folder`: of the
+    study, where the figures go."""
 
     def __init__(self, study: Study, analyses: dict, folder: Path):
-        self.study, self.analyses, self.folder = study, analyses, folder
-        self.conditions: list[Condition] = list(analyses)
-        self.first: Analysis = analyses[self.conditions[0]]
+        self.study, self.folder, self.linked = study, folder, list(analyses)
+        self.coherent: Analysis | None = next((one for condition, one in analyses.items() if condition.coherent), None)
+        self.analyses = {condition: one for condition, one in analyses.items() if not condition.coherent}
+        self.conditions: list[Condition] = list(self.analyses)
+        self.first: Analysis = self.analyses[self.conditions[0]]
         self.gap, self.level, self.channel, self.damping = figures.shown(self.first)
 
     @property
@@ -139,21 +142,23 @@ class Envelope:
     @cached_property
     def sensitivity_rows(self) -> list:
         """Range of the needed joint (84 %, strongest level) and of the 84 % spectrum that figures show at some
-        frequencies, by what moves it alone: soils in the first state, states on the first soil, the width of the joint, and
-        the motion and whatever is drawn beside it, from 16 to 84 % of the samples."""
+        frequencies, by what moves it alone: soils in the first state, states on the first soil, coherence, the width of the
+        joint, and the motion and whatever is drawn beside it, from 16 to 84 % of the samples."""
         first, rows = self.conditions[0], []
         needed = {condition: one.needed()[:, -1] for condition, one in self.analyses.items()}
         quantities = [("joint needed [m]", {condition: float(np.quantile(values, 0.84)) for condition, values in needed.items()},
-                       {}, needed[first])]
+                       {}, float(np.quantile(self.coherent.needed()[:, -1], 0.84)) if self.coherent else None, needed[first])]
         found = self.first.outcomes
         for k in self.frequencies:
             values = {condition: float(self.high(one)[k]) for condition, one in self.analyses.items()}
             by_gap = {f"{1e3 * gap:g} mm": float(self.high(self.first, gap)[k]) for gap in self.study.gaps}
             samples = found.spectra[self.first.of(self.gap, self.level), self.channel, self.damping, k]
-            quantities.append((f"{found.channels[self.channel]} at {found.frequency[k]:.3g} Hz [m/s2]", values, by_gap, samples))
-        for name, of_conditions, of_gaps, samples in quantities:
+            quantities.append((f"{found.channels[self.channel]} at {found.frequency[k]:.3g} Hz [m/s2]", values, by_gap,
+                               float(self.high(self.coherent)[k]) if self.coherent else None, samples))
+        for name, of_conditions, of_gaps, coherent, samples in quantities:
             ranges = {"soil": {one.soil: value for one, value in of_conditions.items() if one.state == first.state},
                       "state": {one.state: value for one, value in of_conditions.items() if one.soil == first.soil},
+                      "coherence": {"as given": of_conditions[first], "coherent": coherent} if self.coherent else {},
                       "gap": of_gaps,
                       "motion": {"16 %": float(np.quantile(samples, 0.16)), "84 %": float(np.quantile(samples, 0.84))}}
             reference = of_conditions[first]
@@ -247,6 +252,6 @@ def write(one: Envelope) -> tuple:
     box = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))
     shown = figure_parts(folder, pages) + [(caption, html_table("", *cells_of(rows), text=(0,))) for caption, rows in parts]
     after = linked("The study in each condition", [(condition.title, f"conditions/{condition.folder}/fragility.html")
-                                                   for condition in one.conditions])
+                                                   for condition in one.linked])
     text = "\n".join(lines) + "\n\n" + "\n".join(markdown(caption, *cells_of(rows)) for caption, rows in parts[:3])
     return write_page(folder / "fragility.html", study.title, shown, answer=box, after=after, under=f"study {study.path.name}"), text

@@ -128,6 +128,7 @@ class Study:
     uncertainty: float | None = None  # beta_U of capacities, given by the user
     rules: Path | None = None  # table that judges the motions
     coherence: Coherence | None = None  # of the ground under mats that move apart
+    coherent_too: bool = False  # whether samples are run on coherent ground beside it
     moved: Moved | None = None  # these as supports, once their motions are made
     elevations: list | None = None  # between bands of the table of the joint [m]; None: those that suit its pairs
 
@@ -154,11 +155,11 @@ class Study:
         return f"joint as surveyed{f' and {1e3 * gap:g} mm wider' if gap else ''}"
 
     @property
-    @property
     def width_title(self) -> str:
         """Heading of the widths that a study gives and finds: changes, where joints were surveyed."""
         return "change of the joint as surveyed" if self.is_surveyed else "nominal joint"
 
+    @property
     def variables(self) -> list:
         return self.factors + [joint.deviation for joint in self.joints.values() if joint.deviation]
 
@@ -444,5 +445,5 @@ def read(path: Path) -> Study:
         full.options("options"), full.number("noise", 1e-3, 0.0), frequencies, dampings,
         _show(reader, gaps, levels), {key: reader.values.get(key) for key in ("soils", "states", "submittal")},
         reader.number("uncertainty", None, 0.0) if "uncertainty" in reader.values else None, _motion_rules(reader),
-        read_coherence(reader),
+        *read_coherence(reader),
         elevations=reader.increasing("elevations", None, -1e9) if "elevations" in reader.values else None)
