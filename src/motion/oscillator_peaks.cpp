@@ -135,10 +135,11 @@ constexpr double follows_load = 1e5;
 /// Largest |u| of an oscillator that turns that fast.
 double followed_load(std::span<const double> load, const Oscillator& o) {
   const double decay = o.xi / std::sqrt((1 - o.xi) * (1 + o.xi));
+  const double fading = std::exp(-o.xi * o.theta);
   double swing = std::abs(load[0]) * std::exp(-std::numbers::pi * decay), largest = 0;
   for (const double sample : load) {
     largest = std::max(largest, std::abs(sample) + swing);
-    swing *= std::exp(-o.xi * o.theta);
+    swing *= fading;
   }
   return (1 + 4 / o.theta) * largest / stiffness_of(o);
 }
@@ -197,20 +198,29 @@ class Stride {
   Vector effect_[stride + 3][2];  ///< of u, v and the samples on u and v
 };
 
-/// Largest |u| between samples that are `stride` apart: with U the largest |u| there and a the
-/// largest |h^2 a| of all samples it is of_displacement U + of_load a. In units of the stride, an
-/// extremum lies within half of one of a sample, so |u| <= U + W / 8, W the largest |u''|; and
-/// |u'| <= 2 U + W, as it is |u1 - u0| somewhere between; the equation of motion bounds W by
-/// a + d (2 U + W) + k (U + W / 8).
+/// Largest |u| between samples that are `stride` apart: with U the largest |u| there, V the largest
+/// |h u'| and a the largest |h^2 a| of all samples it is of_displacement U + of_velocity V +
+/// of_load a. In units of the stride, an extremum lies within half of one of a sample, so
+/// |u| <= U + W / 8, W the largest |u''|; and |u'| <= 2 U + W, as it is |u1 - u0| somewhere between;
+/// the equation of motion bounds W by a + d (2 U + W) + k (U + W / 8). From series_limit on it is
+/// the particular solution with the amplitude of the free vibration beside it, see StepClosedForm.
 struct BetweenSamples {
   BetweenSamples(const Oscillator& o, std::size_t stride) {
+    if (o.theta >= series_limit) {
+      const double q = std::sqrt((1 - o.xi) * (1 + o.xi));
+      const double beta = 2 / stiffness_of(o), alpha = (1 + 4 * o.xi / o.theta) / stiffness_of(o);
+      of_displacement = 1 + o.xi / q;
+      of_velocity = 1 / (o.theta * q);
+      of_load = 1.001 * (alpha * (1 + of_displacement) + beta * of_velocity);
+      return;
+    }
     const double steps = static_cast<double>(stride);
     const double d = damping_of(o) * steps, k = stiffness_of(o) * steps * steps;
     left = 1 - d - k / 8;
     of_load = left > 0.1 ? 1.001 * steps * steps / (8 * left) : 1e100;  // else nothing is known
     of_displacement = 1 + of_load * (2 * d + k) / (steps * steps);
   }
-  double left, of_load, of_displacement;
+  double left = 0, of_load, of_displacement, of_velocity = 0;
 };
 
 /// Peaks of oscillators side by side.
@@ -222,6 +232,7 @@ class Block {
     const bool coarsely = std::ranges::all_of(
         some, [](const Oscillator& o) { return BetweenSamples(o, coarse_stride).left > 0.8; });
     if (coarsely) stride_ = coarse_stride;
+    is_fast_ = some.back().theta >= series_limit || some.front().theta >= series_limit;
   }
 
   /// Largest |u| of each under samples of h^2 a.
@@ -234,6 +245,7 @@ class Block {
     double load;     ///< largest |h^2 a|
     Vector u, v;     ///< at the first sample
     Vector largest;  ///< |u| at the samples that were looked at
+    Vector fastest;  ///< |h u'| there, of oscillators that need it
   };
   static constexpr std::size_t coarse_stride = 8, passage_size = 256;
 
@@ -246,15 +258,23 @@ class Block {
   Stride<1> single_;
   Stride<coarse_stride> coarse_;
   std::size_t stride_ = 1;
+  bool is_fast_ = false;
   std::vector<Passage, LargePageAllocator<Passage>> passages_;
 };
 
 void Block::pass(std::span<const double> load, Passage& passage, Vector& u, Vector& v) const {
   Vector largest;
-  for (std::size_t b = 0; b < vectors; ++b) largest[b] = magnitude(u[b]);
+  Vector fastest;
+  for (std::size_t b = 0; b < vectors; ++b) {
+    largest[b] = magnitude(u[b]);
+    fastest[b] = magnitude(v[b]);
+  }
   const auto go = [&](const auto& stride, std::size_t n) {
     stride.go(&load[n], u, v);
     for (std::size_t b = 0; b < vectors; ++b) largest[b] = larger(largest[b], magnitude(u[b]));
+    for (std::size_t b = 0; is_fast_ && b < vectors; ++b) {
+      fastest[b] = larger(fastest[b], magnitude(v[b]));
+    }
   };
   std::size_t n = passage.first;
   if (stride_ > 1) {
@@ -267,6 +287,7 @@ void Block::pass(std::span<const double> load, Passage& passage, Vector& u, Vect
   }
   for (std::size_t b = 0; b < vectors; ++b) {
     passage.largest[b] = largest[b];
+    passage.fastest[b] = fastest[b];
     const BatchMask still =
         magnitude(u[b]) + magnitude(v[b]) + all_eight(passage.load) < all_eight(rest);
     u[b] = choose(still, BatchValue{}, u[b]);
@@ -280,7 +301,9 @@ void Block::look_between(std::span<const double> load, std::size_t i, double& pe
   const BetweenSamples bound(o, stride_);
   const std::size_t b = i / batch_size, l = i % batch_size;
   for (const Passage& passage : passages_) {
-    if (bound.of_displacement * passage.largest[b][l] + bound.of_load * passage.load <= peak) {
+    if (bound.of_displacement * passage.largest[b][l] + bound.of_velocity * passage.fastest[b][l] +
+            bound.of_load * passage.load <=
+        peak) {
       continue;
     }
     Sample at{passage.u[b][l], passage.v[b][l], load[passage.first]};
@@ -328,18 +351,16 @@ std::vector<double> loads_of(std::span<const double> acceleration, double time_s
 std::vector<double> peak_displacements(std::span<const double> acceleration, double time_step,
                                        std::span<const Oscillator> oscillators, AfterRecord after) {
   const std::vector<double> load = loads_of(acceleration, time_step);
-  const auto slow = [](const Oscillator& o) { return o.theta < series_limit; };
+  const auto swings = [](const Oscillator& o) { return o.theta <= follows_load; };
   std::vector<double> peaks;
   while (peaks.size() < oscillators.size()) {
     const auto left = oscillators.subspan(peaks.size());
-    const auto end = std::ranges::find_if_not(left.first(std::min(left.size(), together)), slow);
+    const auto end = std::ranges::find_if_not(left.first(std::min(left.size(), together)), swings);
     const auto count = static_cast<std::size_t>(end - left.begin());
     if (count > 0) {
       std::ranges::copy(Block(left.first(count)).peaks(load, after), std::back_inserter(peaks));
-    } else if (left[0].theta > follows_load) {
-      peaks.push_back(followed_load(load, left[0]));
     } else {
-      peaks.push_back(peaks_of<Quantity::displacement>(load, left[0], after)[0]);
+      peaks.push_back(followed_load(load, left[0]));
     }
   }
   return peaks;

@@ -11,8 +11,8 @@ namespace pounding {
 
 /// Largest |u| of every oscillator, in their order, under an acceleration sampled every `time_step`
 /// [s], linear between samples: at the samples and wherever an extremum lies between them. The
-/// oscillators start at rest. Those below oscillator::series_limit go side by side; those that move
-/// alike should follow each other. `acceleration` is not empty.
+/// oscillators start at rest. They go side by side: those that move alike should follow each other.
+/// `acceleration` is not empty.
 std::vector<double> peak_displacements(std::span<const double> acceleration, double time_step,
                                        std::span<const oscillator::Oscillator> oscillators,
                                        AfterRecord after);
