@@ -24,6 +24,7 @@ SCHEMAS = {"summary.json": 1, "history.h5": 1, "fields.h5": 1, "modes.h5": 1, "m
 
 TABLES = ("history", "spectra", "impacts", "contact_points", "forces", "energy", "yielding", "equipment")
 QUANTITIES = ("displacement", "velocity", "acceleration")
+LABELS = ("channels", "contacts", "links", "forces", "bases", "rotations")  # lists of names in history.h5
 
 
 class ResultError(UserError):
@@ -65,6 +66,12 @@ class Result:
     def probes(self) -> list:
         names = [channel.rpartition(".")[0] for channel in self.history.get("channels", [])]
         return list(dict.fromkeys(names))
+
+    @cached_property
+    def spans(self) -> dict:
+        """Name -> Span, how the ends of what goes from one structure to another move (pounding.spans)."""
+        from .spans import of_run
+        return of_run(self)
 
     @property
     def contacts(self) -> list:
@@ -277,7 +284,7 @@ def _read_history(path: Path, result: Result) -> None:
         raise ValueError("no dataset time")
     if np.ndim(history["time"]) != 1 or history["time"].dtype.kind not in "fiu":
         raise ValueError("time is no row of numbers")
-    for labels in ("channels", "contacts", "links", "forces", "bases"):
+    for labels in LABELS:
         if not isinstance(history.get(labels, []), list):
             raise ValueError(f"{labels} holds no names")
     if "records" in history:  # rows behind them were still being written when the run ended
@@ -285,12 +292,12 @@ def _read_history(path: Path, result: Result) -> None:
         if not 0 <= whole <= rows:
             raise ValueError(f"{whole} records of {rows}")
         for name, values in history.items():
-            if name not in ("channels", "contacts", "links", "forces", "bases") and len(values) == rows:
+            if name not in LABELS and len(values) == rows:
                 history[name] = values[:whole]
     for name, labels in (("displacement", "channels"), ("velocity", "channels"),
                          ("acceleration", "channels"), ("gap", "contacts"),
                          ("contact_force", "contacts"), ("link_elongation", "links"), ("link_force", "links"),
-                         ("force", "forces"), ("base_displacement", "bases"),
+                         ("force", "forces"), ("base_displacement", "bases"), ("rotation", "rotations"),
                          ("ground_acceleration", DIRECTIONS)):
         columns = len(labels if labels is DIRECTIONS else history.get(labels, []))
         shape = (len(history["time"]), columns)

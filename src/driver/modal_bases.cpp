@@ -121,6 +121,10 @@ ModalRequest modal_request(MPI_Comm comm, const Scene& scene, std::size_t s, con
   for (const ResolvedForce& force : model.forces) {
     if (force.structure == number) add_node_points(force.nodes, 6, request.shown_points);
   }
+  for (std::size_t p = model.probes.size(); p < model.recorded.size(); ++p) {
+    const ResolvedProbe& end = model.recorded[p];
+    if (end.structure == number) add_node_points(end.nodes, 6, request.shown_points);
+  }
   for (const ResolvedProbe& base : model.storey_bases) {
     if (base.structure == number) add_node_points(base.nodes, 3, request.shown_points);
   }

@@ -78,6 +78,7 @@ WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model) {
   const Progress progress(comm, "faces in contact and probes", scene.progress_interval);
   model.interface = interactions::find_interface(scene, whole.meshes);
   model.probes = resolve_probes(scene, whole.meshes);
+  model.recorded = with_rotations(scene, whole.meshes, model.probes);
   model.forces = resolve_forces(scene, whole.meshes);
   model.loads = find_loads(scene, whole.meshes);
   model.starts = find_start_states(scene, whole.meshes);

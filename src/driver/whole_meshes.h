@@ -23,7 +23,8 @@ struct WholeMeshes {
 /// Hands all that ranks have to know of the whole meshes beside their parts to
 /// `stream(values...)`.
 void pass_shared_findings(auto& whole, auto& model, auto&& stream) {
-  stream(whole.mats, model.interface, model.probes, model.forces, model.loads, model.starts);
+  stream(whole.mats, model.interface, model.probes, model.recorded, model.forces, model.loads,
+         model.starts);
 }
 
 /// The meshes of all structures, checked, with contacts, probes and forces found in them. Throws

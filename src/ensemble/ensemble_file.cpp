@@ -49,6 +49,12 @@ std::vector<Quantity> quantities(const EnsembleLayout& layout) {
       {"peaks/displacement", "m", {channels}, &MemberResult::displacement},
       {"peaks/acceleration", "m/s2", {channels}, &MemberResult::acceleration},
       {"energy/residual", "-", {}, &MemberResult::energy_residual}};
+  if (!layout.spans.empty()) {
+    const std::size_t spans = layout.spans.size();
+    list.push_back(
+        {"spans/peak", "m (x, y, z, length), rad", {spans, 8}, &MemberResult::span_peak});
+    list.push_back({"spans/time", "s", {spans, 8}, &MemberResult::span_time});
+  }
   if (contacts == 0) return list;
   const std::size_t pairs = layout.pair_contacts.size();
   list.insert(list.end(),
@@ -120,6 +126,7 @@ void create(const std::string& path, const EnsembleLayout& layout) {
   reserve("done", {});
   file.write_strings(identity_name, layout.identity);  // where there are groups for them
   file.write_strings("spectra/channels", layout.channels);
+  if (!layout.spans.empty()) file.write_strings("spans/names", layout.spans);
   if (!layout.contacts.empty()) {
     file.write_strings("impacts/contacts", layout.contacts);
     file.write_array("pairs/contact", 0, layout.pair_contacts);
@@ -272,9 +279,10 @@ void write_ensemble_table(const std::string& path, const EnsembleLayout& layout,
   const MemberTable& table = *layout.table;
   const std::vector<bool> done = file.done();
   std::vector<Quantity> list = quantities(layout);
-  std::erase_if(list, [](const Quantity& quantity) {  // spectra and pairs have no place in a line
+  std::erase_if(list, [](const Quantity& quantity) {  // these have no place in a line
     const std::string_view named = quantity.name;
-    return named.starts_with("spectra/") || named.starts_with("pairs/");
+    return named.starts_with("spectra/") || named.starts_with("pairs/") ||
+           named.starts_with("spans/");
   });
   std::string text = "member,done";
   for (const std::string& column : table.columns) text += "," + column;

@@ -16,6 +16,7 @@ namespace pounding {
 struct EnsembleLayout {
   const MemberTable* table = nullptr;
   std::vector<std::string> channels;  ///< "probe direction"
+  std::vector<std::string> spans;
   std::vector<double> damping_ratios;
   std::vector<double> frequencies;  ///< [Hz]
   std::vector<std::string> contacts;

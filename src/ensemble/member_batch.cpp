@@ -1,6 +1,7 @@
 #include "ensemble/member_batch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -145,6 +146,7 @@ MemberResult MemberBatch::result(std::size_t member) {
   MemberResult result;
   runs_[member]->fill(result);
   passes_.fill(member, result);
+  recorder_.fill_spans(member, result);
   const double frequency = stated_frequency(scene_, recorder_.interval());
   for (std::size_t c = 0; c < recorder_.channels(); ++c) {
     const std::span<const double> history = recorder_.acceleration(c, member);
@@ -168,34 +170,41 @@ double BatchRecorder::memory(std::size_t channels, const Times& times) {
   return static_cast<double>(channels * batch_size * records_of(times) * sizeof(double));
 }
 
-BatchRecorder::BatchRecorder(std::span<const ResolvedProbe> probes,
-                             std::span<const LinearSystem> systems, std::span<const Mesh> meshes,
-                             const Times& times)
-    : channels_(3 * probes.size()),
+BatchRecorder::BatchRecorder(const Model& model, std::span<const Span> spans, const Times& times)
+    : channels_(3 * model.probes.size()),
       stride_(times.stride),
       interval_(times.time_step * times.stride),
       first_(first_record_from(times.start, times.time_step, interval_)),
       capacity_(records_of(times)) {
-  for (std::size_t s = 0; s < systems.size(); ++s) {
+  const std::vector<ResolvedProbe>& recorded = model.recorded;
+  for (std::size_t s = 0; s < model.systems.size(); ++s) {
     std::vector<TracePoint> places;
-    std::vector<std::size_t> counts;
-    Rows rows{s, systems[s].lumped_mass.size(), {}, {}, {}};
-    for (std::size_t p = 0; p < probes.size(); ++p) {
-      if (probes[p].structure != static_cast<int>(s)) continue;
-      for (const GlobalIndex node : probes[p].nodes) {
-        for (int d = 0; d < 3; ++d) places.push_back({node, d});
+    std::vector<const ResolvedProbe*> here;
+    Rows rows{s, model.systems[s].lumped_mass.size(), {}, {}, {}};
+    for (std::size_t p = 0; p < recorded.size(); ++p) {
+      if (recorded[p].structure != static_cast<int>(s)) continue;
+      for (const GlobalIndex node : recorded[p].nodes) {
+        for (int d = 0; d < 3; ++d) places.push_back({node, recorded[p].component + d});
       }
-      counts.push_back(probes[p].nodes.size());
+      here.push_back(&recorded[p]);
       for (std::size_t d = 0; d < 3; ++d) rows.channels.push_back(3 * p + d);
     }
-    if (counts.empty()) continue;
-    const Trace trace(systems[s], meshes[s], places, false);
-    rows.values = probe_means(counts, [&](std::size_t k) { return trace.row(k); });
-    rows.carried = probe_means(counts, [&](std::size_t k) { return trace.carried(k); });
+    if (here.empty()) continue;
+    const Trace trace(model.systems[s], model.meshes[s], places, false);
+    rows.values = probe_means(here, [&](std::size_t k) { return trace.row(k); });
+    rows.carried = probe_means(here, [&](std::size_t k) { return trace.carried(k); });
     rows_.push_back(std::move(rows));
   }
-  values_.assign(channels_, BatchValue{});
-  products_.assign(channels_, BatchValue{});
+  const auto first_of = [&](const std::string& end) {
+    const auto probe = std::ranges::find(recorded, end, &ResolvedProbe::name);
+    return 3 * static_cast<std::size_t>(probe - recorded.begin());
+  };
+  for (const Span& span : spans) {
+    ends_.push_back({first_of(span.from), first_of(span.to)});
+    ends_.push_back({first_of(span.name + "." + span.from), first_of(span.name + "." + span.to)});
+  }
+  values_.assign(3 * recorded.size(), BatchValue{});
+  products_.assign(values_.size(), BatchValue{});
   block_.assign(block_records * channels_, BatchValue{});
   history_.resize(channels_ * batch_size * capacity_);
 }
@@ -205,6 +214,8 @@ void BatchRecorder::restart(std::span<const BatchStep> batches,
   multiply(batches, &StateOf<BatchValue>::velocity, supports);
   last_velocity_ = values_;
   displacement_.assign(channels_, BatchValue{});
+  apart_.assign(3 * ends_.size(), BatchValue{});
+  largest_.assign(4 * ends_.size(), {});
   ground_.fill(BatchValue{});
   blocked_ = records_ = 0;
 }
@@ -231,10 +242,39 @@ void BatchRecorder::multiply(std::span<const BatchStep> all,
 
 void BatchRecorder::take_displacements(std::span<const BatchStep> batches,
                                        const std::vector<BatchValue>& supports) {
-  if (records_ < first_) return;
+  const bool counts = records_ >= first_;
+  if (!counts && records_ > 0) return;
   multiply(batches, &StateOf<BatchValue>::displacement, supports);
+  note_spans(static_cast<double>(records_) * interval_, counts);
+  if (!counts) return;
   for (std::size_t c = 0; c < channels_; ++c) {
     displacement_[c] = larger(displacement_[c], magnitude(values_[c]));
+  }
+}
+
+void BatchRecorder::note_spans(double time, bool counts) {
+  for (std::size_t e = 0; e < ends_.size(); ++e) {
+    BatchValue square{};
+    for (std::size_t k = 4 * e; k < 4 * e + 4; ++k) {
+      BatchValue found = square;
+      if (const std::size_t d = k % 4; d < 3) {
+        found = values_[ends_[e][1] + d] - values_[ends_[e][0] + d];
+        if (records_ == 0) apart_[3 * e + d] = found;
+        found = magnitude(found - apart_[3 * e + d]);
+        square += found * found;
+      }
+      const BatchMask more = largest_[k][0] < found;
+      if (!counts || !any(more)) continue;
+      largest_[k] = {larger(largest_[k][0], found), choose(more, all_eight(time), largest_[k][1])};
+    }
+  }
+}
+
+void BatchRecorder::fill_spans(std::size_t member, MemberResult& result) const {
+  for (std::size_t k = 0; k < largest_.size(); ++k) {
+    const double value = largest_[k][0][member];
+    result.span_peak.push_back(k % 4 == 3 ? std::sqrt(value) : value);
+    result.span_time.push_back(largest_[k][1][member]);
   }
 }
 

@@ -57,9 +57,8 @@ class BatchRecorder {
     double start = 0;        ///< records before do not count as peaks [s]
   };
 
-  /// `systems`, `meshes`: per structure, of any of the runs, whose coordinates are alike.
-  BatchRecorder(std::span<const ResolvedProbe> probes, std::span<const LinearSystem> systems,
-                std::span<const Mesh> meshes, const Times& times);
+  /// `model`: of any of the runs, whose coordinates are alike.
+  BatchRecorder(const Model& model, std::span<const Span> spans, const Times& times);
 
   std::size_t channels() const { return channels_; }
   double interval() const { return interval_; }
@@ -84,9 +83,12 @@ class BatchRecorder {
   double largest_displacement(std::size_t channel, std::size_t member) const {
     return displacement_[channel][member];
   }
+  /// How far the second end of each span moved against its first since the start of a run at most,
+  /// and when: three displacements and their length, three rotations and theirs.
+  void fill_spans(std::size_t member, MemberResult& result) const;
 
  private:
-  /// Probes of one structure.
+  /// Probes and rotations of one structure.
   struct Rows {
     std::size_t structure = 0;
     std::size_t width = 0;              ///< coordinates
@@ -94,6 +96,8 @@ class BatchRecorder {
     std::vector<double> carried;        ///< by supports, shape (channels, columns); or empty
     std::vector<std::size_t> channels;  ///< numbers among all
   };
+  /// Looks how far the ends of spans are apart at `time` [s]. `counts`: for the largest.
+  void note_spans(double time, bool counts);
   /// values_ := rows times the coordinates, and the way with the supports.
   void multiply(std::span<const BatchStep> all, std::vector<BatchValue> StateOf<BatchValue>::*part,
                 const std::vector<BatchValue>& supports);
@@ -108,10 +112,14 @@ class BatchRecorder {
   std::size_t first_;
   std::size_t capacity_;  ///< records of a run
   std::vector<Rows> rows_;
-  std::vector<BatchValue> values_;         ///< per channel
-  std::vector<BatchValue> products_;       ///< of the channels of one structure
-  std::vector<BatchValue> last_velocity_;  ///< per channel
-  std::vector<BatchValue> displacement_;   ///< per channel, largest
+  std::vector<BatchValue> values_;                ///< per channel, and behind these of rotations
+  std::vector<BatchValue> products_;              ///< of the channels of one structure
+  std::vector<BatchValue> last_velocity_;         ///< per channel
+  std::vector<BatchValue> displacement_;          ///< per channel, largest
+  std::vector<std::array<std::size_t, 2>> ends_;  ///< per span, of displacements, then of rotations
+  std::vector<BatchValue> apart_;                 ///< three of each, at the start
+  /// Four of each, largest and when; of lengths the square.
+  std::vector<std::array<BatchValue, 2>> largest_;
   std::array<BatchValue, 3> ground_{};
   std::vector<BatchValue> block_;  ///< shape (block records, channels)
   LargeArray history_;             ///< shape (channels, members, records)

@@ -22,6 +22,8 @@ struct MemberResult {
   std::vector<double> other_time;         ///< [s]
   std::vector<double> displacement;       ///< largest per channel [m]
   std::vector<double> acceleration;       ///< largest per channel after the low-pass [m/s2]
+  std::vector<double> span_peak;          ///< see SpanPeaks, shape (spans, 8) [m, rad]
+  std::vector<double> span_time;          ///< of these [s]
   std::vector<double> energy_residual;    ///< one number: largest, relative
   std::vector<double> contact_residual;   ///< one number: of complementarity, largest [-]
 };

@@ -117,6 +117,7 @@ class Ensemble {
 
   void read_members() {
     for (const Contact& contact : scene_.contacts) layout_.contacts.push_back(contact.name);
+    for (const Span& span : scene_.spans) layout_.spans.push_back(span.name);
     table_ = read_member_table(comm_, read_.ensemble, scene_);
     layout_.table = &table_;
     if (root()) print(warning_facts(repeated_members(table_)));
@@ -280,7 +281,7 @@ class Ensemble {
     const double start = MPI_Wtime();
     on_every_rank(comm_, [&] {
       if (missing_.empty()) return;
-      BatchRecorder recorder(model().probes, model().systems, model().meshes, times_);
+      BatchRecorder recorder(model(), scene_.spans, times_);
       const std::size_t stride = batch_size * static_cast<std::size_t>(size_of(comm_));
       const std::size_t begin = batch_size * static_cast<std::size_t>(rank_of(comm_));
       for (std::size_t first = begin; first < missing_.size(); first += stride) {

@@ -119,6 +119,7 @@ struct Model {
   std::vector<Building> buildings;    ///< per structure: these two and findings about them
   interactions::Interface interface;  ///< reports on rank 0 only
   std::vector<ResolvedProbe> probes;
+  std::vector<ResolvedProbe> recorded;  ///< probes, and rotations at the ends of spans
   std::vector<ResolvedForce> forces;
   std::vector<NodalLoad> loads;    ///< of the scene, on every rank
   std::vector<NodalStart> starts;  ///< per structure, on every rank

@@ -31,18 +31,21 @@ BaseMotion::BaseMotion(std::span<const ResolvedProbe> bases, std::span<const Lin
 }
 
 std::vector<double> probe_means(
-    std::span<const std::size_t> nodes,
+    std::span<const ResolvedProbe* const> probes,
     const std::function<std::span<const double>(std::size_t place)>& row_of) {
-  const std::size_t width = nodes.empty() ? 0 : row_of(0).size();
-  std::vector<double> rows(3 * nodes.size() * width, 0.0);
+  const std::size_t width = probes.empty() ? 0 : row_of(0).size();
+  std::vector<double> rows(3 * probes.size() * width, 0.0);
   std::size_t place = 0;
-  for (std::size_t p = 0; p < nodes.size(); ++p) {
-    for (std::size_t k = 0; k < 3 * nodes[p]; ++k, ++place) {
-      const std::span<const double> row = row_of(place);
-      for (std::size_t i = 0; i < width; ++i) {
-        rows[(3 * p + k % 3) * width + i] += row[i] / static_cast<double>(nodes[p]);
+  for (std::size_t p = 0; p < probes.size(); ++p) {
+    const std::size_t nodes = probes[p]->nodes.size();
+    for (std::size_t k = 0; k < 9 * nodes; ++k) {
+      const double weight = probes[p]->weight(k / 9, k / 3 % 3)[k % 3];
+      const std::span<const double> row = row_of(place + k / 9 * 3 + k % 3);
+      for (std::size_t i = 0; weight != 0 && i < width; ++i) {
+        rows[(3 * p + k / 3 % 3) * width + i] += weight * row[i] / static_cast<double>(nodes);
       }
     }
+    place += 3 * nodes;
   }
   return rows;
 }

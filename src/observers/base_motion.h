@@ -37,11 +37,11 @@ class BaseMotion {
   std::vector<Row> rows_;
 };
 
-/// Means of the rows of places over probes of a structure in generalised coordinates: three rows
-/// per probe, for x, y, z, shape (3 probes, values of a row). Places are three components of every
-/// node, probe after probe; `nodes`: number of nodes of each probe; `row_of`: the row of a place.
+/// Means, or weighted sums, of the rows of places over probes of a structure in generalised
+/// coordinates: three rows per probe, for x, y, z, shape (3 probes, values of a row). Places are
+/// three components of every node, probe after probe; `row_of`: the row of a place.
 std::vector<double> probe_means(
-    std::span<const std::size_t> nodes,
+    std::span<const ResolvedProbe* const> probes,
     const std::function<std::span<const double>(std::size_t place)>& row_of);
 
 }  // namespace pounding

@@ -19,10 +19,16 @@ constexpr std::size_t buffer_records = 4096;
 /// Displacement and velocity, three components each.
 constexpr std::size_t values_per_node = 6;
 
-/// Mean of a value of nodes.
-double mean(std::span<const double* const> nodes, std::size_t place) {
+/// Component d of the mean of three values of nodes from `offset` on, as they count. One node is
+/// the mean already.
+double mean(const ResolvedProbe& probe, std::span<const double* const> nodes, std::size_t offset,
+            std::size_t d) {
+  if (nodes.size() == 1) return 0 + nodes[0][offset + d];
   double sum = 0;
-  for (const double* node : nodes) sum += node[place];
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const double* const x = nodes[k] + offset;
+    sum += dot(probe.weight(k, d), {x[0], x[1], x[2]});
+  }
   return sum / static_cast<double>(nodes.size());
 }
 
@@ -37,7 +43,7 @@ Recorder::Recorder(const ObservedRun& run, Observers& before)
   for (const auto& other : before.list()) {
     if (auto columns = other->columns()) columns_.push_back(std::move(*columns));
   }
-  for (const ResolvedProbe& probe : run_.model.probes) {
+  for (const ResolvedProbe& probe : run_.model.recorded) {
     const bool mean = systems[probe.structure].generalised != nullptr;
     recorded_nodes_.push_back(mean ? 1 : probe.nodes.size());
   }
@@ -100,9 +106,9 @@ Recorder::StructureNodes Recorder::find_nodes(std::size_t structure,
   const LinearSystem& system = run_.model.systems[structure];
   const Mesh& mesh = run_.model.meshes[structure];
   std::vector<TracePoint> places;
-  std::vector<std::size_t> counts;  // nodes of each probe
-  for (std::size_t p = 0; p < run_.model.probes.size(); ++p) {
-    const ResolvedProbe& probe = run_.model.probes[p];
+  std::vector<const ResolvedProbe*> here;
+  for (std::size_t p = 0; p < run_.model.recorded.size(); ++p) {
+    const ResolvedProbe& probe = run_.model.recorded[p];
     const std::size_t before = places.size();
     for (std::size_t k = 0; k < probe.nodes.size(); ++k) {
       if (probe.structure != static_cast<int>(structure) || mesh.owned_node(probe.nodes[k]) < 0) {
@@ -111,22 +117,23 @@ Recorder::StructureNodes Recorder::find_nodes(std::size_t structure,
       if (!system.generalised || places.size() == before) {
         found.insert(found.end(), {static_cast<GlobalIndex>(p), static_cast<GlobalIndex>(k)});
       }
-      for (int d = 0; d < 3; ++d) places.push_back({probe.nodes[k], d});
+      for (int d = 0; d < 3; ++d) places.push_back({probe.nodes[k], probe.component + d});
     }
-    if (places.size() > before) counts.push_back((places.size() - before) / 3);
+    if (places.size() > before) here.push_back(&probe);
   }
   StructureNodes nodes{structure, Trace(system, mesh, places, false), {}, {}, nodes_, {}};
-  nodes.values.resize(system.generalised ? 3 * counts.size() : places.size());
+  nodes.values.resize(system.generalised ? 3 * here.size() : places.size());
   if (system.generalised) {
-    nodes.mean_rows = probe_means(counts, [&](std::size_t k) { return nodes.trace.row(k); });
-    nodes.mean_carried = probe_means(counts, [&](std::size_t k) { return nodes.trace.carried(k); });
+    nodes.mean_rows = probe_means(here, [&](std::size_t k) { return nodes.trace.row(k); });
+    nodes.mean_carried = probe_means(here, [&](std::size_t k) { return nodes.trace.carried(k); });
   }
   return nodes;
 }
 
 void Recorder::name_channels() {
-  for (const ResolvedProbe& probe : run_.model.probes) {
-    for (const char* direction : direction_names) channels_.push_back(probe.name + "." + direction);
+  for (std::size_t i = 0; i < 3 * run_.model.recorded.size(); ++i) {
+    const std::string& of = run_.model.recorded[i / 3].name;
+    (i < 3 * probes().size() ? channels_ : rotations_).push_back(of + "." + direction_names[i % 3]);
   }
   last_velocity_.assign(channels_.size(), 0.0);
   peaks_.assign(channels_.size(), {});
@@ -139,6 +146,7 @@ std::vector<Recorder::Quantity> Recorder::quantities() const {
     list.push_back({"velocity", channels_.size(), "m/s"});
     list.push_back({"acceleration", channels_.size(), "m/s2"});
   }
+  if (!rotations_.empty()) list.push_back({"rotation", rotations_.size(), "rad"});
   list.insert(list.end(), tables_.begin(), tables_.end());
   return list;
 }
@@ -148,6 +156,7 @@ void Recorder::create_file(const std::string& path) {
   schema::write(*file_, schema::history);
   file_->write_attribute("/", "title", run_.scene.title);
   file_->write_strings("channels", channels_);
+  if (!rotations_.empty()) file_->write_strings("rotations", rotations_);
   for (const RecordColumns& columns : columns_) {
     file_->write_strings(columns.list, columns.names);
   }
@@ -241,7 +250,7 @@ void Recorder::take_start(const State& state) {
   NodeValues values;
   find_values(0, gathered, offsets, values);
   for (std::size_t channel = 0; channel < channels_.size(); ++channel) {
-    last_velocity_[channel] = mean(values[channel / 3], 3 + channel % 3);
+    last_velocity_[channel] = mean(probes()[channel / 3], values[channel / 3], 3, channel % 3);
   }
 }
 
@@ -293,9 +302,7 @@ std::vector<std::vector<double>> Recorder::column_values(std::size_t rows,
 void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
                           const std::vector<int>& offsets) {
   const std::size_t channels = channels_.size();
-  std::vector<double> time;
-  std::vector<double> displacement;
-  std::vector<double> velocity;
+  std::vector<double> time, displacement, velocity, rotation;
   const std::vector<std::vector<double>> tables = column_values(rows, gathered, offsets);
   NodeValues values;
   const auto first = static_cast<std::ptrdiff_t>(accelerations_.size());
@@ -304,13 +311,16 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
     time.push_back(static_cast<double>(records_++ * stride_) * run_.model.time_step);
     for (std::size_t channel = 0; channel < channels; ++channel) {
       const std::size_t d = channel % 3;
-      const double u = mean(values[channel / 3], d);
-      const double v = mean(values[channel / 3], 3 + d);
+      const double u = mean(probes()[channel / 3], values[channel / 3], 0, d);
+      const double v = mean(probes()[channel / 3], values[channel / 3], 3, d);
       const double a = (v - last_velocity_[channel] + ground_[3 * row + d]) / interval();
       last_velocity_[channel] = v;
       displacement.push_back(u);
       velocity.push_back(v);
       accelerations_.push_back(a);
+    }
+    for (std::size_t i = channels; i < channels + rotations_.size(); ++i) {
+      rotation.push_back(mean(run_.model.recorded[i / 3], values[i / 3], 0, i % 3));
     }
   }
   const std::span<const double> acceleration(accelerations_.begin() + first, accelerations_.end());
@@ -322,6 +332,7 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
     file_->append("velocity", velocity);
     file_->append("acceleration", acceleration);
   }
+  if (!rotation.empty()) file_->append("rotation", rotation);
   std::vector<double> ground(ground_.begin(),
                              ground_.begin() + static_cast<std::ptrdiff_t>(3 * rows));
   for (double& value : ground) value /= interval();
@@ -377,7 +388,7 @@ std::vector<double> Recorder::acceleration(std::size_t channel, std::size_t firs
 
 OutputKind history_output() {
   return output<Recorder>(
-      {{history_file, "motion of the probes and what was recorded with it, over time", "", true}});
+      {{history_file, "motion of the probes, and all that is recorded with it, over time", "", true}});
 }
 
 std::size_t first_record_from(double start, double time_step, double interval) {

@@ -27,7 +27,8 @@ struct ChannelPeaks {
 /// Writes `history.h5`. A record is made every `stride` steps: displacement at t_n, velocity at
 /// t_n + dt/2, and as absolute acceleration the change of velocity since the last record over the
 /// interval (so that no impulse is lost between samples), ground included. Bases: displacement at
-/// t_n. Beside these come the columns of other observers, as these bring them.
+/// t_n. Rotations at the ends of spans at t_n. Beside these come the columns of other observers, as
+/// these bring them.
 ///
 /// Values wait in a buffer on the rank that owns them and travel to rank 0 a few thousand records
 /// at a time, or on demand; a record itself neither allocates nor communicates. The
@@ -73,10 +74,14 @@ class Recorder final : public Observer {
   std::size_t first_record_from(double start) const;
   double interval() const { return run_.model.time_step * stride_; }
   const std::vector<ResolvedProbe>& probes() const { return run_.model.probes; }
+  /// Rotations at the ends of spans.
+  std::span<const ResolvedProbe> rotations() const {
+    return std::span(run_.model.recorded).subspan(probes().size());
+  }
 
  private:
-  /// The nodes of a structure that probes read, as far as this rank knows them. In generalised
-  /// coordinates each probe counts as one node, the mean of its own.
+  /// The nodes of a structure that probes and rotations read, as far as this rank knows them. In
+  /// generalised coordinates each probe counts as one node, the mean of its own.
   struct StructureNodes {
     std::size_t structure;
     Trace trace;                    ///< three components of each node, node after node
@@ -143,7 +148,8 @@ class Recorder final : public Observer {
   // Rank 0
   std::unique_ptr<Hdf5File> file_;
   std::vector<std::string> channels_;
-  std::vector<int> widths_;  ///< per rank
+  std::vector<std::string> rotations_;  ///< "span.probe.x"
+  std::vector<int> widths_;             ///< per rank
   /// Per rank, table and column of each of its values beside those of nodes.
   std::vector<std::vector<int>> rank_places_;
   std::vector<std::array<std::size_t, 2>> order_;  ///< probe and position of the gathered nodes

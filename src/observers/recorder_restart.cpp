@@ -52,6 +52,7 @@ void Recorder::check_history(const Hdf5Reader& history) const {
     }
   };
   refuse_unless(history.strings("channels") == channels_);
+  if (!rotations_.empty()) refuse_unless(history.strings("rotations") == rotations_);
   for (const RecordColumns& columns : columns_) {
     refuse_unless(history.strings(columns.list) == columns.names);
   }

@@ -28,6 +28,7 @@ enum class OptionBlock {
   support_rotation,
   load,
   probe,
+  span,
   force,
   equipment,
   spectra

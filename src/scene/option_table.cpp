@@ -32,6 +32,7 @@ std::vector<OptionRow> rows_of_scene() {
   add<SupportRotationOptions>(OptionBlock::support_rotation, rows);
   add<Load>(OptionBlock::load, rows);
   add<Probe>(OptionBlock::probe, rows);
+  add<Span>(OptionBlock::span, rows);
   add<ForceItem>(OptionBlock::force, rows);
   add<Equipment>(OptionBlock::equipment, rows);
   add<SpectraRequest>(OptionBlock::spectra, rows);
@@ -73,6 +74,7 @@ std::span<const OptionOwner> option_owners() {
       {support_rotation, "support_rotation", "Rotation of a support about an axis", ""},
       {load, "load", "Loads, forces with a history of their own", "loads"},
       {probe, "probe", "Probes", "probes"},
+      {span, "span", "Spans from one structure to another", "spans"},
       {force, "force", "Forces", "forces"},
       {equipment, "equipment", "Equipment on floors", "equipment"},
       {spectra, "spectra", "Floor response spectra", ""}};

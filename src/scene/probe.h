@@ -28,6 +28,21 @@ struct Probe {
   }
 };
 
+/// Two probes on two structures with something between them: a line, a bridge, a cable tray.
+struct Span {
+  std::string name;
+  std::string from;
+  std::string to;
+
+  static void describe(auto& option) {
+    using namespace option_words;
+    // clang-format off
+    option(&Span::from, "<span>_from", text("name", required, "the name of a probe"), "the probe at its first end");
+    option(&Span::to, "<span>_to", text("name", required, "the name of a probe"), "the probe at its second end, on another structure");
+    // clang-format on
+  }
+};
+
 /// Links whose force is recorded over their elongation: those of a region, or the filler of a
 /// contact.
 struct Loop {

@@ -86,6 +86,7 @@ struct Scene {
   std::string mesh_pieces;    ///< folder of meshes cut before; empty: none
   int write_mesh_pieces = 0;  ///< number of ranks to cut them for; 0: they are read
   std::vector<Probe> probes;
+  std::vector<Span> spans;
   std::vector<Loop> loops;
   std::vector<ForceItem> forces;
   SpectraRequest spectra;
@@ -131,6 +132,7 @@ struct Scene {
     option("structures", names(required), "the buildings");
     option("contacts", names("none"), "the places where they may hit");
     option("probes", names("none"), "where the motion is recorded");
+    option("spans", names("none"), "what goes from one structure to another: motions of its two ends and against each other, rotations too");
     option("loops", names("none"), "links whose force is recorded over their elongation: structure:group of links that yield or damp or of beams that yield, or a contact with a filler or faces that are crushed");
     option("loops_at", text("m", absent("left out: all of them"), "points x,y,z; x,y,z"), "of each group in loops, the element nearest to each point only");
     option("forces", names("none"), "forces that are recorded: reactions, storeys, members, shells, cuts");

@@ -72,6 +72,10 @@ class SceneReader {
     for (const std::string& name : listed_.at(OptionBlock::probe)) {
       scene_.probes.push_back(read_probe(name));
     }
+    for (const std::string& name : listed_.at(OptionBlock::span)) {
+      scene_.spans.push_back({name, "", ""});
+      options_.read(scene_.spans.back(), {name});
+    }
     read_loops();
     for (const std::string& name : listed_.at(OptionBlock::force)) {
       scene_.forces.push_back(read_force(options_, scene_, name));

@@ -60,12 +60,12 @@ class Records:
         self.columns = {}
         with h5py.File(os.path.join(folder, "history.h5")) as file:
             self.time = file["time"][()]
-            names = {key: [n.decode() for n in file[key]] for key in ("channels", "contacts", "forces", "links") if key in file}
+            names = {key: [n.decode() for n in file[key]] for key in ("channels", "contacts", "forces", "links", "rotations") if key in file}
             for key, data in file.items():
                 if data.dtype.kind != "f" or not data.size or len(data) != len(self.time) or key == "time":
                     continue
                 labels = names.get({"force": "forces", "gap": "contacts", "contact_force": "contacts", "link_force": "links",
-                                    "link_elongation": "links"}.get(key, "channels"), [])
+                                    "link_elongation": "links", "rotation": "rotations"}.get(key, "channels"), [])
                 labels = [f"ground.{axis}" for axis in "xyz"] if key == "ground_acceleration" else labels
                 unit = data.attrs["unit"].decode().split(", ")
                 for label, column in zip(labels, numpy.nan_to_num(data[()]).T):

@@ -206,6 +206,7 @@ FEATURES = [
     Feature("member forces", "output", force("members", group="column"), physics=False),
     Feature("cut", "output", force("cut", group="slab", level=.9, normal=vector((1, 0, 0))), physics=False),
     Feature("shell forces", "output", {**wall(), **force("shells", group="wall")}, physics=False),
+    Feature("span", "output", {"spans": "tray", "tray_from": "pa", "tray_to": "pb"}, physics=False),
     Feature("floors", "output", {"pa_floor": "true"}, physics=False),
     Feature("pictures", "output", {"write_model": "true", "write_modes": "true", "modes": 2}, physics=False),
     Feature("fields", "output", {"fields_interval": 4e-3}, physics=False),

@@ -51,7 +51,7 @@ def _parts(result: Result, drawn: _Drawn) -> list:
     return [
         ("Equipment", equipment.table(result, twin) + draw(*equipment.ALL) if equipment.items(result) else ""),
         ("Yielding", found.yield_table(result)),
-        ("The joints", found.impact_tables(result) + found.joint_table(result) + draw(*contact_figures.JOINT)),
+        ("The joints", found.impact_tables(result) + found.joint_table(result) + found.span_table(result) + draw(*contact_figures.JOINT)),
         ("The floors", found.probe_table(result, twin) + draw(*spectra_figures.ALL) + _design_spectra(result)
          + found.drift_table(result) + draw(*floor_figures.ALL)),
         ("Forces and links", found.force_table(result, twin) + draw(*force_figures.ALL)),

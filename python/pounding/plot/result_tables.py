@@ -103,6 +103,13 @@ def drift_table(result: Result) -> str:
                                                 "along y [%]", "at [s]"], rows, text=(1, 2))
 
 
+def span_table(result: Result) -> str:
+    rows = [(name, *(1e3 * value for value in span.largest[0]), span.largest[1][3]) for name, span in result.spans.items()]
+    return html_table("Spans: largest motion of the second end against the first, since the start",
+                      ["span", "ux [mm]", "uy", "uz", "|u|", "rx [mrad]", "ry", "rz", "|r|", "|u| at [s]"],
+                      _settled(rows, range(1, 5), range(5, 9)), text=(0,))
+
+
 def force_table(result: Result, twin: Result | None = None) -> str:
     """The largest value of each component of each item, and which element has it."""
 
