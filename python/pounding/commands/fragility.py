@@ -90,7 +90,7 @@ def carry_out(found: study.Study, folder: Path, options: argparse.Namespace) -> 
         one = members_of(found, folder, options)
         if one:
             alone_there = conditions.Condition(conditions.ALONE, conditions.ALONE, found)
-            submitted(envelope.Envelope(found, {alone_there: one}, folder), options)
+            submitted(across(envelope.Envelope(found, {alone_there: one}, folder), options), options)
         return 0
     told, analyses = [], {}
     for number, condition in enumerate(in_conditions, 1):
@@ -108,12 +108,20 @@ def carry_out(found: study.Study, folder: Path, options: argparse.Namespace) -> 
         if one:
             analyses[condition] = one
     if analyses:
-        whole = envelope.Envelope(found, analyses, folder)
+        whole = across(envelope.Envelope(found, analyses, folder), options)
         page, text = envelope.write(whole)
         print("\n" + text)
         print(f"see {page}")
         submitted(whole, options)
     return 0
+
+
+def across(one: envelope.Envelope, options: argparse.Namespace) -> envelope.Envelope:
+    """Makes the histories of what spans the joint, and says where they are."""
+    if not options.collect:
+        one.make_histories()
+        print("".join(f"{note}\n" for note in one.notes), end="", flush=True)
+    return one
 
 
 def submitted(one: envelope.Envelope, options: argparse.Namespace) -> None:
@@ -165,7 +173,7 @@ def members_of(found: study.Study, folder: Path, options: argparse.Namespace,
                         "run what is missing")
     ruled, note = ({}, "") if found.is_surveyed else rules.find(found, plan, runner.scene(True), folder, options.jobs)
     notes += [note] if note else []
-    analysis = Analysis(found, plan, gathered, runner.equipment, notes, runner.scouted[True].inputs)
+    analysis = Analysis(found, plan, gathered, runner.equipment, notes, runner.scouted[True].inputs, runner)
     page, text = report.write(analysis, full, ruled, notes, folder)
     print("\n" + text)
     print(f"see {page}")

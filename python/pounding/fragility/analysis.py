@@ -32,6 +32,7 @@ class Analysis:
     equipment: list = field(default_factory=list)
     notes: list = field(default_factory=list)  # doubts and remarks, a line each
     inputs: dict = field(default_factory=dict)  # files that the members read, with their hashes
+    runner: object = None  # of the members
 
     def __post_init__(self):
         self.fitted = {}

@@ -5,8 +5,8 @@ import re
 from dataclasses import dataclass, replace
 
 from pounding import UserError
-from .study import Study, given_options, read_motions
-from .study_file import Reader
+from .study import Study, read_motions
+from .study_file import Reader, given_options
 
 NAME = re.compile(r"\w[\w-]*")
 ALONE = "as given"  # soil or state of a study that names none

@@ -11,7 +11,7 @@ from pounding.plot.markup import answer_box, figure_parts, html_table, linked, w
 from pounding.plot.style import WIDTH, WITH, WITHOUT, g_axis, log_scale, plt, save
 from pounding.tables import cells_of, markdown, write_csv
 
-from . import figures, report
+from . import figures, report, spans
 from .analysis import CONTACT, EXCEEDED, Analysis, gap_text, name_of, quantile
 from .conditions import ALONE, Condition
 from .study import Study
@@ -33,6 +33,7 @@ class Envelope:
         self.conditions: list[Condition] = list(self.analyses)
         self.first: Analysis = self.analyses[self.conditions[0]]
         self.gap, self.level, self.channel, self.damping = figures.shown(self.first)
+        self.notes: list[str] = []  # of histories of spans, a line each
 
     @property
     def frequencies(self) -> list:
@@ -123,6 +124,19 @@ class Envelope:
                 most[key] = condition, row
         return [{"runs": run, **{name: row[name] for name in SHOWN_BY_ELEVATION}, **condition.place}
                 for (run, *_), (condition, row) in most.items()]
+
+    @cached_property
+    def span_rows(self) -> list:
+        """Of what spans the joint, see spans.rows_of; its tables are written with it."""
+        return spans.write(self.analyses, self.folder, self.gap)
+
+    @cached_property
+    def span_figure(self) -> list:
+        return spans.figure(self.span_rows, self.analyses, self.folder, self.level)
+
+    def make_histories(self) -> None:
+        """Histories of the spans in the members that govern, at the level of the figures, from runs of their own."""
+        self.notes = spans.write_histories(self.span_rows, self.analyses, self.folder, self.gap, self.level)
 
     def hclpf_rows(self) -> list:
         rows = []
@@ -244,13 +258,15 @@ def write(one: Envelope) -> tuple:
         write_csv(folder / f"{name}.csv", rows)
     joint.write(folder, {f"{run}, {condition.folder}": rows for condition, runs in one.elevation_runs.items()
                          for run, rows in runs.items()})
-    lines = one.told()
-    pages = one.sensitivity_figure + one.spectra_figure
-    parts = [(f"{one.study.width_title} that would be needed [m]".capitalize(), tables["joint"]), ("Each soil and state", tables["conditions"]),
+    lines = one.told() + one.notes
+    pages = one.sensitivity_figure + one.spectra_figure + one.span_figure
+    parts = [(f"{one.study.width_title} that would be needed [m]".capitalize(), tables["joint"]),
+             (spans.CAPTION, [row for row in one.span_rows if row["pga [m/s2]"] == one.level]),
+             ("Each soil and state", tables["conditions"]),
              ("What moves the answer", tables["sensitivity"]), ("Largest probability of each event", tables["probability"]),
              ("Capacity of high confidence and low probability of failure (HCLPF)", tables["hclpf"])]
     box = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))
-    shown = figure_parts(folder, pages) + [(caption, html_table("", *cells_of(rows), text=(0,))) for caption, rows in parts]
+    shown = figure_parts(folder, pages) + [(caption, html_table("", *cells_of(rows), text=(0,))) for caption, rows in parts if rows]
     after = linked("The study in each condition", [(condition.title, f"conditions/{condition.folder}/fragility.html")
                                                    for condition in one.linked])
     text = "\n".join(lines) + "\n\n" + "\n".join(markdown(caption, *cells_of(rows)) for caption, rows in parts[:3])

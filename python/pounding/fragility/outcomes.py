@@ -12,6 +12,7 @@ import numpy as np
 from pounding import UserError
 from pounding.files import written_beside
 from pounding.results import UNREADABLE, Result
+from pounding.spans import MOTIONS
 
 
 FILE = "ensemble.h5"
@@ -20,17 +21,20 @@ ARRAYS = {"spectra/pseudo_acceleration": "spectra", "impacts/episodes": "episode
           "impacts/impulse_sum": "impulse_sum", "impacts/impulse_largest": "impulse_largest",
           "impacts/force_peak": "force_peak", "gaps/smallest": "smallest_gap", "peaks/displacement": "displacement",
           "peaks/acceleration": "acceleration", "energy/residual": "residual", "pairs/initial_gap": "pair_gap",
-          "pairs/least_gap": "pair_least", "pairs/time": "pair_time", "pairs/displacement": "pair_moved"}
+          "pairs/least_gap": "pair_least", "pairs/time": "pair_time", "pairs/displacement": "pair_moved",
+          "spans/peak": "span_peak", "spans/time": "span_time"}
 # What all members share.
 LABELS = {"spectra/frequency": "frequency", "spectra/damping": "damping", "spectra/channels": "channels",
-          "impacts/contacts": "contacts", "pairs/contact": "pair_contact", "pairs/place": "pair_place"}
+          "impacts/contacts": "contacts", "pairs/contact": "pair_contact", "pairs/place": "pair_place", "spans/names": "spans"}
+TEXTS = ("channels", "contacts", "spans")
 
 
 @dataclass
 class Outcomes:
     """`spectra` (members, channels, damping ratios, frequencies) [m/s2]; impacts and gaps (members, contacts); peaks
     (members, channels); pairs of contacts by number of the contact and place (pairs, 3), their gaps at the start, least ones
-    and when (members, pairs), and largest relative displacements (members, pairs, 3); SI units."""
+    and when (members, pairs), and largest relative displacements (members, pairs, 3); largest motions of the ends of
+    `spans` against each other, and when (members, spans, 8), in the order of spans.MOTIONS; SI units."""
 
     frequency: np.ndarray
     damping: np.ndarray
@@ -52,6 +56,9 @@ class Outcomes:
     pair_least: np.ndarray
     pair_time: np.ndarray
     pair_moved: np.ndarray
+    spans: list
+    span_peak: np.ndarray
+    span_time: np.ndarray
 
 
 def _texts(values) -> list:
@@ -80,6 +87,13 @@ def read_rows(path: Path) -> tuple:
     return columns, {tuple(row): index for index, row in enumerate(cells) if done[index]}
 
 
+def time_steps(path: Path) -> list:
+    """Time step that all members of an ensemble have, as text [s]; none of single runs."""
+    with _reading(path) as file:
+        lines = _texts(file["identity"][()]) if "identity" in file else []
+    return [line.split()[2] for line in lines if line.startswith("time step ")]
+
+
 def collect(files: list, members: list, columns: list) -> tuple:
     """Outcomes of the members, and the indices of those that are in none of the files. The outcomes are of the members
     that were found, in their order; None of none."""
@@ -96,13 +110,13 @@ def collect(files: list, members: list, columns: list) -> tuple:
         mine = [index for index in order if places[index][0] == path]
         rows = np.array([places[index][1] for index in mine])
         with _reading(path) as file:
-            labels = {name: file[dataset][()] for dataset, name in LABELS.items()}
-            labels["channels"], labels["contacts"] = _texts(labels["channels"]), _texts(labels["contacts"])
+            labels = {name: file[dataset][()] if dataset in file else [] for dataset, name in LABELS.items()}
+            labels |= {name: _texts(labels[name]) for name in TEXTS}
             shared = shared or labels
             if labels["channels"] != shared["channels"] or not np.allclose(labels["frequency"], shared["frequency"]):
                 raise UserError(f"{path}: other probes or frequencies than in the other parts")
             for dataset, name in ARRAYS.items():
-                values = file[dataset][()][rows]
+                values = file[dataset][()][rows] if dataset in file else np.empty((len(rows), 0, len(MOTIONS)))
                 target = found.setdefault(name, np.empty((len(order), *values.shape[1:])))
                 target[[order.index(index) for index in mine]] = values
     missing = [index for index in range(len(members)) if index not in places]
@@ -139,13 +153,15 @@ def of_run(result: Result) -> Outcomes:
     of_pairs = {name: np.asarray(pairs.get(name, []), float)
                 for name in ("x", "y", "z", "initial_gap", "least_gap", "time", "dx", "dy", "dz")}
     place = np.stack([of_pairs[axis] for axis in "xyz"], -1)
+    of_spans = np.array([span.largest for span in result.spans.values()]).reshape(-1, 2, len(MOTIONS))
     owner = np.array([contacts.index(name) for name in pairs.get("contact", [])], float)
     return Outcomes(frequency, damping, channels, contacts, owner, place, spectra[None], of_contact("episodes", 0),
                     of_impacts("start", True), of_contact("total_impulse", 0), of_contact("largest_impulse", 0),
                     of_impacts("peak_force", False), np.array(gaps), np.array(peaks["peak_displacement"]),
                     np.array(peaks["peak_acceleration"]), np.array([told["energy"]["relative_residual"] or 0.0]),
                     of_pairs["initial_gap"][None], of_pairs["least_gap"][None], of_pairs["time"][None],
-                    np.stack([of_pairs[f"d{axis}"] for axis in "xyz"], -1)[None])
+                    np.stack([of_pairs[f"d{axis}"] for axis in "xyz"], -1)[None], list(result.spans),
+                    of_spans[None, :, 0], of_spans[None, :, 1])
 
 
 def write(path: Path, columns: list, texts: list, parts: list) -> None:
@@ -155,7 +171,7 @@ def write(path: Path, columns: list, texts: list, parts: list) -> None:
         table.attrs["columns"] = ",".join(columns)
         for dataset, name in LABELS.items():
             values = getattr(parts[0], name)
-            file[dataset] = np.char.encode(values) if isinstance(values, list) else values
+            file[dataset] = np.char.encode(np.array(values, str)) if isinstance(values, list) else values
         for dataset, name in ARRAYS.items():
             file[dataset] = np.concatenate([getattr(part, name) for part in parts])
         file["done"] = np.ones(len(parts), dtype="i4")
@@ -174,5 +190,4 @@ def restore(path: Path) -> Outcomes | None:
             values = {item.name: file[item.name] for item in fields(Outcomes)}
     except (*UNREADABLE, EOFError, zipfile.BadZipFile, zlib.error):
         return None
-    values["channels"], values["contacts"] = values["channels"].tolist(), values["contacts"].tolist()
-    return Outcomes(**values)
+    return Outcomes(**values | {name: values[name].tolist() for name in TEXTS})

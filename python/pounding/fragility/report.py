@@ -11,7 +11,7 @@ from pounding.plot.answer import plural
 from pounding.plot.markup import answer_box, figure_parts, html_table, paragraphs, write_page
 from pounding.fragility import Fragility, binomial_interval, moments
 
-from . import figures
+from . import figures, spans
 from .analysis import CONTACT, EXCEEDED, TOLERANCE, Analysis, fit_row, gap_text, name_of
 from .design import OWN_FIELD
 from .outcomes import Outcomes
@@ -92,6 +92,10 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
     by_elevation = elevation_runs(analysis)
     joint.write(folder, by_elevation)
     pages = joint.draw(folder, by_elevation) + pages
+    alone = {None: analysis}
+    gap, level, *_ = figures.shown(analysis)
+    across = spans.write(alone, folder, gap)
+    pages += spans.figure(across, alone, folder, level)
     more, widths = figures.enough(analysis, folder)
     pages += more + (figures.scatter_parts(analysis, folder) if study.exchange else [])
     first_rows = [{"sample": sample, "motion": analysis.design.motions[sample],
@@ -111,6 +115,7 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
              ("Deviation of the logarithm of spectra, 5 % damping", of_shown(analysis, tables["joint_share"])),
              ("Other deviations and lengths of the joints' fields, 5 % damping", fields_summary(tables["fields"])),
              (f"{analysis.study.width_title} that would be needed [m]".capitalize(), tables["joint"]),
+             (spans.CAPTION, [row for row in across if row["pga [m/s2]"] == level]),
              (f"Members that the mean of any spectrum needs, within {100 * TOLERANCE:g} %",
               enough_summary(enough_rows)), ("Repeats at full order: ln-ratio of the spectra", repeats_summary(tables["full_order"]))]
     lines = told(analysis, fits, full, tables) + notes

@@ -162,6 +162,20 @@ class Runner:
         """(Outcomes, indices of those that are missing)."""
         return outcomes.collect(self.files(reduced), members, self.design.columns)
 
+    def history(self, member) -> Path:
+        """Folder of a run of a member of its own with all that it records, at the time step that the members had; kept where it
+        is there already. Throws UserError."""
+        base = self.bases[True]
+        place = base / f"history-{_digest(member.values)[:16]}"
+        if not (place / "summary.json").exists():
+            steps = sorted({step for path in self.files(True) for step in outcomes.time_steps(path)})
+            words = [*self._words(member, True), "-modes", "0", *(["-time_step", steps[0]] if len(steps) == 1 else [])]
+            print(f"fragility: history of a member in {place}", flush=True)
+            failure = finish(lambda: Job(words, place.absolute(), self.ranks, Path.cwd(), self.variables))
+            if failure:
+                raise UserError(failure)
+        return place
+
     def run(self, part: tuple) -> str:
         """Runs part i of n of the members, and of the repeats at full order; returns how members were run. Throws
         UserError."""

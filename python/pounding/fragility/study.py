@@ -5,22 +5,20 @@ import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import yaml
-
 from pounding import UserError
 from pounding.fragility import DISTRIBUTIONS, Variable
 from pounding.mats import Coherence
 from pounding.motion_rules import read_rules
 from pounding.motion_signals import MotionError
 from pounding.results import DIRECTIONS
-from pounding.scenes import SceneError, flatten
 
+from . import spans
 from .coherence import Moved, read as read_coherence
-from .study_file import Reader, beside, load
+from .study_file import Reader, beside, given_options, load
 
 KEYS = ("title", "scene", "output", "options", "reduction", "seed", "samples", "confidence", "motions", "levels",
         "motion_rules", "gaps", "apart", "joints", "coherence", "soils", "states", "submittal", "uncertainty", "exchange", "field_factors",
-        "factors", "capacities", "full_order", "frequencies", "dampings", "show", "elevations")
+        "factors", "capacities", "full_order", "frequencies", "dampings", "show", "elevations", "spans")
 DAMPINGS = (0.02, 0.03, 0.04, 0.05, 0.07)
 SYNTHETIC = {"duration": "25", "envelope": "2,15"}
 RECORDED = {"unit": "auto", "time_step": "0", "column": "0"}
@@ -355,18 +353,6 @@ def _show(reader: Reader, gaps: list, levels: list) -> dict:
     return one.values
 
 
-def given_options(path: Path) -> dict:
-    """Option -> text of a file of options and of those that it includes; nothing of what cannot be read here."""
-    try:
-        found = yaml.safe_load(path.read_text(encoding="utf-8"))
-        options = flatten(found) if isinstance(found, dict) else {}
-    except (OSError, ValueError, yaml.YAMLError, SceneError, RecursionError):
-        return {}
-    for name in filter(None, options.pop("include", "").split(",")):
-        options = {**(given_options(path.parent / name.strip()) if (path.parent / name.strip()) != path else {}), **options}
-    return options
-
-
 def own_gap(study: Study) -> float | None:
     """The nominal gap of the study that its scene has: that of a joint whose gap the scene or the study's options give."""
     options = {**given_options(study.scene), **study.options}
@@ -432,12 +418,14 @@ def read(path: Path) -> Study:
     if exchange and not any(joint.deviation or joint.field for joint in joints.values()):
         reader.fail("exchange", "makes no difference: no joint has a deviation or a field")
     field_factors = _field_factors(reader, joints)
+    options = reader.options("options")
+    options |= spans.read(reader, {**given_options(scene), **options})
     members = samples * (len(levels) + len(gaps) * (1 + exchange) * (len(levels) + len(field_factors)))
     if members > MOST_MEMBERS:
         reader.fail("samples", f"makes {members} members, more than {MOST_MEMBERS}")
     return Study(
         path, scene.resolve(), str(reader.values.get("title", f"Study {path.stem}")),
-        Path(str(reader.values.get("output", Path("results") / f"fragility-{path.stem}"))), reader.options("options"),
+        Path(str(reader.values.get("output", Path("results") / f"fragility-{path.stem}"))), options,
         reader.options("reduction"), reader.whole("seed", 1, 0), samples,
         reader.number("confidence", 0.95, 0.0, 1.0), axes, limit, between, wanted, levels, gaps,
         reader.number("apart", max(1.0, 20 * gaps[-1]), gaps[-1]), joints, exchange, field_factors, _factors(reader),

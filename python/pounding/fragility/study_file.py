@@ -102,6 +102,18 @@ def beside(study: Path, text: str) -> str:
     return str(path.resolve()) if re.search(r"/|\.\w+$", text) and path.is_file() else text
 
 
+def given_options(path: Path) -> dict:
+    """Option -> text of a file of options and of those that it includes; nothing of what cannot be read here."""
+    try:
+        found = yaml.safe_load(path.read_text(encoding="utf-8"))
+        options = flatten(found) if isinstance(found, dict) else {}
+    except (OSError, ValueError, yaml.YAMLError, SceneError, RecursionError):
+        return {}
+    for name in filter(None, options.pop("include", "").split(",")):
+        options = {**(given_options(path.parent / name.strip()) if (path.parent / name.strip()) != path else {}), **options}
+    return options
+
+
 class _Loader(yaml.SafeLoader):
     """Refuses a key that stands twice, of which YAML takes the last."""
 

@@ -13,10 +13,11 @@ from pounding.plot import design_spectra
 from pounding.plot.markup import answer_box, figure_parts, folded, html_table, paragraphs, write_page
 from pounding.tables import cells_of, write_csv
 
+from . import spans
 from .analysis import CONTACT
 from .envelope import Envelope, governs
-from .study import Study, given_options
-from .study_file import Reader
+from .study import Study
+from .study_file import Reader, given_options
 
 KEYS = ("question", "design", "beyond", "not_covered")
 # Rows of docs/measurements/verification.md by options of the scene that use what they verify.
@@ -73,6 +74,7 @@ def answers(one: Envelope, told: Submittal) -> list:
 def open_points(one: Envelope) -> list:
     """Doubts, refused motions and contradictions, each once: they stand on the first sheet."""
     lines = [note for each in one.analyses.values() for note in each.notes if note.startswith("Doubt:") or "refused" in note]
+    lines += [note for note in one.notes if note.startswith("Doubt:")]
     wrong = sum(each.contradictions() for each in one.analyses.values())
     lines += [f"Open: {wrong} members touch otherwise than the runs apart say."] if wrong else []
     worst = max(float(abs(each.outcomes.residual).max()) for each in one.analyses.values())
@@ -170,8 +172,10 @@ def write(one: Envelope) -> Path | None:
     missing += [f"Other {word} than the one given." for word, key in (("soils", "soil"), ("states of the concrete", "state"))
                 if len({condition.place[key] for condition in one.conditions}) == 1]
     joint = [row for row in one.joint_rows if row["pga [m/s2]"] in (told.design, told.beyond)]
+    across = [row for row in one.span_rows if row["pga [m/s2]"] in (told.design, told.beyond)]
     parts = [(f"The joint by elevation, at {one.level:g} m/s²", html_table("", *cells_of(one.elevation_rows()), text=(0, 1))),
              (f"{study.width_title} that would be needed [m]".capitalize(), html_table("", *cells_of(joint), text=(0,))),
+             *([(spans.CAPTION, html_table("", *cells_of(across), text=(0,)))] + figure_parts(folder, one.span_figure) if across else []),
              (f"Floor spectra for design: 84 % of the cases, the envelope of soils and states, widened by 15 %, "
               f"{100 * one.first.outcomes.damping[one.damping]:g} % damping [m/s²]", html_table("", *cells_of(spectra), text=(0, 2))),
              *figure_parts(folder, one.spectra_figure),
