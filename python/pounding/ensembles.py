@@ -28,6 +28,9 @@ class Ensemble:
     contacts: list
     impacts: dict  # "episodes", "first_time", "impulse_sum", ... -> shape (members, contacts)
     smallest_gap: np.ndarray  # shape (members, contacts) [m]
+    force_names: list  # columns of recorded forces, "base.Fx"
+    force_time: np.ndarray  # of their samples [s]
+    forces: np.ndarray  # shape (members, samples, columns) [N, N m]
 
     def column(self, name: str) -> np.ndarray:
         """Values of one option as text, a row per member."""
@@ -66,14 +69,15 @@ def load_ensemble(folder) -> Ensemble:
             table = file["members/table"]
             _check_numbers(path, file)
             contacts = _words(file["impacts/contacts"]) if "impacts/contacts" in file else []
-            none = np.zeros((table.shape[0], 0))
+            none, has_forces = np.zeros((table.shape[0], 0)), "forces" in file
             return Ensemble(
                 Path(folder), str(_text(table.attrs["columns"])).split(","), np.char.decode(table[:]),
                 file["done"][:] == 1, _words(file["spectra/channels"]), file["spectra/damping"][:],
                 file["spectra/frequency"][:], file["spectra/pseudo_acceleration"][:], file["peaks/displacement"][:],
                 file["peaks/acceleration"][:], file["energy/residual"][:], contacts,
                 {name: file["impacts"][name][:] for name in file.get("impacts", []) if name != "contacts"},
-                file["gaps/smallest"][:] if contacts else none)
+                file["gaps/smallest"][:] if contacts else none, _words(file["forces/names"]) if has_forces else [],
+                file["forces/time"][:] if has_forces else none[0], file["forces/history"][:] if has_forces else none[:, None])
     except UNREADABLE as error:
         raise ResultError(f"{path}: no ensemble that can be read ({' '.join(str(error).split())})") from None
 

@@ -82,6 +82,10 @@ class BatchMember final : public SteppedRun<BatchValue> {
                std::span<const double> velocity) override;
   /// Sums of the last step.
   StepSums sums() const;
+  /// v- + v+ of a coordinate, before contact, in a step that braked it by its dashpots.
+  double braked(std::size_t coordinate) const {
+    return batch_.dashpots_->sums()[coordinate][member_];
+  }
 
  private:
   void take(const std::vector<BatchValue>& values, std::vector<double>& to) const;

@@ -85,11 +85,19 @@ class CdLagrange {
 
   /// Owned dofs of a structure whose forces a step can be asked for. Before the first step.
   void watch_forces(std::size_t structure, std::span<const LocalIndex> dofs) {
-    structure_steps_[structure].watch(dofs, false);
+    structures_[structure]->watch(dofs, false);
   }
-  /// Forces of the last step at watched dofs, if they were asked for.
-  const KeptForces<double>& forces(std::size_t structure) const {
-    return structure_steps_[structure].forces();
+  /// Force of the last step at a watched dof, if it was asked for: see StructureStep.
+  double force(std::size_t structure, LocalIndex dof) const {
+    return members_.empty() ? runs_[structure].force(dof) : members_[structure].force(dof);
+  }
+  /// Displacement over the owned dofs of a structure, in a batch as well.
+  const std::vector<double>& displacement(std::size_t structure) const {
+    return structures_[structure]->displacement();
+  }
+  /// See BatchMember; in a batch, of a structure that the step brakes.
+  double braked(std::size_t structure, std::size_t coordinate) const {
+    return members_[structure].braked(coordinate);
   }
 
   /// All that the next step needs, interactions and ledger included, between two steps.

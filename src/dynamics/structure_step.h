@@ -96,8 +96,12 @@ class StructureStep final : public stiffness::ReceiverOf<Number> {
   std::span<Number> waiting() { return waiting_.velocity; }
   /// After every range of the step.
   void complete();
-  /// Forces of this step at the watched dofs, where they were asked for.
-  const KeptForces<Number>& forces() const { return forces_; }
+  /// Force of this step at a watched dof, damping included and that of inelastic elements apart,
+  /// where it was asked for; of one run of the batch [N, N m].
+  double force(std::size_t member, LocalIndex dof) const {
+    const double kept = of_member(forces_.at(dof).acting, member);
+    return state_.extra_force.empty() ? kept : kept + of_member(state_.extra_force[dof], member);
+  }
 
   /// See SteppedStructure; of one run of the batch.
   void act(std::size_t member, std::span<const LocalIndex> dofs, std::span<const double> force,
@@ -192,6 +196,8 @@ class SteppedRun : public interactions::SteppedStructure {
 
   const std::vector<double>& displacement() const override { return state_.displacement; }
   const std::vector<double>& velocity() const override { return state_.velocity; }
+  /// See StructureStep.
+  double force(LocalIndex dof) const { return step_.force(member_, dof); }
   void watch(std::span<const LocalIndex> dofs, bool always) override { step_.watch(dofs, always); }
   void act(std::span<const LocalIndex> dofs, std::span<const double> force,
            bool from_rest) override {

@@ -55,6 +55,12 @@ std::vector<Quantity> quantities(const EnsembleLayout& layout) {
         {"spans/peak", "m (x, y, z, length), rad", {spans, 8}, &MemberResult::span_peak});
     list.push_back({"spans/time", "s", {spans, 8}, &MemberResult::span_time});
   }
+  if (!layout.forces.empty()) {
+    list.push_back({"forces/history",
+                    "N, N m",
+                    {layout.force_times.size(), layout.forces.size()},
+                    &MemberResult::forces});
+  }
   if (contacts == 0) return list;
   const std::size_t pairs = layout.pair_contacts.size();
   list.insert(list.end(),
@@ -127,6 +133,11 @@ void create(const std::string& path, const EnsembleLayout& layout) {
   file.write_strings(identity_name, layout.identity);  // where there are groups for them
   file.write_strings("spectra/channels", layout.channels);
   if (!layout.spans.empty()) file.write_strings("spans/names", layout.spans);
+  if (!layout.forces.empty()) {
+    file.write_strings("forces/names", layout.forces);
+    file.write_array("forces/time", 0, layout.force_times);
+    file.write_attribute("forces/time", "unit", "s");
+  }
   if (!layout.contacts.empty()) {
     file.write_strings("impacts/contacts", layout.contacts);
     file.write_array("pairs/contact", 0, layout.pair_contacts);
@@ -282,7 +293,7 @@ void write_ensemble_table(const std::string& path, const EnsembleLayout& layout,
   std::erase_if(list, [](const Quantity& quantity) {  // these have no place in a line
     const std::string_view named = quantity.name;
     return named.starts_with("spectra/") || named.starts_with("pairs/") ||
-           named.starts_with("spans/");
+           named.starts_with("spans/") || named.starts_with("forces/");
   });
   std::string text = "member,done";
   for (const std::string& column : table.columns) text += "," + column;

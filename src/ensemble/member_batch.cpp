@@ -124,8 +124,9 @@ void MemberBatch::step(std::int64_t n) {
   }
   bool with_energies = false, with_forces = false;
   for (std::size_t member = 0; member < runs_.size(); ++member) {
-    with_energies = runs_[member]->open() || with_energies;
-    with_forces = runs_[member]->stepper().corrects() || with_forces;
+    const StepNeeds needs = runs_[member]->open();
+    with_energies = needs.energies || with_energies;
+    with_forces = needs.forces || runs_[member]->stepper().corrects() || with_forces;
     for (std::size_t d = 0; d < 3; ++d) {
       acceleration_[d].set(member, runs_[member]->stepper().ground_acceleration()[d]);
     }
@@ -313,18 +314,25 @@ MemberRun::MemberRun(const MemberScene& member, const EnsembleModel& shared, con
       run_{MPI_COMM_SELF, member.scene, model, solver_},
       observers_(make_observers(run_, profile_, true)),
       pairs_(model.interface.constraints.size()) {
+  for (const auto& observer : observers_.list()) {
+    const auto columns = observer->columns();
+    if (columns && columns->list == "forces") forces_ = columns->values;
+  }
   observers_.add(std::make_unique<SmallestGaps>(run_, pairs_));
   observers_.start(solver_.stepper(), nullptr);
 }
 
-bool MemberRun::open() {
-  const StepNeeds needs = observers_.before(solver_.stepper());
-  return solver_.stepper().open(needs.gaps, needs.energies);
+StepNeeds MemberRun::open() {
+  StepNeeds needs = observers_.before(solver_.stepper());
+  needs.energies = solver_.stepper().open(needs.gaps, needs.energies);
+  return needs;
 }
 
 void MemberRun::close() {
   solver_.stepper().close();
   observers_.after(solver_.stepper());
+  if ((solver_.stepper().state().step - 1) % gap_stride(run_.scene, run_.model) != 0) return;
+  history_.insert(history_.end(), forces_.begin(), forces_.end());
 }
 
 void MemberRun::fill(MemberResult& result) {
@@ -339,6 +347,7 @@ void MemberRun::fill(MemberResult& result) {
     result.pair_least_gap.push_back(pairs_[row].least_gap);
     result.pair_time.push_back(pairs_[row].time);
   }
+  result.forces = history_;
   result.energy_residual = {solver_.stepper().energy().relative_residual()};
   if (solver_.contact() != nullptr) {
     result.contact_residual = {solver_.contact()->largest_residual()};

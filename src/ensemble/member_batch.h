@@ -27,13 +27,13 @@ class MemberRun {
   MemberRun(const MemberScene& member, const EnsembleModel& shared, const Model& model,
             BatchPlace place);
 
-  /// Before the structures' step; returns whether that is to be made with energies.
-  bool open();
+  /// Before the structures' step; returns whether that is to be made with energies, with forces.
+  StepNeeds open();
   /// After it. Throws DivergenceError if this member's numbers cannot be trusted.
   void close();
   const CdLagrange& stepper() const { return solver_.stepper(); }
 
-  /// Impacts, gaps and the ledger's residual.
+  /// Impacts, gaps, forces and the ledger's residual.
   void fill(MemberResult& result);
 
  private:
@@ -41,7 +41,9 @@ class MemberRun {
   Solver solver_;
   ObservedRun run_;
   Observers observers_;
-  std::vector<PairMotion> pairs_;  ///< per row, without displacements
+  std::vector<PairMotion> pairs_;   ///< per row, without displacements
+  std::span<const double> forces_;  ///< of the last record
+  std::vector<double> history_;     ///< of these at the samples of the gaps
 };
 
 /// Records the probes of eight runs, as Recorder does those of one: largest displacement, and the

@@ -68,6 +68,7 @@ Model member_structures(const MemberScene& member, const EnsembleModel& shared) 
   model.interface.constraints = shared.model->interface.constraints;
   model.interface.watched = shared.model->interface.watched;
   model.interface.model_size = shared.model->interface.model_size;
+  model.forces = shared.model->forces;
   const std::vector<interactions::GivenGap> gaps(scene.contacts.begin(), scene.contacts.end());
   for (auto* const rows : {&model.interface.constraints, &model.interface.watched}) {
     for (interactions::Constraint& row : *rows) set_gap(scene, gaps, row);
@@ -104,7 +105,11 @@ Model member_structures(const MemberScene& member, const EnsembleModel& shared) 
 void require_ensemble_scene(const Scene& scene) {
   for (const Structure& structure : scene.structures) require_reduced(structure);
   for (const Contact& contact : scene.contacts) require_lasting_pairs(contact);
-  if (!scene.forces.empty()) refuse("forces are recorded", "give -forces none");
+  for (const ForceItem& force : scene.forces) {
+    if (!force.of_elements()) continue;
+    refuse("forces " + force.name + " are those of elements",
+           "leave them out of -forces: members keep reactions, storeys and cuts");
+  }
   if (!scene.equipment.empty()) {
     refuse("equipment is set beside its floors' spectra", "give -equipment none");
   }

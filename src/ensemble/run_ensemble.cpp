@@ -22,6 +22,7 @@
 #include "io/new_file.h"
 #include "model/time_step.h"
 #include "observers/floor_spectra.h"
+#include "observers/forces.h"
 #include "observers/observed_run.h"
 #include "observers/run_progress.h"
 #include "output/result_folder.h"
@@ -206,6 +207,13 @@ class Ensemble {
       layout_.pair_contacts.push_back(row.contact);
       layout_.pair_places.insert(layout_.pair_places.end(), row.at.begin(), row.at.end());
     }
+    for (const ForceItem& force : scene_.forces) {
+      for (const char* part : total_force_names) layout_.forces.push_back(force.name + "." + part);
+    }
+    const std::int64_t between = gap_stride(scene_, shared_);
+    for (std::int64_t n = 0; !layout_.forces.empty() && n <= shared_.steps; n += between) {
+      layout_.force_times.push_back(static_cast<double>(n) * shared_.time_step);
+    }
     layout_.damping_ratios = scene_.spectra.damping_ratios;
     layout_.frequencies = scene_.spectra.frequencies;
     std::vector<std::string> opened;
@@ -233,7 +241,10 @@ class Ensemble {
   }
 
   void check_memory() const {
-    const double wanted = BatchRecorder::memory(layout_.channels.size(), times_) * size_of(comm_);
+    const auto forces = static_cast<double>(layout_.forces.size() * layout_.force_times.size());
+    const double wanted = (BatchRecorder::memory(layout_.channels.size(), times_) +
+                           forces * batch_size * sizeof(double)) *
+                          size_of(comm_);
     double available = available_memory();
     MPI_Bcast(&available, 1, MPI_DOUBLE, 0, comm_);
     if (wanted <= available) return;
@@ -329,7 +340,7 @@ class Ensemble {
       for (std::size_t m = 0; m < flags.size(); ++m) {
         if (!flags[m]) continue;
         MemberResult& result = results[m] = file_->read(m);
-        result.spectra = {};
+        result.spectra = result.forces = {};
         doubts.add(m, result_doubts(result, shared_.interface.model_size));
       }
       add_pass_doubts(scene_, shared_.interface, results, doubts);

@@ -1,7 +1,6 @@
 #include "observers/forces.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "common/error.h"
@@ -9,14 +8,13 @@
 #include "common/parallel.h"
 #include "common/saved_state.h"
 #include "elements/force_rows.h"
+#include "interactions/dashpot_modes.h"
 #include "observers/run_statistics.h"
 #include "system/element_forces.h"
 #include "system/links.h"
 
 namespace pounding {
 namespace {
-
-constexpr std::array<const char*, 6> total_names{"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
 
 bool has_history(const ForceItem& force) {
   return !force.of_elements() || !force.points.empty();
@@ -42,7 +40,7 @@ void refuse_beside_matrices(const ForceItem& force, const Structure& structure,
 }
 
 std::vector<std::string> components_of(const ForceItem& force, const Structure& structure) {
-  if (!force.of_elements()) return {total_names.begin(), total_names.end()};
+  if (!force.of_elements()) return {total_force_names.begin(), total_force_names.end()};
   const auto region = std::ranges::find(structure.regions, force.group, &Region::group);
   const auto names = element_force_names(region->element);
   return {names.begin(), names.end()};
@@ -129,6 +127,7 @@ Forces::Forces(const ObservedRun& run) : run_(run), peaks_start_(run.scene.spect
   const Model& model = run.model;
   lay_out();
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
+    const Mesh& mesh = *model.buildings[s].mesh;
     std::vector<ElementForces::Row> rows;
     on_every_rank(run.comm, [&] {
       for (std::size_t i = 0; i < items_.size(); ++i) {
@@ -139,7 +138,7 @@ Forces::Forces(const ObservedRun& run) : run_(run), peaks_start_(run.scene.spect
           std::ranges::move(more, std::back_inserter(rows));
         };
         if (force.of_elements()) {
-          add(member_rows(scene.structures[s], model.meshes[s], model.forces[i], first));
+          add(member_rows(scene.structures[s], mesh, model.forces[i], first));
           continue;
         }
         const bool cut = force.kind == ForceKind::cut;
@@ -149,23 +148,22 @@ Forces::Forces(const ObservedRun& run) : run_(run), peaks_start_(run.scene.spect
         }
         std::vector<ElementForces::Row> passing;
         if (cut || model.systems[s].generalised) {
-          passing = total_rows(scene.structures[s], model.meshes[s], force, model.forces[i], first);
+          passing = total_rows(scene.structures[s], mesh, force, model.forces[i], first);
         }
         if (cut) {
           add(std::move(passing));
           continue;
         }
         totals_.push_back(
-            {s, first, std::make_unique<TotalForce>(force, model.systems[s], model.meshes[s]), {}});
+            {s, first, std::make_unique<TotalForce>(force, model.systems[s], mesh), {}});
         if (model.systems[s].generalised) {
           totals_.back().elements =
-              std::make_unique<ElementForces>(model.systems[s], model.meshes[s], passing);
+              std::make_unique<ElementForces>(model.systems[s], mesh, passing);
         }
       }
     });
     if (rows.empty()) continue;
-    elements_.push_back(
-        {s, std::make_unique<ElementForces>(model.systems[s], model.meshes[s], rows)});
+    elements_.push_back({s, std::make_unique<ElementForces>(model.systems[s], mesh, rows)});
   }
   for (const Total& total : totals_) {
     run.solver.stepper().watch_forces(total.structure, total.force->dofs());
@@ -214,11 +212,10 @@ void Forces::lay_out() {
 }
 
 StepNeeds Forces::begin(const CdLagrange& stepper) {
-  const State& state = stepper.state();
-  supports_ = state.supports.displacement;
+  supports_ = stepper.state().supports.displacement;
   std::ranges::fill(part_, 0.0);
   for (Elements& of : elements_) {
-    of.forces->add(state.structures[of.structure].displacement, state.supports.displacement, part_);
+    of.forces->add(stepper.displacement(of.structure), supports_, part_);
   }
   return {.forces = true};
 }
@@ -226,9 +223,8 @@ StepNeeds Forces::begin(const CdLagrange& stepper) {
 void Forces::observe(const CdLagrange& stepper) {
   for (const Total& total : totals_) {
     Wrench sum{};
-    total.force->add(stepper.state().structures[total.structure], stepper.forces(total.structure),
-                     run_.solver.links(total.structure), run_.solver.inelastic(total.structure),
-                     sum);
+    total.force->add(stepper, total.structure, run_.solver.links(total.structure),
+                     run_.solver.inelastic(total.structure), sum);
     for (std::size_t k = 0; k < sum.size(); ++k) part_[total.first + k] += sum[k];
     if (total.elements) {
       total.elements->add(acting_displacement(total.structure), supports_, part_);
@@ -245,14 +241,11 @@ void Forces::observe(const CdLagrange& stepper) {
 
 std::span<const double> Forces::acting_displacement(std::size_t structure) {
   const CdLagrange& stepper = run_.solver.stepper();
-  const StructureState& state = stepper.state().structures[structure];
-  const KeptForces<double>& forces = stepper.forces(structure);
   const std::vector<double>& squares = run_.model.buildings[structure].basis->squared_frequency;
-  acting_ = state.displacement;
+  acting_ = stepper.displacement(structure);
   for (std::size_t i = 0; i < acting_.size(); ++i) {
-    const double extra = state.extra_force.empty() ? 0 : state.extra_force[i];
     if (squares[i] > 0) {
-      acting_[i] = (forces.at(static_cast<LocalIndex>(i)).acting + extra) / squares[i];
+      acting_[i] = stepper.force(structure, static_cast<LocalIndex>(i)) / squares[i];
     }
   }
   return acting_;
@@ -333,8 +326,8 @@ void Forces::write_table() const {
 }
 
 OutputKind forces_output() {
-  return output<Forces>({force_table},
-                        [](const ObservedRun& run) { return !run.scene.forces.empty(); });
+  return output<Forces>(
+      {force_table}, [](const ObservedRun& run) { return !run.scene.forces.empty(); }, true);
 }
 
 TotalForce::TotalForce(const ForceItem& item, const LinearSystem& system, const Mesh& mesh)
@@ -366,15 +359,24 @@ TotalForce::TotalForce(const ForceItem& item, const LinearSystem& system, const 
       if (counted.dof >= 0) add_force(counted, link.weight[i], unit);
     }
   }
+  const auto dashpots = interactions::dashpot_rows(system);
+  if (!dashpots) return;
+  braked_.resize(static_cast<std::size_t>(system.owned_dofs()));
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    for (std::size_t i = 0; i < braked_.size(); ++i) {
+      const double rate = dashpots->strengths[b] / 2 * dashpots->rows[b * braked_.size() + i];
+      for (std::size_t k = 0; k < links_[b].size(); ++k) braked_[i][k] += rate * links_[b][k];
+    }
+  }
 }
 
-void TotalForce::add(const StructureState& state, const KeptForces<double>& forces,
+void TotalForce::add(const CdLagrange& stepper, std::size_t structure,
                      const interactions::StructureLinks* links,
                      std::span<interactions::InelasticElements* const> inelastic,
                      Wrench& total) const {
+  const StructureState& state = stepper.state().structures[structure];
   for (const Counted& counted : counted_) {
-    double force = forces.at(counted.dof).acting;
-    if (!state.extra_force.empty()) force += state.extra_force[counted.dof];
+    double force = stepper.force(structure, counted.dof);
     if (!state.inelastic_force.empty()) force += state.inelastic_force[counted.dof];
     for (const auto* elements : inelastic) force += elements->force_apart(counted.dof);
     add_force(counted, -force, total);
@@ -382,6 +384,10 @@ void TotalForce::add(const StructureState& state, const KeptForces<double>& forc
   for (std::size_t b = 0; links != nullptr && b < links_.size(); ++b) {
     const double force = links->force(b);
     for (std::size_t k = 0; k < total.size(); ++k) total[k] -= force * links_[b][k];
+  }
+  for (std::size_t i = 0; links == nullptr && i < braked_.size(); ++i) {
+    const double velocity = stepper.braked(structure, i);
+    for (std::size_t k = 0; k < total.size(); ++k) total[k] -= velocity * braked_[i][k];
   }
 }
 

@@ -1,9 +1,10 @@
 #pragma once
 
+#include <array>
+#include <span>
 #include <vector>
 
-#include "dynamics/kept_forces.h"
-#include "dynamics/state.h"
+#include "dynamics/cd_lagrange.h"
 #include "interactions/structure_links.h"
 #include "mesh/force_places.h"
 #include "mesh/mesh.h"
@@ -12,6 +13,9 @@
 #include "system/linear_system.h"
 
 namespace pounding {
+
+/// Components of a total, in their order.
+inline constexpr std::array<const char*, 6> total_force_names{"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
 
 /// Forces that the scene wants recorded: totals and those of elements, at the instants of the
 /// samples, for the history; their peaks in `forces.csv`. Names of columns: "base.Fx",
@@ -39,9 +43,9 @@ class TotalForce {
 
   /// The owned dofs whose forces are asked for: of generalised coordinates all.
   const std::vector<LocalIndex>& dofs() const { return watched_; }
-  /// Adds this rank's part of R after the step to t_n; `forces`: those of the step; `links` may be
-  /// null.
-  void add(const StructureState& state, const KeptForces<double>& forces,
+  /// Adds this rank's part of R after the step to t_n of a structure; `links`: null where it has
+  /// none, or where all are dashpots by which the step of a batch brakes it.
+  void add(const CdLagrange& stepper, std::size_t structure,
            const interactions::StructureLinks* links,
            std::span<interactions::InelasticElements* const> inelastic, Wrench& total) const;
 
@@ -59,7 +63,8 @@ class TotalForce {
   Vector3 point_;
   std::vector<Counted> counted_;  ///< empty in generalised coordinates
   std::vector<LocalIndex> watched_;
-  std::vector<Wrench> links_;  ///< per link of this rank, of a unit force of it
+  std::vector<Wrench> links_;   ///< per link of this rank, of a unit force of it
+  std::vector<Wrench> braked_;  ///< per coordinate, of v- + v+ where all links are dashpots
 };
 
 }  // namespace pounding

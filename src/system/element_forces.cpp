@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "common/parallel.h"
 #include "elements/force_rows.h"
@@ -107,11 +108,35 @@ ElementForces::ElementForces(const LinearSystem& system, const Mesh& mesh,
       }
     }
   }
+  if (system.generalised) take_forms();
+}
+
+void ElementForces::take_forms() {
+  std::map<std::size_t, Form> forms;
+  for (const Term& term : terms_) forms[term.column].column = term.column;
+  if (forms.size() >= field_.size()) return;
+  const auto add = [](std::span<const double> row, double factor, std::vector<double>& to) {
+    to.resize(row.size());
+    for (std::size_t i = 0; i < row.size(); ++i) to[i] += factor * row[i];
+  };
+  for (const Term& term : terms_) {
+    add(trace_->row(term.place), term.coefficient, forms[term.column].coordinates);
+    add(trace_->carried(term.place), term.coefficient, forms[term.column].supports);
+  }
+  terms_.clear();
+  for (auto& [column, form] : forms) forms_.push_back(std::move(form));
 }
 
 void ElementForces::add(std::span<const double> owned, std::span<const double> supports,
                         std::span<double> columns) {
-  trace_->apply(owned.data(), field_.data(), 1, supports);
+  const auto product = [](const std::vector<double>& form, std::span<const double> values) {
+    const std::size_t size = std::min(form.size(), values.size());
+    return std::inner_product(form.begin(), form.begin() + size, values.begin(), 0.0);
+  };
+  for (const Form& form : forms_) {
+    columns[form.column] += product(form.coordinates, owned) + product(form.supports, supports);
+  }
+  if (!terms_.empty()) trace_->apply(owned.data(), field_.data(), 1, supports);
   for (const Term& term : terms_) columns[term.column] += term.coefficient * field_[term.place];
   for (const GroundTerm& term : ground_) {
     columns[term.column] += term.coefficient * supports[term.support];

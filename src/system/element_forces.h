@@ -67,7 +67,16 @@ class ElementForces {
     std::size_t support = 0;  ///< column of SupportShapes
     double coefficient = 0;
   };
+  /// Linear form of the coordinates of a reduced structure, and of the supports' motion.
+  struct Form {
+    std::size_t column = 0;
+    std::vector<double> coordinates, supports;
+  };
+  /// Forms in place of terms, where they are fewer than the places.
+  void take_forms();
+
   std::unique_ptr<Trace> trace_;
+  std::vector<Form> forms_;
   std::vector<Term> terms_;
   std::vector<GroundTerm> ground_;
   std::vector<double> field_;
