@@ -109,13 +109,21 @@ def factors_of(mats: list, model: Coherency, frequencies: np.ndarray, axes=("x",
     if apart.max() > model.farthest:
         raise CoherencyError(f"points of the mats are {apart.max():.4g} m apart, and {model.name} is known up to "
                              f"{model.farthest:g} m")
-    ground = _Ground(at, apart, wave)
-    return {axis: _factors(ground, model, "vertical" if axis == "z" else "horizontal", np.asarray(frequencies), *_rows(mats, axis))
-            for axis in axes}
+    ground = Ground(at, apart, wave)
+    found = {}
+    for axis in axes:
+        names, weights, lengths = _rows(mats, axis)
+        gammas = [model.gamma(way_of(axis), frequency, ground.distances) for frequency in np.asarray(frequencies)]
+        found[axis] = factored(model, np.asarray(frequencies), names, lengths, zip(*ground.spectra(weights, gammas, frequencies)))
+    return found
 
 
-class _Ground:
-    """Points of all mats, from each of which to each a coherency acts, straight between STEPS distances."""
+def way_of(axis: str) -> str:
+    return "vertical" if axis == "z" else "horizontal"
+
+
+class Ground:
+    """Points of the ground, from each of which to each a coherency acts, straight between STEPS distances."""
 
     def __init__(self, at: np.ndarray, apart: np.ndarray, wave: Wave | None):
         self.distances = np.linspace(0, apart.max(), STEPS + 1)
@@ -132,13 +140,17 @@ class _Ground:
         if self.delay is None:
             shares = np.array([[self._shares(np.outer(a, b)) for b in weights] for a in weights])
             return [weights.sum(1)] * len(gammas), [shares @ gamma for gamma in gammas]
-        alike, found = [], []
-        for gamma, frequency in zip(gammas, frequencies):
-            late = weights * np.exp(-2j * np.pi * frequency * self.delay)
-            between = gamma[self.place] + self.part * (gamma[self.place + 1] - gamma[self.place])
-            alike.append(late.sum(1))
-            found.append(late @ between @ late.conj().T)
-        return alike, found
+        pairs = [self.follow(weights, gamma, frequency) for gamma, frequency in zip(gammas, frequencies)]
+        return [alike for alike, _ in pairs], [found for _, found in pairs]
+
+    def follow(self, weights: np.ndarray, gamma: np.ndarray, frequency: float) -> tuple:
+        """What `spectra` tells at one frequency."""
+        late = weights if self.delay is None else weights * np.exp(-2j * np.pi * frequency * self.delay)
+        return late.sum(1), late @ self.between(gamma) @ late.conj().T
+
+    def between(self, gamma: np.ndarray) -> np.ndarray:
+        """A coherency, given at the distances, of all pairs of points."""
+        return gamma[self.place] + self.part * (gamma[self.place + 1] - gamma[self.place])
 
     def _shares(self, weights: np.ndarray) -> np.ndarray:
         """Of the distances in a sum over all pairs of points."""
@@ -147,11 +159,11 @@ class _Ground:
         return np.append(first, 0) + np.append(0, last)
 
 
-def _factors(ground: _Ground, model: Coherency, way: str, frequencies: np.ndarray, names: tuple, weights: np.ndarray,
-             lengths: np.ndarray) -> Factors:
+def factored(model: Coherency, frequencies: np.ndarray, names: tuple, lengths: np.ndarray, followed) -> Factors:
+    """Factors of motions that follow the ground; `followed`: per frequency the motions where it moves alike, and G; with those of
+    rotations times their lengths. Throws CoherencyError."""
     told, rest = [], []
-    gammas = [model.gamma(way, frequency, ground.distances) for frequency in frequencies]
-    for frequency, alike, spectra in zip(frequencies, *ground.spectra(weights, gammas, frequencies)):
+    for frequency, (alike, spectra) in zip(frequencies, followed):
         along = spectra @ alike
         first = along / np.sqrt((alike.conj() @ along).real)
         values, vectors = np.linalg.eigh(spectra - np.outer(first, first.conj()))
@@ -247,6 +259,12 @@ def _ended(record: np.ndarray, count: int) -> np.ndarray:
 def motions(record: np.ndarray, step: float, factors: Factors, noise: Noise, random: np.random.Generator) -> dict:
     """Accelerations [m/s2, rad/s2] of the components that a record moves, by (mat, component): as long as the record and a tail
     behind it, in which they end. `noise`: of the record."""
+    return {name: shared + own for name, shared, own in parts(record, step, factors, noise, random)}
+
+
+def parts(record: np.ndarray, step: float, factors: Factors, noise: Noise, random: np.random.Generator):
+    """For every component its name, what all of the ground shares of its acceleration, and the rest, which comes to rest: see
+    `motions`."""
     count = len(record) + max(2, int(round(TAIL / step)))
     size = next_fast_len(count + int(round(SEGMENT / step)), real=True)
     frequency = np.fft.rfftfreq(size, step)
@@ -257,19 +275,20 @@ def motions(record: np.ndarray, step: float, factors: Factors, noise: Noise, ran
 
     drawn = [np.fft.rfft(noise.draw(random), size) for _ in factors.names]
     whole = np.fft.rfft(record, size)
-    found = {}
     instant = np.arange(count)
     ease = np.clip(np.minimum(instant - noise.first, count - 1 - instant) * step / EASE, 0, 1)
     for number, name in enumerate(factors.names):
-        # What all mats share passes as it is; the rest comes to rest.
         shared = _ended(record, count) if name[1] in "xyz" else np.zeros(count)
         told = factors.told[:, number]
         spectrum = (at(told) - (name[1] in "xyz")) * whole
         for other, one in enumerate(drawn):
             spectrum = spectrum + at(factors.rest[:, number, other]) * one
         own = np.fft.irfft(spectrum, size)[:count] * np.sin(np.pi / 2 * ease) ** 2
-        found[name] = shared + _to_rest(own, noise.first, step)
-    return found
+        yield name, shared, _to_rest(own, noise.first, step)
+
+
+def random_of(seed: int | tuple, axis: str) -> np.random.Generator:
+    return np.random.default_rng([*np.atleast_1d(seed), "xyz".index(axis)])
 
 
 def base_motions(records: dict, step: float, factors: dict, seed: int | tuple) -> dict:
@@ -277,8 +296,7 @@ def base_motions(records: dict, step: float, factors: dict, seed: int | tuple) -
     sum of those by x and y. One seed, of a number or several, gives the same motions always."""
     found = {}
     for axis, record in records.items():
-        random = np.random.default_rng([*np.atleast_1d(seed), "xyz".index(axis)])
-        for (mat, component), values in motions(record, step, factors[axis], Noise(record, step), random).items():
+        for (mat, component), values in motions(record, step, factors[axis], Noise(record, step), random_of(seed, axis)).items():
             own = found.setdefault(mat, {})
             own[component] = own[component] + values if component in own else values
     return found

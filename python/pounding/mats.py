@@ -24,7 +24,7 @@ class Coherence:
     told: dict
 
 
-def _numbers(values, count: int, place: str, above: float = -np.inf) -> tuple:
+def numbers(values, count: int, place: str, above: float = -np.inf) -> tuple:
     items = values.split(",") if isinstance(values, str) else values if isinstance(values, (list, tuple)) else [values]
     try:
         found = tuple(float(item) for item in items)
@@ -36,7 +36,7 @@ def _numbers(values, count: int, place: str, above: float = -np.inf) -> tuple:
     return found
 
 
-def _mapping(values, place: str, known: tuple) -> dict:
+def mapping(values, place: str, known: tuple) -> dict:
     if not isinstance(values, dict):
         raise CoherencyError(f"{place}: {values!r} is no list of keys and values")
     unknown = next((key for key in values if key not in known), None)
@@ -47,7 +47,7 @@ def _mapping(values, place: str, known: tuple) -> dict:
 
 def read(values, folder: Path) -> Coherence:
     """What the keys KEYS of a file tell, whose tables lie in the folder. Throws CoherencyError or OSError."""
-    told = _mapping(values, "coherence", KEYS)
+    told = mapping(values, "coherence", KEYS)
     mats, groups = [], {}
     given = told.get("mats") or {}
     if not isinstance(given, dict):
@@ -55,20 +55,28 @@ def read(values, folder: Path) -> Coherence:
     if len(given) < 2:
         raise CoherencyError(f"mats: coherence tells how mats move apart, and there is {'one' if given else 'none'}; give two or more")
     for name, one in given.items():
-        one = _mapping(one, f"mats: {name}", ("centre", "sides", "groups"))
-        mats.append(Mat(str(name), _numbers(one.get("centre"), 3, f"mats: {name}: centre"),
-                        _numbers(one.get("sides"), 2, f"mats: {name}: sides", 0.0)))
+        one = mapping(one, f"mats: {name}", ("centre", "sides", "groups"))
+        mats.append(Mat(str(name), numbers(one.get("centre"), 3, f"mats: {name}: centre"),
+                        numbers(one.get("sides"), 2, f"mats: {name}: sides", 0.0)))
         groups[str(name)] = str(one.get("groups", name))
-    wave = None
-    if told.get("wave"):
-        one = _mapping(told["wave"], "wave", ("speed", "towards"))
-        wave = Wave(*_numbers(one.get("speed"), 1, "wave: speed", 0.0), _numbers(one.get("towards"), 2, "wave: towards"))
-        if not any(wave.towards):
-            raise CoherencyError("wave: towards: a wave has a direction, as 1,0")
+    return Coherence(tuple(mats), groups, model_of(told.get("model"), folder), read_wave(told), read_seed(told), told)
+
+
+def read_wave(told: dict) -> Wave | None:
+    if not told.get("wave"):
+        return None
+    one = mapping(told["wave"], "wave", ("speed", "towards"))
+    wave = Wave(*numbers(one.get("speed"), 1, "wave: speed", 0.0), numbers(one.get("towards"), 2, "wave: towards"))
+    if not any(wave.towards):
+        raise CoherencyError("wave: towards: a wave has a direction, as 1,0")
+    return wave
+
+
+def read_seed(told: dict) -> int:
     seed = told.get("seed", 1)
     if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
         raise CoherencyError(f"seed: {seed!r} is not a whole number from 0 on")
-    return Coherence(tuple(mats), groups, model_of(told.get("model"), folder), wave, seed, told)
+    return seed
 
 
 def components(motions: dict) -> list:

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* common_kind = "pounding mesh pieces 5";
+constexpr const char* common_kind = "pounding mesh pieces 6";
 constexpr const char* piece_kind = "pounding mesh piece 1";
 
 std::string common_path(const Scene& scene) {
@@ -60,6 +60,9 @@ Ingredients ingredients_of(const Scene& scene,
     if (structure.initial_state.empty()) continue;
     list.push_back(
         {"initial state of " + structure.name, digest_of_file(structure.initial_state).sha256});
+  }
+  if (!scene.motion_incoherent.empty()) {
+    list.push_back({"motion_incoherent", digest_of_file(scene.motion_incoherent).sha256});
   }
   for (const Contact& contact : scene.contacts) {
     if (contact.gap.survey.empty()) continue;

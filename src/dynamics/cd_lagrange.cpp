@@ -24,7 +24,8 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
       energy_(comm, systems, time_step),
       sums_(systems.size()),
       rest_before_(systems.size(), 0.0),
-      load_values_(loads != nullptr ? loads->size() : 0, 0.0) {
+      load_values_(loads != nullptr ? loads->size() : 0, 0.0),
+      incident_(motion.incident().size(), 0.0) {
   structure_steps_.reserve(systems_.size());
   runs_.reserve(systems_.size());
   members_.reserve(systems_.size());

@@ -167,7 +167,7 @@ class CdLagrange {
   std::vector<VecHandle> extra_forces_;           ///< as PETSc vectors; null without extra damping
   Events events_;
   std::array<double, 3> acceleration_{};
-  Vector3 incident_{};  ///< velocity of the wave from below [m/s]
+  std::vector<double> incident_;  ///< velocities of the wave from below [m/s]
   double force_duration_ = 0;
   bool with_energies_ = false;
 };

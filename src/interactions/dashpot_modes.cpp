@@ -29,8 +29,7 @@ std::optional<DashpotRows> dashpot_rows(const LinearSystem& system) {
   for (std::size_t b = 0; b < links.size(); ++b) {
     const Link& link = links[b];
     const auto law = law_of(link.origin, 0.5);  // whose rate c / (2 dt) is c
-    if (link.incident != Vector3{0, 0, 0} ||
-        dynamic_cast<const DashpotLaw*>(law.get()) == nullptr) {
+    if (!link.incident.empty() || dynamic_cast<const DashpotLaw*>(law.get()) == nullptr) {
       return {};
     }
     dashpots.strengths.push_back(law->rate());

@@ -114,7 +114,7 @@ struct Step {
   std::int64_t number = 0;  ///< n
   /// The interface is to be gathered whatever its distance.
   bool look_at_gap = false;
-  Vector3 incident{};  ///< velocity of the wave from below [m/s]
+  std::span<const double> incident{};  ///< see GroundMotion::evaluate_incident [m/s]
   Profile& profile;
   const SupportStep& supports;
   std::span<SteppedStructure* const> structures;

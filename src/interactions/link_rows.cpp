@@ -96,7 +96,7 @@ class LinkRows final : public StructureLinks {
         stretch_(links_.size(), 0.0) {
     for (const auto& law : laws_) has_rate_.push_back(law->rate() > 0 ? 1 : 0);
     for (std::size_t b = 0; b < links_.size(); ++b) {
-      if (links_[b].incident != Vector3{0, 0, 0}) in_waves_.push_back(b);
+      if (!links_[b].incident.empty()) in_waves_.push_back(b);
     }
     rates_only_ = std::ranges::all_of(has_rate_, [](char has_rate) { return has_rate != 0; });
   }
@@ -106,9 +106,9 @@ class LinkRows final : public StructureLinks {
     const SteppedStructure& structure = *step.structures[structure_];
     auto& [before, now, free_after] = elongations_;
     for (const std::size_t b : in_waves_) {
-      const Vector3& along = links_[b].incident;
-      driven_[b] =
-          along[0] * step.incident[0] + along[1] * step.incident[1] + along[2] * step.incident[2];
+      const std::vector<double>& along = links_[b].incident;
+      driven_[b] = std::inner_product(along.begin() + 1, along.end(), step.incident.begin() + 1,
+                                      along[0] * step.incident[0]);
     }
     structure.remember(trace_.dofs(), held_);
     const auto& displacement = structure.displacement();

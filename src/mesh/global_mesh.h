@@ -47,12 +47,17 @@ struct SupportedNode {
 ///
 ///     C = sum_k c_k a_k a_k^T,      force of a wave from below = sum_k a_k (w_k . v_in)
 ///
-/// with |a_k| = 1, the scaled columns of the Cholesky factor of C.
+/// with |a_k| = 1, the scaled columns of the Cholesky factor of C. Where the wave does not move all
+/// nodes alike, v_in has the histories of its shapes behind the three components.
 struct AbsorbingNode {
-  GlobalIndex node = 0;               ///< file order
-  std::array<Vector3, 3> axis{};      ///< a_k
-  Vector3 dashpot{};                  ///< c_k [N s/m]
-  std::array<Vector3, 3> incident{};  ///< w_k [N s/m]; zero away from the base
+  GlobalIndex node = 0;            ///< file order
+  std::array<Vector3, 3> axis{};   ///< a_k
+  Vector3 dashpot{};               ///< c_k [N s/m]
+  std::vector<double> incident{};  ///< w_k, one after the other [N s/m]; zero away from the base
+
+  static void members(auto& self, auto& stream) {
+    stream(self.node, self.axis, self.dashpot, self.incident);
+  }
 };
 
 /// A whole mesh as rank 0 holds it between reading and distribution. Nodes are numbered from 0 in

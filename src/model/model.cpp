@@ -13,6 +13,9 @@ std::string Building::locate_largest(std::span<const double> values) const {
 void read_histories(const Scene& scene, Model& model) {
   model.motion = std::make_unique<GroundMotion>(scene.motion, scene.resampling);
   if (scene.motion_from_below) model.motion->enter_from_below();
+  if (!scene.motion_incoherent.empty()) {
+    model.motion->add_incoherent(scene.motion_incoherent, scene.resampling);
+  }
   if (!scene.supports.empty()) {
     model.supports =
         std::make_unique<SupportMotion>(scene.supports, *model.motion, scene.resampling);

@@ -8,6 +8,7 @@
 
 #include "common/error.h"
 #include "motion/fourier.h"
+#include "motion/incoherent_wave.h"
 #include "motion/records/record_text.h"
 #include "motion/synthetic.h"
 
@@ -107,6 +108,17 @@ MotionDescription describe_record(const std::string& file, const Accelerogram& r
 std::string scaling_text(const MotionComponent& component) {
   if (component.pga > 0) return "to pga " + text_of(component.pga) + " m/s2";
   return component.scale == 1 ? "none" : "by " + text_of(component.scale);
+}
+
+/// Velocity at time t of an acceleration that is linear between samples, of those at its samples.
+double velocity_at(const Accelerogram& motion, const std::vector<double>& v, double t) {
+  const std::vector<double>& a = motion.acceleration;
+  const double x = (t - motion.start) / motion.time_step;
+  if (!(x > 0) || v.empty()) return 0;
+  if (x >= static_cast<double>(v.size() - 1)) return v.back();
+  const auto i = static_cast<std::size_t>(x);
+  const double part = x - static_cast<double>(i);
+  return v[i] + motion.time_step * part * (a[i] + part * (a[i + 1] - a[i]) / 2);
 }
 
 // Peaks of one direction that hint at another unit.
@@ -271,14 +283,11 @@ void GroundMotion::enter_from_below() {
   from_below_ = true;
   for (std::size_t d = 0; d < 3; ++d) {
     std::swap(incident_[d], components_[d]);
-    const std::vector<double>& a = incident_[d].acceleration;
-    double velocity = 0;
+    integrate_incident();
+    const std::vector<double>& at = incident_velocity_.back();
+    const double velocity = at.empty() ? 0 : at.back();
     double largest = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      if (i > 0) velocity += incident_[d].time_step * (a[i - 1] + a[i]) / 2;
-      incident_velocity_[d].push_back(velocity);
-      largest = std::max(largest, std::abs(velocity));
-    }
+    for (const double v : at) largest = std::max(largest, std::abs(v));
     if (std::abs(velocity) > resting * largest) {
       doubts_.push_back(std::string("motion ") + direction_names[d] +
                         ": the wave from below ends at " + text_of(velocity) +
@@ -288,21 +297,27 @@ void GroundMotion::enter_from_below() {
   }
 }
 
-void GroundMotion::evaluate_incident(double t, Vector3& velocity) const noexcept {
-  for (int direction = 0; direction < 3; ++direction) {
-    velocity[direction] = from_below_ ? incident_velocity(direction, t) : 0;
+/// Velocities of the next of the accelerations from below.
+void GroundMotion::integrate_incident() {
+  const Accelerogram& incident = incident_[incident_velocity_.size()];
+  const std::vector<double>& a = incident.acceleration;
+  std::vector<double>& velocity = incident_velocity_.emplace_back(a.size(), 0.0);
+  for (std::size_t i = 1; i < a.size(); ++i) {
+    velocity[i] = velocity[i - 1] + incident.time_step * (a[i - 1] + a[i]) / 2;
   }
 }
 
-double GroundMotion::incident_velocity(int direction, double t) const noexcept {
-  const std::vector<double>& a = incident_[direction].acceleration;
-  const std::vector<double>& v = incident_velocity_[direction];
-  const double x = (t - incident_[direction].start) / incident_[direction].time_step;
-  if (!(x > 0) || v.empty()) return 0;
-  if (x >= static_cast<double>(v.size() - 1)) return v.back();
-  const auto i = static_cast<std::size_t>(x);
-  const double part = x - static_cast<double>(i);
-  return v[i] + incident_[direction].time_step * part * (a[i] + part * (a[i + 1] - a[i]) / 2);
+void GroundMotion::add_incoherent(const std::string& file, Resampling resampling) {
+  for (Accelerogram& history : read_incoherent_wave(file, incident_, resampling)) {
+    incident_.push_back(std::move(history));
+    integrate_incident();
+  }
+}
+
+void GroundMotion::evaluate_incident(double t, std::span<double> velocities) const noexcept {
+  for (std::size_t k = 0; k < velocities.size(); ++k) {
+    velocities[k] = from_below_ ? velocity_at(incident_[k], incident_velocity_[k], t) : 0;
+  }
 }
 
 Vector3 GroundMotion::peaks() const {

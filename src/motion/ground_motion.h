@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -63,11 +64,15 @@ class GroundMotion {
   /// a run.
   void enter_from_below();
   bool from_below() const { return from_below_; }
-  /// Velocity of the wave from below [m/s]: the exact integral of its acceleration, which is linear
-  /// between samples; it keeps its last value after the last sample. Zero for a motion of the
-  /// ground.
-  void evaluate_incident(double t, Vector3& velocity) const noexcept;
-  /// Samples of the acceleration of the wave from below [m/s2]; empty in a direction without.
+  /// Lets nodes of the base part from the wave from below, by a file of run/incoherent: histories
+  /// of shapes along x, y, z. After `enter_from_below`. Throws UserError.
+  void add_incoherent(const std::string& file, Resampling resampling);
+  /// Velocities of the wave from below along x, y, z and of the shapes of its incoherent part
+  /// [m/s]: the exact integrals of accelerations that are linear between samples; they keep their
+  /// last value after the last sample. Zero for a motion of the ground.
+  void evaluate_incident(double t, std::span<double> velocities) const noexcept;
+  /// Samples of these accelerations [m/s2]; empty in a direction without.
+  std::span<const Accelerogram> incident() const { return incident_; }
   const Accelerogram& incident(int direction) const { return incident_[direction]; }
 
   /// Earliest of the first times of the records [s], those without a time column at 0; nothing
@@ -107,7 +112,7 @@ class GroundMotion {
   void add(std::size_t direction, const MotionComponent& component);
   void add_start_doubts();
 
-  double incident_velocity(int direction, double t) const noexcept;
+  void integrate_incident();
 
   std::string name_;
   double origin_ = 0;                   ///< [s]
@@ -117,8 +122,8 @@ class GroundMotion {
   std::array<Accelerogram, 3> components_{Accelerogram{{}, 1}, Accelerogram{{}, 1},
                                           Accelerogram{{}, 1}};
   bool from_below_ = false;
-  std::array<Accelerogram, 3> incident_{components_};
-  std::array<std::vector<double>, 3> incident_velocity_;  ///< at the samples [m/s]
+  std::vector<Accelerogram> incident_{components_.begin(), components_.end()};
+  std::vector<std::vector<double>> incident_velocity_;  ///< of each at its samples [m/s]
 };
 
 }  // namespace pounding

@@ -231,6 +231,8 @@ void write_model(MPI_Comm comm, const Scene& scene, const Model& model) {
     coordinates.push_back(gather_coordinates(model.meshes[s]));
     on_rank0(comm, [&] {
       add_properties(*file, scene.structures[s], cells, names, grid);
+      const std::vector<double>& base = model.buildings[s].absorbing.base;
+      if (!base.empty()) file->write_array(grid.name + "/absorbing_base", 4, base);
       grids += xdmf_grid("model.h5", grid);
     });
   }

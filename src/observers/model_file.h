@@ -15,6 +15,10 @@ namespace pounding {
 ///     thickness, area [m, m2], young [Pa], density [kg/m3], mass [kg] of point masses
 ///     spring_stiffness       (cells, 3) along x, y, z [N/m]
 ///
+/// per node of faces through which a motion from below enters
+///
+///     absorbing_base         (nodes, 4) x, y, z [m] and its share of their area [m2]
+///
 /// the pairs of the contacts as lines from the secondary side to the place that it faces, with
 /// their contact (from 1) and initial gap [m], and the nodes of the probes as points, with the
 /// number of the probe (from 1). Numbers mean the names in `contacts` and `probes`. Needs the

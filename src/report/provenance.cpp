@@ -67,7 +67,7 @@ std::vector<std::string> machine_names(MPI_Comm comm) {
 /// Whether an option names a file that every run reads: not a table of members, nor a basis,
 /// which a run may write.
 bool is_read_by_a_run(const std::string& name) {
-  if (name == "restart") return true;
+  if (name == "restart" || name == "motion_incoherent") return true;
   return !name.ends_with("_modal_basis") &&
          std::ranges::any_of(option_table(), [&](const OptionRow& row) {
            const std::size_t own = row.pattern.rfind('>');  // behind the names of the user
@@ -130,6 +130,7 @@ std::string hash_of(const GroundMotion& motion, const SupportMotion* supports,
     add(motion.component(direction));
     if (!motion.incident(direction).acceleration.empty()) add(motion.incident(direction));
   }
+  for (const Accelerogram& shape : motion.incident().subspan(3)) add(shape);
   for (std::size_t c = 0; supports != nullptr && c < supports->columns().size(); ++c) {
     add(supports->own(c));
   }

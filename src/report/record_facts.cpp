@@ -117,7 +117,10 @@ Facts motion_facts(const GroundMotion& motion) {
         of, {d.direction, motion.origin()});
   }
   if (motion.from_below()) {
-    facts.say("the motion enters from below as a wave; displacements are absolute\n");
+    facts.text += sentence(
+        "the motion enters from below as a wave[, which parts in {} shapes]; displacements are "
+        "absolute\n",
+        {motion.incident().size() - 3});
   }
   if (motion.descriptions().empty()) facts.say("motion: none\n");
   return facts;

@@ -166,6 +166,10 @@ void check_absorbing(const OptionReader& options, const Scene& scene) {
                          structure.name + "_absorbing");
     }
   }
+  if (!scene.motion_incoherent.empty() && !scene.motion_from_below) {
+    options.refuse("motion_incoherent", {},
+                   "it is part of a wave from below; goes with -motion_input below");
+  }
   const bool walls = std::ranges::any_of(
       scene.contacts, [](const Contact& contact) { return contact.primary.is_wall(); });
   if (scene.motion_from_below && walls) {

@@ -80,6 +80,7 @@ struct Scene {
   std::vector<Support> supports;   ///< that move otherwise than `motion`
   std::vector<Load> loads;         ///< forces beside gravity and the ground's
   bool motion_from_below = false;  ///< an incident wave; else the ground itself moves like that
+  std::string motion_incoherent;   ///< file of the part in which it parts; empty: it moves alike
   Resampling resampling = Resampling::linear;
   StiffnessMethod stiffness = StiffnessMethod::automatic;
   PartitionBy partition_by = PartitionBy::automatic;
@@ -180,6 +181,7 @@ struct Scene {
     option("fidelity_target", real("-", absent("optional"), fraction), "rms error of the floor spectra beside full order that is accepted (0.05: 5 %); the program takes as few modes as it finds to be enough, or full order", free_of_fidelity);
     option(&Scene::fidelity_window, "fidelity_window", real("s", "0", not_negative), "part of the run around its strongest impact that is stepped at full order as well, by which the error of reduced structures is estimated; 0: none", free_of_fidelity);
     option(&Scene::motion_from_below, "motion_input", word("base|below", "base"), "place of the motion: the ground under every support, or a wave that enters from below through the faces of absorbing_base");
+    option(&Scene::motion_incoherent, "motion_incoherent", text("file", "none", "a file or none"), "wave from below that does not move all nodes of its faces alike: shapes and histories beside the motion, as run/incoherent makes them");
     option("motion_level", real("-", "1", positive), "factor on the motion along all axes, after its pga or scale", free_in_pieces);
     option(&Scene::resampling, "resampling", word("linear|band_limited", "linear"), "how records are upsampled to the time step", free_in_pieces);
     // clang-format on

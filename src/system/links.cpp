@@ -157,7 +157,11 @@ void Links::add_absorbing(const Mesh& mesh, const AbsorbingNode& absorbing) {
   for (std::size_t k = 0; k < absorbing.axis.size(); ++k) {
     Link link;
     link.number = absorbing.node;
-    link.incident = absorbing.incident[k];
+    const std::size_t width = absorbing.incident.size() / 3;
+    const auto incident = std::span(absorbing.incident).subspan(k * width, width);
+    if (std::ranges::any_of(incident, [](double w) { return w != 0; })) {
+      link.incident.assign(incident.begin(), incident.end());
+    }
     link.origin.component = static_cast<int>(k);
     link.origin.absorbing = absorbing.dashpot[k];
     for (std::size_t c = 0; c < 3; ++c) {

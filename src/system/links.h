@@ -33,7 +33,8 @@ struct Link {
   std::array<double, most_places> weight{};
   std::vector<HeldEnd> held{};     ///< ends that may be on a support
   std::vector<double> supports{};  ///< elongation by them, per column of SupportShapes; or empty
-  Vector3 incident{};  ///< force along it of a wave from below, per its velocity [N s/m]
+  /// Force along it of a wave from below, per velocity of Step::incident [N s/m]; or empty.
+  std::vector<double> incident{};
   interactions::LinkOrigin origin;
   std::int64_t number = 0;  ///< among the elements of its structure's file; its name in checkpoints
 

@@ -9,9 +9,10 @@ import functools
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import h5py
 import numpy
 
-from scene import FACES, HOUSES, axes, curve, kept, pairs, points, quantity, vector, waves
+from scene import BASE, FACES, HOUSES, INTERVAL, axes, curve, kept, pairs, points, quantity, vector, waves
 from soil_tables import coupled, write_soil
 
 KINDS = ("interaction", "law", "element", "model", "start", "support", "damping", "load", "output")
@@ -84,6 +85,24 @@ def state(structure, length, turn):
             for row in (node, moved, velocity)]
     lines = ["x,y,z,ux,uy,uz,vx,vy,vz"] + [",".join(repr(float(x)) for row in rows[i:i + 3] for x in row) for i in (0, 3)]
     return kept(lambda path: Path(path).write_text("\n".join(lines)), ".csv")
+
+
+def parting(_, length, turn):
+    """The file of a wave that parts in two shapes along every axis, at the nodes of the bottoms of both houses."""
+    nodes = numpy.array([(left + u * width, 2.0 * v, -1.0) for left, width, _ in HOUSES.values() for u in (0, .5, 1) for v in (0, .5, 1)])
+    record = numpy.asarray(BASE["motion"])
+    time = INTERVAL * numpy.arange(len(record))
+
+    def write(path):
+        with h5py.File(path, "w") as file:
+            file.attrs["time_step"] = INTERVAL
+            file["nodes"] = nodes @ turn.T * length
+            for axis, of in enumerate(abs(turn).argmax(1)):
+                name, sign = "xyz"[axis], turn[axis, of]
+                file[f"{name}/record"] = sign * record[:, of]
+                file[f"{name}/shapes"] = numpy.column_stack([numpy.ones(len(nodes)), numpy.sin((1 + of) * nodes[:, 0] + nodes[:, 1])])
+                file[f"{name}/histories"] = sign * numpy.array([3 * numpy.sin(40 * (2 + of) * time), 8 * numpy.sin(55 * (3 + of) * time)])
+    return kept(write, ".h5")
 
 
 EAST = waves((25, 40), (20, 45), (12, 50))
@@ -186,6 +205,9 @@ FEATURES = [
     Feature("absorbing faces", "support", {"@_clamp": "none", "@_block_element": "hex8", "@_block_material": "concrete", "@_absorbing": "bottom"}),
     Feature("wave from below", "support", {"motion_input": "below", **{f"{s}_{key}": value for s in "ab" for key, value in (
         ("clamp", "none"), ("block_element", "hex8"), ("block_material", "concrete"), ("absorbing_base", "bottom"))}}),
+    Feature("incoherent wave from below", "support", {"motion_input": "below", "motion_incoherent": parting, **{
+        f"{s}_{key}": value for s in "ab" for key, value in (
+            ("clamp", "none"), ("block_element", "hex8"), ("block_material", "concrete"), ("absorbing_base", "bottom"))}}),
 
     Feature("uniform damping", "damping", {"@_damping_uniform": .05,
                                                       "@_damping_reference": 10.0}),

@@ -1,8 +1,9 @@
-"""Motions of rigid mats on ground that does not move alike: run/incoherent FILE [--seed N] [--out DIR]
+"""Motions of ground that does not move alike, of rigid mats or absorbing faces: run/incoherent FILE [--seed N] [--out DIR]
 
-FILE (YAML) names the mats with centre, sides and what stands on them, the records along x, y and z, and a model of
-coherency. Writes the six components of every mat as DIR/MAT.csv, and DIR/supports.yaml, the block of options by which a
-scene takes them. One seed gives the same motions always. docs/manual/incoherence.md has the keys and the method.
+FILE (YAML) names the mats with centre, sides and what stands on them, or the faces, the records along x, y and z, and a
+model of coherency. Writes the six components of every mat as DIR/MAT.csv, and DIR/supports.yaml, the block of options by
+which a scene takes them; of faces DIR/wave.h5, shapes and histories, and DIR/wave.yaml. One seed gives the same motions
+always. docs/manual/incoherence.md has the keys and the method.
 """
 
 from pathlib import Path
@@ -10,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from pounding import incoherent, mats
+from pounding import faces, incoherent, mats
 from pounding.coherency import CoherencyError
 from pounding.files import file_name
 from pounding.motion_signals import read_signals
@@ -22,8 +23,9 @@ from .process import parser_of
 WORDS = {"unit": "--unit", "column": "--columns", "time_step": "--time-step"}  # of pounding-spectra
 
 
-def read(path: Path) -> tuple:
-    """Coherence, and options of the records per axis. Throws CoherencyError or OSError."""
+def read(path: Path, seed: int | None) -> tuple:
+    """Coherence or Faces, and options of the records per axis. `seed`: in place of that of the file. Throws CoherencyError or
+    OSError."""
     try:
         told = yaml.safe_load(path.read_text(encoding="utf-8"))
     except (ValueError, yaml.YAMLError) as error:
@@ -31,6 +33,8 @@ def read(path: Path) -> tuple:
     if not isinstance(told, dict):
         raise CoherencyError(f"{path}: no keys and values")
     motion = told.pop("motion", None)
+    if seed is not None:
+        told["seed"] = seed
     try:
         if not isinstance(motion, dict) or not motion or not set(motion) <= set(DIRECTIONS):
             raise CoherencyError("motion: needs records along some of x, y and z, as `motion: {x: {record: FILE}}`")
@@ -39,7 +43,8 @@ def read(path: Path) -> tuple:
                 raise CoherencyError(f"motion: {axis}: {one!r} is not a record and perhaps its unit, column, time_step and scale")
             if isinstance(one.get("scale", 1), bool) or not isinstance(one.get("scale", 1), (int, float)):
                 raise CoherencyError(f"motion: {axis}: scale: {one['scale']!r} is no number")
-        return mats.read(told, path.parent), {axis: motion[axis] for axis in DIRECTIONS if axis in motion}
+        of = faces if "faces" in told else mats
+        return of.read(told, path.parent), {axis: motion[axis] for axis in DIRECTIONS if axis in motion}
     except CoherencyError as error:
         raise CoherencyError(f"{path}: {error}") from error
 
@@ -70,23 +75,38 @@ def report(found: mats.Coherence, records: dict, step: float, motions: dict) -> 
 
 def main() -> int:
     parser = parser_of(__doc__)
-    parser.add_argument("file", metavar="FILE", type=Path, help="mats, records and model")
+    parser.add_argument("file", metavar="FILE", type=Path, help="mats or faces, records and model")
     parser.add_argument("--seed", metavar="N", type=int, help="in place of that of the file (default there: 1)")
     parser.add_argument("--out", metavar="DIR", type=Path, default=Path("incoherent"), help="(default: %(default)s)")
     options = parser.parse_args()
-    found, motion = read(options.file)
-    if options.seed is not None:
-        found = mats.read({**found.told, "seed": options.seed}, options.file.parent)
+    found, motion = read(options.file, options.seed)
     records, step = records_of(motion, options.file.parent)
+    make = make_wave if isinstance(found, faces.Faces) else make_supports
+    print("\n".join(make(found, records, step, options.out)))
+    return 0
+
+
+def make_wave(found: faces.Faces, records: dict, step: float, folder: Path) -> list:
+    """Writes the wave of some faces, and the options by which a scene takes it; lines for the user."""
+    shapes = faces.shapes_of(found, records, step)
+    moved = {axis: faces.histories(record, step, shapes[axis], incoherent.Noise(record, step), incoherent.random_of(found.seed, axis))
+             for axis, record in records.items()}
+    folder.mkdir(parents=True, exist_ok=True)
+    faces.write(folder / "wave.h5", found, records, step, shapes, moved)
+    write_scene(folder / "wave.yaml", {"motion_input": "below", "motion_incoherent": str((folder / "wave.h5").absolute())},
+                f"Wave from below on incoherent ground: {found.model.name}, seed {found.seed}; `include` it in a scene.")
+    return [*faces.report(found, records, step, shapes, moved), f"see {folder / 'wave.yaml'}"]
+
+
+def make_supports(found: mats.Coherence, records: dict, step: float, folder: Path) -> list:
+    """Writes the motions of mats, and the options by which a scene takes them; lines for the user."""
     factors = incoherent.factors_of(found.mats, found.model, incoherent.grid(0.5 / step), tuple(records), found.wave)
     motions = incoherent.base_motions(records, step, factors, found.seed)
-    options.out.mkdir(parents=True, exist_ok=True)
+    folder.mkdir(parents=True, exist_ok=True)
     names = mats.components(motions)
-    files = {mat: (options.out / f"{file_name(mat)}.csv").absolute() for mat in motions}
+    files = {mat: (folder / f"{file_name(mat)}.csv").absolute() for mat in motions}
     for mat, own in motions.items():
         mats.write(files[mat], own, step, names)
-    write_scene(options.out / "supports.yaml", mats.support_options(found, names, files),
+    write_scene(folder / "supports.yaml", mats.support_options(found, names, files),
                 f"Supports on incoherent ground: {found.model.name}, seed {found.seed}; `include` it in a scene.")
-    print("\n".join(report(found, records, step, motions)))
-    print(f"see {options.out / 'supports.yaml'}")
-    return 0
+    return [*report(found, records, step, motions), f"see {folder / 'supports.yaml'}"]

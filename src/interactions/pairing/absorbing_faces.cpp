@@ -9,6 +9,7 @@
 #include "common/error.h"
 #include "common/matrix3.h"
 #include "interactions/pairing/facet_backing.h"
+#include "interactions/pairing/wave_shapes.h"
 #include "mesh/connectivity.h"
 #include "mesh/facet_place.h"
 
@@ -21,7 +22,8 @@ constexpr double downwards = 1 - 1e-6;
 /// Sums over the facets around a node [N s/m].
 struct NodeSums {
   Matrix3 all{};
-  Matrix3 base{};  ///< of faces through which the motion enters
+  Matrix3 base{};   ///< of faces through which the motion enters
+  double area = 0;  ///< of these [m2]
 };
 
 [[noreturn]] void refuse(const Structure& structure, const AbsorbingFace& face,
@@ -91,6 +93,7 @@ AbsorbingNode dashpots_of(GlobalIndex node, const NodeSums& sums) {
   }
   AbsorbingNode result;
   result.node = node;
+  result.incident.resize(9);
   Matrix3 forward{};  // factor^-1 (2 B)
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t i = k; i < 3; ++i) result.dashpot[k] += factor[i][k] * factor[i][k];
@@ -100,7 +103,7 @@ AbsorbingNode dashpots_of(GlobalIndex node, const NodeSums& sums) {
       double value = 2 * sums.base[k][d];
       for (std::size_t i = 0; i < k; ++i) value -= factor[k][i] * forward[i][d];
       forward[k][d] = value / factor[k][k];
-      result.incident[k][d] = length * forward[k][d];
+      result.incident[3 * k + d] = length * forward[k][d];
     }
   }
   return result;
@@ -155,7 +158,7 @@ AbsorbingReport find_absorbing_nodes(const Scene& scene, const Structure& struct
       for (std::size_t a = 0; a < facet.corners().size(); ++a) {
         NodeSums& sums = nodes[facet.nodes[a]];
         report.area += shares[a];
-        report.base_area += face.is_base ? shares[a] : 0;
+        sums.area += face.is_base ? shares[a] : 0;
         for (std::size_t i = 0; i < 3; ++i) {
           for (std::size_t j = 0; j < 3; ++j) {
             const double value = shares[a] * impedance[i][j];
@@ -167,7 +170,14 @@ AbsorbingReport find_absorbing_nodes(const Scene& scene, const Structure& struct
     }
   }
   require_free(scene, structure, mesh, nodes);
-  for (const auto& [node, sums] : nodes) mesh.absorbing.push_back(dashpots_of(node, sums));
+  for (const auto& [node, sums] : nodes) {
+    mesh.absorbing.push_back(dashpots_of(node, sums));
+    if (sums.area == 0) continue;
+    const Vector3 x = mesh.position(node);
+    report.base_area += sums.area;
+    report.base.insert(report.base.end(), {x[0], x[1], x[2], sums.area});
+  }
+  add_wave_shapes(scene.motion_incoherent, structure, mesh);
   report.nodes = static_cast<GlobalIndex>(mesh.absorbing.size());
   return report;
 }
