@@ -1,18 +1,33 @@
 #pragma once
 
 #include <cstddef>
-#include <utility>
+#include <cstdint>
+#include <type_traits>
 
 #include "common/lanes.h"
 
 /// Eight doubles at once, one for each of eight members of an ensemble: one register of AVX-512,
 /// two of AVX, four of SSE2. Every operation is done lane by lane and rounded like that of a single
-/// double (add_product in lanes.h), so that no lane depends on its neighbours. The alignment is the
-/// same for every vector unit: code of all of them reads the same arrays.
+/// double (add_product in lanes.h), so that no lane depends on its neighbours. Type and alignment
+/// are the same for every vector unit: code of all of them reads the same arrays.
 namespace pounding {
 
 /// Members that are stepped together.
 inline constexpr std::size_t batch_size = 8;
+
+struct alignas(64) BatchValue {
+  double values[batch_size];
+
+  double operator[](std::size_t lane) const { return values[lane]; }
+  double& operator[](std::size_t lane) { return values[lane]; }
+};
+
+/// Lanes for which something is true.
+struct alignas(64) BatchMask {
+  std::int64_t values[batch_size];
+};
+
+#define POUNDING_BATCH static inline __attribute__((always_inline))
 
 /// Lanes that one register holds: the compiler keeps vectors wider than that in memory.
 #if defined(__AVX512F__)
@@ -22,39 +37,28 @@ using BatchPart = Lanes;
 #else
 using BatchPart = HalfLanes;
 #endif
-using BatchMaskPart = decltype(BatchPart{} < BatchPart{});
 
-inline constexpr std::size_t batch_part_size = sizeof(BatchPart) / sizeof(double);
-inline constexpr std::size_t batch_parts = batch_size / batch_part_size;
+constexpr std::size_t batch_parts = sizeof(BatchValue) / sizeof(BatchPart);
 
-struct alignas(64) BatchValue {
-  BatchPart parts[batch_parts];
-
-  double operator[](std::size_t lane) const {
-    return parts[lane / batch_part_size][lane % batch_part_size];
-  }
-  void set(std::size_t lane, double value) {
-    parts[lane / batch_part_size][lane % batch_part_size] = value;
-  }
-};
-
-/// Lanes for which something is true.
-struct BatchMask {
-  BatchMaskPart parts[batch_parts];
-};
-
-#define POUNDING_BATCH static inline __attribute__((always_inline))
+/// Part of lanes in memory. A copy of bytes would do the same, but keeps sums in memory.
+template <typename Batch>
+POUNDING_BATCH auto& part_of(Batch& batch, std::size_t p) {
+  using Lane = std::remove_reference_t<decltype(batch.values[0])>;
+  typedef Lane __attribute__((vector_size(sizeof(BatchPart)), may_alias)) Part;
+  return reinterpret_cast<Part*>(batch.values)[p];
+}
 
 /// Part by part, each written out, so that all stay in registers.
 template <typename Result, typename Operation, typename... Operands>
 POUNDING_BATCH Result by_parts(const Operation& operation, const Operands&... operands) {
-  const auto part = [&](std::size_t p) __attribute__((always_inline)) {
-    return operation(operands.parts[p]...);
+  Result result;
+  const auto put = [&](std::size_t p) __attribute__((always_inline)) {
+    part_of(result, p) = operation(part_of(operands, p)...);
   };
-  return [&]<std::size_t... p>(std::index_sequence<p...>) __attribute__((always_inline)) {
-    return Result{{part(p)...}};
-  }
-  (std::make_index_sequence<batch_parts>());
+  put(0);
+  if constexpr (batch_parts > 1) put(1);
+  if constexpr (batch_parts > 2) put(2), put(3);
+  return result;
 }
 
 POUNDING_BATCH BatchValue all_eight(double value) {
@@ -111,17 +115,15 @@ POUNDING_BATCH BatchMask operator|(const BatchMask& a, const BatchMask& b) {
 }
 POUNDING_BATCH bool any(const BatchMask& mask) {
   bool found = false;
-  for (const BatchMaskPart& part : mask.parts) {
-    for (std::size_t lane = 0; lane < batch_part_size; ++lane) found = found || part[lane] != 0;
-  }
+  for (const std::int64_t lane : mask.values) found = found || lane != 0;
   return found;
 }
 
 /// Values of a where the mask is true, else of b.
 POUNDING_BATCH BatchValue choose(const BatchMask& mask, const BatchValue& a, const BatchValue& b) {
-  return by_parts<BatchValue>([](const BatchMaskPart& first, const BatchPart& x,
-                                 const BatchPart& y) { return first ? x : y; },
-                              mask, a, b);
+  return by_parts<BatchValue>(
+      [](const auto& first, const BatchPart& x, const BatchPart& y) { return first ? x : y; }, mask,
+      a, b);
 }
 POUNDING_BATCH BatchValue magnitude(const BatchValue& a) {
   return by_parts<BatchValue>([](const BatchPart& x) { return x < 0 ? -x : x; }, a);
@@ -138,7 +140,7 @@ POUNDING_BATCH double of_member(double value, std::size_t /*member*/) {
   return value;
 }
 POUNDING_BATCH void set_member(BatchValue& value, std::size_t member, double number) {
-  value.set(member, number);
+  value[member] = number;
 }
 POUNDING_BATCH void set_member(double& value, std::size_t /*member*/, double number) {
   value = number;

@@ -62,9 +62,9 @@ void BatchStep::brake(double share) {
   dashpot_loss_ = dashpots_->loss(state_->velocity, velocity);
   for (std::size_t member = 0; member < batch_size; ++member) {
     if (braked_[member]) continue;
-    dashpot_loss_.set(member, 0);
+    dashpot_loss_[member] = 0;
     for (std::size_t i = 0; i < velocity.size(); ++i) {
-      velocity[i].set(member, free_velocity_[i][member]);
+      velocity[i][member] = free_velocity_[i][member];
     }
   }
 }
@@ -94,7 +94,7 @@ void BatchStep::step(double duration, const std::array<BatchValue, 3>& ground_ac
 BatchMember::BatchMember(BatchStep& batch, std::size_t member, StructureState& state)
     : SteppedRun(*batch.structure_, member, state), batch_(batch) {
   const auto put = [member](std::span<const double> values, std::vector<BatchValue>& to) {
-    for (std::size_t i = 0; i < to.size(); ++i) to[i].set(member, values[i]);
+    for (std::size_t i = 0; i < to.size(); ++i) to[i][member] = values[i];
   };
   put(state.displacement, batch.state_->displacement);
   put(state.velocity, batch.state_->velocity);
@@ -151,7 +151,7 @@ void BatchMember::correct(std::span<const LocalIndex> dofs, const interactions::
     const std::size_t i = dofs[k];
     const double change = velocity[k] - batch_.state_->velocity[i][member_];
     const double loss = batch_.dashpots_->loss_rate(i)[member_] * change;
-    batch_.dashpot_loss_.set(member_, batch_.dashpot_loss_[member_] + loss);
+    batch_.dashpot_loss_[member_] += loss;
   }
   SteppedRun::correct(dofs, before, velocity);
   for (const LocalIndex i : dofs) {

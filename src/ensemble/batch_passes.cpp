@@ -84,10 +84,10 @@ BatchPasses::BatchPasses(std::span<const MemberScene* const> scenes, std::span<c
       double gap = model.interface.watched[w].initial_gap;
       const bool at_rest = scenes[member]->scene.contacts[rows[w].contact].gap_at_rest;
       if (model.equilibrium && at_rest) gap -= watched_.at_rest(w, model.systems);
-      gaps_[w].set(member, gap);
+      gaps_[w][member] = gap;
     }
     for (std::size_t row = 0; model.equilibrium && row < moving_.size(); ++row) {
-      start_[row].set(member, -moving_.at_rest(row, model.systems));
+      start_[row][member] = -moving_.at_rest(row, model.systems);
     }
   }
 }

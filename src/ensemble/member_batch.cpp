@@ -101,7 +101,7 @@ const std::vector<BatchValue>& MemberBatch::motion_of_supports(const auto& part)
   supports_.resize(shared_.support_columns().size());
   for (std::size_t member = 0; member < runs_.size(); ++member) {
     const std::vector<double>& motion = part(runs_[member]->stepper());
-    for (std::size_t c = 0; c < supports_.size(); ++c) supports_[c].set(member, motion[c]);
+    for (std::size_t c = 0; c < supports_.size(); ++c) supports_[c][member] = motion[c];
   }
   return supports_;
 }
@@ -128,7 +128,7 @@ void MemberBatch::step(std::int64_t n) {
     with_energies = needs.energies || with_energies;
     with_forces = needs.forces || runs_[member]->stepper().corrects() || with_forces;
     for (std::size_t d = 0; d < 3; ++d) {
-      acceleration_[d].set(member, runs_[member]->stepper().ground_acceleration()[d]);
+      acceleration_[d][member] = runs_[member]->stepper().ground_acceleration()[d];
     }
   }
   const double duration = runs_.front()->stepper().force_duration();

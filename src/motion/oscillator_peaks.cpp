@@ -172,7 +172,7 @@ class Stride {
       }
       for (std::size_t c = 0; c < columns.size(); ++c) {
         for (std::size_t r = 0; r < 2; ++r) {
-          effect_[c][r][i / batch_size].set(i % batch_size, columns[c][r]);
+          effect_[c][r][i / batch_size][i % batch_size] = columns[c][r];
         }
       }
     }

@@ -1,11 +1,18 @@
 """One definition of a type: no two files of src or of the tests' helpers define a class, struct, union or enum of one
 qualified name outside unnamed namespaces, which no compiler or linker tells and which is undefined behaviour. Files of a
-room that are compiled together share one unnamed namespace as well."""
+room that are compiled together share one unnamed namespace as well. With run/test --all the programs are linked from their
+types as the compiler knows them, which tells a type that differs with the vector unit or a macro."""
 import collections
 import os
 import re
+import subprocess
+import tempfile
 import unittest
 
+import program
+
+PROCESSORS = 2  # builds with both of them
+TIMEOUT = 7200
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 WORDLESS = re.compile(r'//[^\n]*|/\*.*?\*/|R"\((?:.|\n)*?\)"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'|^\s*#[^\n]*',
                       re.DOTALL | re.MULTILINE)
@@ -16,6 +23,7 @@ NAMESPACE = re.compile(r"\bnamespace\s*([\w:]*)\s*$")
 
 
 VARIABLE = re.compile(r"<[^(){};]*>|\[\[.*?\]\]|\balignas\s*\([^)]*\)|__attribute__\s*\(\(.*?\)\)|\[[^\]]*\]")
+DIFFERS = re.compile("-Wodr|-Wlto-type-mismatch")
 COMPILED_ALONE = re.compile(r'room MATCHES "(\^\(.*\)\$)"')
 
 
@@ -132,6 +140,32 @@ class OneDefinition(unittest.TestCase):
         }"""
         self.assertEqual(list(types(text)), ["pounding::Held", "pounding::Held::Kind", "pounding::Box",
                                              "pounding::Box<int>"])
+
+    def test_a_type_that_differs_is_told_by_the_linker(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(f"{folder}/both.cpp", "w") as file:
+                file.write("struct Both { double held[COUNT]; double first() const { return held[0]; } };\n#if COUNT == 1\n"
+                           "double taken(const Both& both) { return both.first(); }\nint main() {}\n#else\n"
+                           "double taken(const Both&);\ndouble g() { Both both{}; return taken(both) + both.first(); }\n#endif\n")
+            for count in (1, 2):
+                subprocess.run(["c++", "-flto", f"-DCOUNT={count}", "-c", "both.cpp", "-o", f"{count}.o"], cwd=folder, check=True)
+            done = subprocess.run(["c++", "-flto", "1.o", "2.o", "-o", "both"], cwd=folder, capture_output=True, text=True)
+            self.assertRegex(done.stderr, DIFFERS)
+
+
+@program.long
+class Linked(unittest.TestCase):
+    """Without the optimiser, which changes no type."""
+
+    def test_programs_have_every_type_once(self):
+        folder = os.path.abspath(program.BUILD) + "-linked"
+        subprocess.run(["cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None", "-DCMAKE_CXX_FLAGS=-O0",
+                        "-DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON", "-DPOUNDING_VECTOR_UNITS=v3"], check=True, capture_output=True)
+        for name in ("pounding", "pounding-mesh", "pounding-spectra", "job_server", "unit_tests", "parallel_tests"):
+            with self.subTest(name):
+                done = subprocess.run(["cmake", "--build", folder, "--target", name], capture_output=True, text=True)
+                self.assertEqual(done.returncode, 0, done.stdout[-2000:])
+                self.assertNotRegex(done.stdout, DIFFERS)
 
 
 if __name__ == "__main__":

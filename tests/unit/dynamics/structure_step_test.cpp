@@ -336,7 +336,7 @@ void expect_member_of_batch(LinearSystem system) {
   const auto spread = [&](const std::vector<double>& from, std::vector<BatchValue>& to) {
     to.assign(from.size(), BatchValue{});
     for (std::size_t i = 0; i < from.size(); ++i) {
-      for (std::size_t l = 0; l < batch_size; ++l) to[i].set(l, from[i] * (l == member ? 1 : 1.7));
+      for (std::size_t l = 0; l < batch_size; ++l) to[i][l] = from[i] * (l == member ? 1 : 1.7);
     }
   };
   spread(alone.state.displacement, state.displacement);
@@ -348,7 +348,7 @@ void expect_member_of_batch(LinearSystem system) {
   std::array<BatchValue, 3> accelerations{};
   for (std::size_t d = 0; d < 3; ++d) {
     for (std::size_t l = 0; l < batch_size; ++l)
-      accelerations[d].set(l, l == member ? ground[d] : 9);
+      accelerations[d][l] = l == member ? ground[d] : 9;
   }
   const std::vector<const LinearSystem*> systems(batch_size, &alone.system);
   StructureStep<BatchValue> step(systems, state, time_step);

@@ -106,8 +106,8 @@ void expect_each_member(std::size_t count) {
   const auto level = [](std::size_t member) { return 0.25 * static_cast<double>(member) - 1; };
   for (std::size_t member = 0; member < batch_size; ++member) {
     for (std::size_t i = 0; i < Braked::size; ++i) {
-      before[i].set(member, level(member) * braked.before[i]);
-      velocities[i].set(member, level(member) * braked.free[i]);
+      before[i][member] = level(member) * braked.before[i];
+      velocities[i][member] = level(member) * braked.free[i];
     }
   }
   all.brake(0.5, before, velocities);
@@ -124,7 +124,7 @@ void expect_each_member(std::size_t count) {
   // Contact that then moves a coordinate of one run.
   const double change = 0.01;
   const double rate = all.loss_rate(3)[6];
-  velocities[3].set(6, velocities[3][6] + change);
+  velocities[3][6] += change;
   EXPECT_NEAR(all.loss(before, velocities)[6], losses[6] + rate * change, 1e-13 * loss);
 }
 
