@@ -21,7 +21,7 @@ from pathlib import Path
 
 from pounding import UserError
 from pounding.arguments import positive, ranks
-from pounding.fragility import conditions, design, envelope, motions, report, rules, study, submittal
+from pounding.fragility import conditions, design, envelope, motions, report, rules, stability, study, submittal
 from pounding.fragility.analysis import Analysis
 from pounding.fragility.runs import Runner
 from pounding.plot.report import print_pdf, require_browser
@@ -173,7 +173,8 @@ def members_of(found: study.Study, folder: Path, options: argparse.Namespace,
                         "run what is missing")
     ruled, note = ({}, "") if found.is_surveyed else rules.find(found, plan, runner.scene(True), folder, options.jobs)
     notes += [note] if note else []
-    analysis = Analysis(found, plan, gathered, runner.equipment, notes, runner.scouted[True].inputs, runner)
+    analysis = Analysis(found, plan, gathered, runner.equipment, notes, runner.scouted[True].inputs, runner, runner.mats)
+    notes += stability.doubts(analysis)
     page, text = report.write(analysis, full, ruled, notes, folder)
     print("\n" + text)
     print(f"see {page}")

@@ -33,6 +33,7 @@ class Analysis:
     notes: list = field(default_factory=list)  # doubts and remarks, a line each
     inputs: dict = field(default_factory=dict)  # files that the members read, with their hashes
     runner: object = None  # of the members
+    mats: list = field(default_factory=list)  # pounding.stability.Mat of each whose stability is asked for
 
     def __post_init__(self):
         self.fitted = {}

@@ -11,7 +11,7 @@ from pounding.plot.markup import answer_box, figure_parts, html_table, linked, w
 from pounding.plot.style import WIDTH, WITH, WITHOUT, g_axis, log_scale, plt, save
 from pounding.tables import cells_of, markdown, write_csv
 
-from . import figures, report, spans
+from . import figures, report, spans, stability
 from .analysis import CONTACT, EXCEEDED, Analysis, gap_text, name_of, quantile
 from .conditions import ALONE, Condition
 from .study import Study
@@ -138,6 +138,11 @@ class Envelope:
         """Histories of the spans in the members that govern, at the level of the figures, from runs of their own."""
         self.notes = spans.write_histories(self.span_rows, self.analyses, self.folder, self.gap, self.level)
 
+    @cached_property
+    def mat_rows(self) -> list:
+        """Stability of the mats, see stability.rows_of; its tables are written with it."""
+        return stability.write(self.analyses, self.folder, self.gap)
+
     def hclpf_rows(self) -> list:
         rows = []
         for event in self.first.events:
@@ -263,6 +268,7 @@ def write(one: Envelope) -> tuple:
     parts = [(f"{one.study.width_title} that would be needed [m]".capitalize(), tables["joint"]),
              (spans.CAPTION, [row for row in one.span_rows if row["pga [m/s2]"] == one.level]),
              ("Each soil and state", tables["conditions"]),
+             *([(stability.CAPTION, one.mat_rows)] if one.mat_rows else []),
              ("What moves the answer", tables["sensitivity"]), ("Largest probability of each event", tables["probability"]),
              ("Capacity of high confidence and low probability of failure (HCLPF)", tables["hclpf"])]
     box = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))

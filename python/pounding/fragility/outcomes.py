@@ -3,7 +3,7 @@
 import zipfile
 import zlib
 from contextlib import contextmanager
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 
 import h5py
@@ -23,10 +23,11 @@ ARRAYS = {"spectra/pseudo_acceleration": "spectra", "impacts/episodes": "episode
           "peaks/acceleration": "acceleration", "energy/residual": "residual", "pairs/initial_gap": "pair_gap",
           "pairs/least_gap": "pair_least", "pairs/time": "pair_time", "pairs/displacement": "pair_moved",
           "spans/peak": "span_peak", "spans/time": "span_time"}
+FORCES = "forces/history"  # of members that have them: left in the file
 # What all members share.
 LABELS = {"spectra/frequency": "frequency", "spectra/damping": "damping", "spectra/channels": "channels",
           "impacts/contacts": "contacts", "pairs/contact": "pair_contact", "pairs/place": "pair_place", "spans/names": "spans"}
-TEXTS = ("channels", "contacts", "spans")
+TEXTS = ("channels", "contacts", "spans", "force_names")
 
 
 @dataclass
@@ -34,7 +35,8 @@ class Outcomes:
     """`spectra` (members, channels, damping ratios, frequencies) [m/s2]; impacts and gaps (members, contacts); peaks
     (members, channels); pairs of contacts by number of the contact and place (pairs, 3), their gaps at the start, least ones
     and when (members, pairs), and largest relative displacements (members, pairs, 3); largest motions of the ends of
-    `spans` against each other, and when (members, spans, 8), in the order of spans.MOTIONS; SI units."""
+    `spans` against each other, and when (members, spans, 8), in the order of spans.MOTIONS; `forces` recorded (members,
+    samples, columns) and their names and times; SI units."""
 
     frequency: np.ndarray
     damping: np.ndarray
@@ -59,6 +61,21 @@ class Outcomes:
     spans: list
     span_peak: np.ndarray
     span_time: np.ndarray
+    force_names: list = field(default_factory=list)
+    force_time: np.ndarray = field(default_factory=lambda: np.empty(0))
+    forces: "np.ndarray | Kept" = field(default_factory=lambda: np.empty((1, 0, 0)))
+
+
+@dataclass(frozen=True)
+class Kept:
+    """Histories of recorded forces that stay in the files of the members: each is read where it is asked for."""
+
+    places: list  # of each member, file and row
+
+    def __getitem__(self, member: int) -> np.ndarray:
+        path, row = self.places[member]
+        with _reading(path) as file:
+            return file[FORCES][row]
 
 
 def _texts(values) -> list:
@@ -111,7 +128,9 @@ def collect(files: list, members: list, columns: list) -> tuple:
         rows = np.array([places[index][1] for index in mine])
         with _reading(path) as file:
             labels = {name: file[dataset][()] if dataset in file else [] for dataset, name in LABELS.items()}
-            labels |= {name: _texts(labels[name]) for name in TEXTS}
+            labels |= {name: _texts(labels[name]) for name in TEXTS if name in labels}
+            if FORCES in file:
+                labels |= {"force_names": _texts(file["forces/names"][()]), "force_time": file["forces/time"][()]}
             shared = shared or labels
             if labels["channels"] != shared["channels"] or not np.allclose(labels["frequency"], shared["frequency"]):
                 raise UserError(f"{path}: other probes or frequencies than in the other parts")
@@ -119,6 +138,8 @@ def collect(files: list, members: list, columns: list) -> tuple:
                 values = file[dataset][()][rows] if dataset in file else np.empty((len(rows), 0, len(MOTIONS)))
                 target = found.setdefault(name, np.empty((len(order), *values.shape[1:])))
                 target[[order.index(index) for index in mine]] = values
+    if shared and "force_names" in shared:
+        found["forces"] = Kept([places[index] for index in order])
     missing = [index for index in range(len(members)) if index not in places]
     return (Outcomes(**shared, **found) if shared else None), missing
 
@@ -155,13 +176,23 @@ def of_run(result: Result) -> Outcomes:
     place = np.stack([of_pairs[axis] for axis in "xyz"], -1)
     of_spans = np.array([span.largest for span in result.spans.values()]).reshape(-1, 2, len(MOTIONS))
     owner = np.array([contacts.index(name) for name in pairs.get("contact", [])], float)
+    recorded = result.history.get("forces", [])
+    every = slice(None, None, _between_gaps(result)) if len(recorded) else slice(0, 0)
     return Outcomes(frequency, damping, channels, contacts, owner, place, spectra[None], of_contact("episodes", 0),
                     of_impacts("start", True), of_contact("total_impulse", 0), of_contact("largest_impulse", 0),
                     of_impacts("peak_force", False), np.array(gaps), np.array(peaks["peak_displacement"]),
                     np.array(peaks["peak_acceleration"]), np.array([told["energy"]["relative_residual"] or 0.0]),
                     of_pairs["initial_gap"][None], of_pairs["least_gap"][None], of_pairs["time"][None],
-                    np.stack([of_pairs[f"d{axis}"] for axis in "xyz"], -1)[None], list(result.spans),
-                    of_spans[None, :, 0], of_spans[None, :, 1])
+                    np.stack([of_pairs[f"d{axis}"] for axis in "xyz"], -1)[None], list(result.spans), of_spans[None, :, 0],
+                    of_spans[None, :, 1], list(recorded), result.history["time"][every],
+                    result.history.get("force", np.empty((0, 0)))[every][None])
+
+
+def _between_gaps(result: Result) -> int:
+    """Records between two samples of the gaps, at which members have their forces."""
+    time = result.history["time"]
+    gaps = float(result.summary["options"].get("gap_interval", 0.0))
+    return max(1, int(gaps / (time[1] - time[0]) * (1 + 1e-12))) if len(time) > 1 else 1
 
 
 def write(path: Path, columns: list, texts: list, parts: list) -> None:
@@ -174,6 +205,9 @@ def write(path: Path, columns: list, texts: list, parts: list) -> None:
             file[dataset] = np.char.encode(np.array(values, str)) if isinstance(values, list) else values
         for dataset, name in ARRAYS.items():
             file[dataset] = np.concatenate([getattr(part, name) for part in parts])
+        if parts[0].force_names:
+            file["forces/names"], file["forces/time"] = np.char.encode(parts[0].force_names), parts[0].force_time
+            file[FORCES] = np.concatenate([part.forces for part in parts])
         file["done"] = np.ones(len(parts), dtype="i4")
 
 

@@ -11,7 +11,7 @@ from pounding.plot.answer import plural
 from pounding.plot.markup import answer_box, figure_parts, html_table, paragraphs, write_page
 from pounding.fragility import Fragility, binomial_interval, moments
 
-from . import figures, spans
+from . import figures, spans, stability
 from .analysis import CONTACT, EXCEEDED, TOLERANCE, Analysis, fit_row, gap_text, name_of
 from .design import OWN_FIELD
 from .outcomes import Outcomes
@@ -96,6 +96,7 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
     gap, level, *_ = figures.shown(analysis)
     across = spans.write(alone, folder, gap)
     pages += spans.figure(across, alone, folder, level)
+    of_mats = stability.write(alone, folder, gap)
     more, widths = figures.enough(analysis, folder)
     pages += more + (figures.scatter_parts(analysis, folder) if study.exchange else [])
     first_rows = [{"sample": sample, "motion": analysis.design.motions[sample],
@@ -118,6 +119,7 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
              (spans.CAPTION, [row for row in across if row["pga [m/s2]"] == level]),
              (f"Members that the mean of any spectrum needs, within {100 * TOLERANCE:g} %",
               enough_summary(enough_rows)), ("Repeats at full order: ln-ratio of the spectra", repeats_summary(tables["full_order"]))]
+    parts = [(stability.CAPTION, of_mats), *parts] if of_mats else parts
     lines = told(analysis, fits, full, tables) + notes
     box = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))
     shown = [*figure_parts(folder, pages), ("Floor spectra", floor_table(analysis)),

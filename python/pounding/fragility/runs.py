@@ -17,6 +17,7 @@ from pounding.files import write_text
 from pounding.results import ResultError, load
 from pounding.runs import LOG, Job, clear, environment, finish
 from pounding.scenes import write_scene
+from pounding.stability import facts_of
 
 from . import equipment, outcomes
 from .design import Design
@@ -37,6 +38,8 @@ def scene_options(study: Study, reduced: bool, folder: Path) -> dict:
             found[f"{name}_gap"] = "geometry"  # in place of that of the scene
         if one.field:
             found |= {f"{name}_gap_deviation": str(one.field[0]), f"{name}_gap_length": str(one.field[1])}
+    if study.stability:
+        found |= study.stability.options
     if reduced:
         found |= study.reduction
         for structure in [name.removesuffix("_model") for name, value in found.items()
@@ -72,6 +75,7 @@ class Scouted:
     equipment: list = field(default_factory=list)  # see equipment.of_run
     doubts: list = field(default_factory=list)  # that spectra go beyond modes or mesh
     heights: list = field(default_factory=list)  # elevations of the pairs of contacts [m]
+    mats: dict = field(default_factory=dict)  # see pounding.stability.facts_of, of a study that asks for their stability
 
 
 class Runner:
@@ -92,6 +96,7 @@ class Runner:
                 self._find_base(reduced, options, key_of(study, options, design), only_look)
         check_names(study, self.scouted[True].probes, self.scouted[True].contacts)
         self._check_elevations(self.scouted[True].heights)
+        self.mats = study.stability.resolve(self.scouted[True].mats) if study.stability else []
 
     def _check_elevations(self, heights: list) -> None:
         if heights and self.study.elevations:
@@ -136,11 +141,12 @@ class Runner:
         found = load(place)
         summary, items = found.summary, equipment.of_run(found)
         heights = np.unique(found.table("joint_pairs")["z"]).tolist()
+        mats = facts_of(found) if self.study.stability else {}
         clear(place)
         own = str(self.scene(reduced).absolute())
         inputs = {path: found for path, found in finished.inputs_of(summary).items() if path != own}
         doubts = [line for line in summary["warnings"] if "its modes end at" in line or "its mesh carries waves" in line]
-        return Scouted(inputs, list(summary.get("probes", {})), list(summary.get("contacts", {})), items, doubts, heights)
+        return Scouted(inputs, list(summary.get("probes", {})), list(summary.get("contacts", {})), items, doubts, heights, mats)
 
     def _words(self, member, reduced: bool) -> list:
         words = ["-options_file", str(self.scene(reduced).absolute())]
@@ -225,8 +231,8 @@ class Runner:
     def _at_once(self, place: Path) -> str:
         ranks = f"{self.ranks} rank{'s' if self.ranks > 1 else ''}"
         print(f"fragility: ensemble {place.name} on {ranks}; progress in {place / LOG}", flush=True)
-        words = ["-options_file", str(self.scene(True).absolute()), "-equipment", "none", "-ensemble",
-                 str((place / "members.csv").absolute())]
+        words = ["-options_file", str(self.scene(True).absolute()), "-equipment", "none", *([] if self.study.stability else ["-forces", "none"]),
+                 "-ensemble", str((place / "members.csv").absolute())]
         return finish(lambda: Job(words, place.absolute(), self.ranks, Path.cwd(), self.variables))
 
     def _singles(self, members: list, reduced: bool, name: str) -> None:

@@ -14,11 +14,12 @@ from pounding.results import DIRECTIONS
 
 from . import spans
 from .coherence import Moved, read as read_coherence
+from .stability import Stability, read as read_stability
 from .study_file import Reader, beside, given_options, load
 
 KEYS = ("title", "scene", "output", "options", "reduction", "seed", "samples", "confidence", "motions", "levels",
         "motion_rules", "gaps", "apart", "joints", "coherence", "soils", "states", "submittal", "uncertainty", "exchange", "field_factors",
-        "factors", "capacities", "full_order", "frequencies", "dampings", "show", "elevations", "spans")
+        "factors", "capacities", "full_order", "frequencies", "dampings", "show", "elevations", "spans", "stability")
 DAMPINGS = (0.02, 0.03, 0.04, 0.05, 0.07)
 SYNTHETIC = {"duration": "25", "envelope": "2,15"}
 RECORDED = {"unit": "auto", "time_step": "0", "column": "0"}
@@ -129,6 +130,7 @@ class Study:
     coherent_too: bool = False  # whether samples are run on coherent ground beside it
     moved: Moved | None = None  # these as supports, once their motions are made
     elevations: list | None = None  # between bands of the table of the joint [m]; None: those that suit its pairs
+    stability: Stability | None = None  # of the mats
 
     @property
     def motion_count(self) -> int:
@@ -434,4 +436,5 @@ def read(path: Path) -> Study:
         _show(reader, gaps, levels), {key: reader.values.get(key) for key in ("soils", "states", "submittal")},
         reader.number("uncertainty", None, 0.0) if "uncertainty" in reader.values else None, _motion_rules(reader),
         *read_coherence(reader),
-        elevations=reader.increasing("elevations", None, -1e9) if "elevations" in reader.values else None)
+        elevations=reader.increasing("elevations", None, -1e9) if "elevations" in reader.values else None,
+        stability=read_stability(reader, levels, {**given_options(scene), **reader.options("options")}.get("structures", "")))

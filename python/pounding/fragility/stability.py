@@ -1,0 +1,157 @@
+"""Stability of the mats in a study: their factors over the members of each soil and state, the worst instants of all, doubts where
+one is below what is asked."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from pounding import UserError
+from pounding.stability import CRITERIA, FORCES, WORST, Found, found, instant_rows, read as read_mats, resolve, safe_name
+from pounding.tables import write_csv
+
+from .study_file import Reader
+
+KEYS = ("asked", "level", "gravity", "mats")
+CAPTION = "Mats: least factor over time of sliding, overturning about each edge and flotation"
+
+
+@dataclass(frozen=True)
+class Stability:
+    """`asked`: factor that each of `mats` is to have up to `level` [m/s2]; `gravity` of a scene without [m/s2]."""
+
+    path: Path
+    asked: float
+    level: float
+    gravity: float | None
+    mats: dict
+
+    @property
+    def options(self) -> dict:
+        """Of the members' scene: the forces under the mats."""
+        options = {"forces": ",".join(map(safe_name, self.mats))}
+        for structure in self.mats:
+            options |= {f"{safe_name(structure)}_structure": structure, f"{safe_name(structure)}_kind": "reactions"}
+        return options
+
+    def resolve(self, facts: dict) -> list:
+        """The mats as factors need them. Throws UserError."""
+        return [resolve(one, facts, self.gravity, f"{self.path}: stability") for one in self.mats.values()]
+
+
+def read_block(reader: Reader, levels: list | None) -> Stability:
+    """A block of asked factor, gravity and mats. Throws UserError."""
+    level = reader.number("level", levels[-1], 0.0) if levels else 0.0
+    if levels and level not in levels:
+        reader.fail("level", f"is none of the study's {', '.join(f'{one:g}' for one in levels)}")
+    gravity = reader.number("gravity", None, 0.0) if "gravity" in reader.values else None
+    mats = read_mats(reader)
+    for name, one in mats.items():
+        if levels and one.contact:
+            raise UserError(f"{reader.path}: {reader.place}: mats: {name}: contact is for single runs (run/stability): members keep no slip")
+    return Stability(reader.path, reader.number("asked", None, 0.0), level, gravity, mats)
+
+
+def read(reader: Reader, levels: list, structures: str) -> Stability | None:
+    """The block `stability` of a study; None where it has none. `structures`: of its scene, between commas. Throws UserError."""
+    if reader.values.get("stability") is None:
+        return None
+    block = read_block(reader.part("stability", KEYS), levels)
+    known = [name.strip() for name in structures.split(",")]
+    unknown = next((name for name in block.mats if structures and name not in known), None)
+    if unknown is not None:
+        raise UserError(f"{reader.path}: stability: mats: {unknown} is no structure of the scene; it has {', '.join(known)}")
+    return block
+
+
+def of_member(analysis, member: int) -> list:
+    """Found of each mat in a member, made once."""
+    kept = analysis.__dict__.setdefault("stability_found", {})
+    if member not in kept:
+        outcomes, forces = analysis.outcomes, None
+        made = []
+        for mat in analysis.mats:
+            columns = [outcomes.force_names.index(f"{safe_name(mat.name)}.{part}") for part in FORCES]
+            forces = outcomes.forces[member] if forces is None else forces
+            made.append(found(outcomes.force_time, forces[:, columns], mat))
+        kept[member] = made
+    return kept[member]
+
+
+def of_cell(analysis, gap: float | None, level: float, number: int) -> list[Found]:
+    """Found of a mat in the members of a cell, by sample."""
+    return [of_member(analysis, member)[number] for member in analysis.of(gap, level)]
+
+
+def motions_of(analysis, sample: int) -> str:
+    """Records or seeds of a sample, by axis."""
+    motion = analysis.design.motions[sample]
+    return ", ".join(f"{name}: {Path(axis.motions[motion]).stem if axis.records else f'seed {axis.motions[motion]}'}"
+                     for name, axis in analysis.study.axes.items())
+
+
+def rows_of(analyses: dict, gap: float) -> tuple:
+    """Of each mat, criterion and level, in a joint and apart, the factor's mean, 16 % and least over the members on the worst
+    soil and in the worst state, and where the least is; and the worst instants of all members. `analyses`: Condition -> Analysis; the
+    condition is None of a page of one alone."""
+    first = next(iter(analyses.values()))
+    rows, instants = [], []
+    for number, mat in enumerate(first.mats):
+        for c, criterion in enumerate(CRITERIA):
+            for level in first.study.levels:
+                for cell, words in ((gap, first.study.joint_named(gap)), (None, "apart")):
+                    each = {condition: of_cell(one, cell, level, number) for condition, one in analyses.items()}
+                    least = {condition: np.array([one.factor[c, 0] for one in some]) for condition, some in each.items()}
+                    at = min(least, key=lambda condition: least[condition].min())
+                    sample = int(least[at].argmin())
+                    if not np.isfinite(least[at][sample]):
+                        continue
+                    slid = [[one.slid for one in some] for some in each.values()] if criterion == "sliding" else []
+                    rows.append({"mat": mat.name, "criterion": criterion, "pga [m/s2]": level, "runs": words,
+                                 "mean": float(min(values.mean() for values in least.values())),
+                                 "16 %": float(min(np.quantile(values, 0.16) for values in least.values())),
+                                 "least": float(least[at][sample]), "time [s]": float(each[at][sample].time[c, 0]), "sample": sample,
+                                 "motions": motions_of(analyses[at], sample), **(at.place if at else {}),
+                                 **({"would slide 84 % [m]": float(max(np.quantile(some, 0.84) for some in slid)),
+                                     "at most [m]": float(max(map(max, slid)))} if slid else {})})
+                    instants += _worst_of(analyses, each, number, c, {"pga [m/s2]": level, "runs": words})
+    return rows, instants
+
+
+def _worst_of(analyses: dict, each: dict, number: int, c: int, place: dict) -> list:
+    """The worst instants of all members of a cell, with their numbers."""
+    all_rows = []
+    for condition, some in each.items():
+        mat = analyses[condition].mats[number]
+        for sample, one in enumerate(some):
+            more = place | {"sample": sample, "motions": motions_of(analyses[condition], sample), **(condition.place if condition else {})}
+            all_rows += [row for row in instant_rows(mat, one, more) if row["criterion"] == CRITERIA[c]]
+    all_rows.sort(key=lambda row: row["factor"])
+    return [{**row, "rank": rank} for rank, row in enumerate(all_rows[:WORST], 1)]
+
+
+def write(analyses: dict, folder: Path, gap: float) -> list:
+    """stability.csv and stability_instants.csv; returns the rows of the first, none of a study that asks for no stability."""
+    if not next(iter(analyses.values())).mats:
+        return []
+    rows, instants = rows_of(analyses, gap)
+    write_csv(folder / "stability.csv", rows)
+    write_csv(folder / "stability_instants.csv", instants)
+    return rows
+
+
+def doubts(analysis) -> list:
+    """A line for each mat with factors below what is asked, up to the level for which it is, and what is doubtful about the mats."""
+    study, lines = analysis.study, [line for mat in analysis.mats for line in mat.doubts]
+    for number, mat in enumerate(analysis.mats):
+        missed = []
+        for c, criterion in enumerate(CRITERIA):
+            least = [(float(one.factor[c, 0]), level, cell, sample, float(one.time[c, 0])) for level in study.levels
+                     if level <= study.stability.level for cell in [*study.gaps, None] for sample, one in enumerate(of_cell(analysis, cell, level, number))]
+            factor, level, cell, sample, time = min(least, key=lambda one: one[0])
+            if factor < study.stability.asked:
+                where = "apart" if cell is None else f"{study.joint_named(cell)}"
+                missed.append(f"{criterion} {factor:.4g} ({level:g} m/s2, {where}, sample {sample}, {time:.4g} s)")
+        if missed:
+            lines.append(f"Doubt: mat {mat.name} is below the factor of {study.stability.asked:g} that is asked: {'; '.join(missed)}.")
+    return lines
