@@ -23,7 +23,7 @@ struct EnsembleLayout {
   std::vector<double> pair_contacts;  ///< numbers of the contacts of the pairs
   std::vector<double> pair_places;    ///< shape (pairs, 3) [m]
   std::vector<std::string> forces;    ///< columns of recorded forces
-  std::vector<double> force_times;    ///< of their samples [s]
+  std::vector<double> force_times;    ///< of their records [s]
   /// Lines of the sources of the results: a file of other ones is of another ensemble.
   std::vector<std::string> identity;
 };

@@ -331,7 +331,7 @@ StepNeeds MemberRun::open() {
 void MemberRun::close() {
   solver_.stepper().close();
   observers_.after(solver_.stepper());
-  if ((solver_.stepper().state().step - 1) % gap_stride(run_.scene, run_.model) != 0) return;
+  if ((solver_.stepper().state().step - 1) % record_stride(run_.scene, run_.model) != 0) return;
   history_.insert(history_.end(), forces_.begin(), forces_.end());
 }
 

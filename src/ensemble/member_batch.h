@@ -43,7 +43,7 @@ class MemberRun {
   Observers observers_;
   std::vector<PairMotion> pairs_;   ///< per row, without displacements
   std::span<const double> forces_;  ///< of the last record
-  std::vector<double> history_;     ///< of these at the samples of the gaps
+  std::vector<double> history_;     ///< of these at all records
 };
 
 /// Records the probes of eight runs, as Recorder does those of one: largest displacement, and the

@@ -24,7 +24,7 @@ struct MemberResult {
   std::vector<double> acceleration;       ///< largest per channel after the low-pass [m/s2]
   std::vector<double> span_peak;          ///< see SpanPeaks, shape (spans, 8) [m, rad]
   std::vector<double> span_time;          ///< of these [s]
-  std::vector<double> forces;             ///< shape (samples of the gaps, columns) [N, N m]
+  std::vector<double> forces;             ///< shape (records, columns) [N, N m]
   std::vector<double> energy_residual;    ///< one number: largest, relative
   std::vector<double> contact_residual;   ///< one number: of complementarity, largest [-]
 };

@@ -210,8 +210,7 @@ class Ensemble {
     for (const ForceItem& force : scene_.forces) {
       for (const char* part : total_force_names) layout_.forces.push_back(force.name + "." + part);
     }
-    const std::int64_t between = gap_stride(scene_, shared_);
-    for (std::int64_t n = 0; !layout_.forces.empty() && n <= shared_.steps; n += between) {
+    for (std::int64_t n = 0; !layout_.forces.empty() && n <= shared_.steps; n += times_.stride) {
       layout_.force_times.push_back(static_cast<double>(n) * shared_.time_step);
     }
     layout_.damping_ratios = scene_.spectra.damping_ratios;

@@ -229,7 +229,7 @@ class InAStudy(StudyCommand):
                 least = {key: one[number].factor[c, 0] for key, one in singles.items()}
                 soil, seed = min(least, key=least.get)
                 self.assertAlmostEqual(float(row["least"]) / least[soil, seed], 1, delta=1e-7)
-                self.assertEqual((row["soil"], row["motions"]), (soil, f"x: seed {seed}"))
+                self.assertEqual((row["soil"], row["motions"]), (soil, str(seed)))
                 self.assertAlmostEqual(float(row["time [s]"]), singles[soil, seed][number].time[c, 0], delta=1e-9)
                 mean = min(np.mean([least[one, seed] for seed in (1, 2)]) for one in ("best", "upper"))
                 self.assertAlmostEqual(float(row["mean"]) / mean, 1, delta=1e-7)
@@ -237,9 +237,9 @@ class InAStudy(StudyCommand):
                 values = sorted(value for one in singles.values() for value in one[number].factor[c])[:5]
                 np.testing.assert_allclose([float(row["factor"]) for row in five], values, rtol=1e-7)
         slid = max(one[0].slid for one in singles.values())
-        self.assertAlmostEqual(float(found["left", "sliding", "joint of 10 mm"]["at most [m]"]) / slid, 1, delta=1e-6)
+        self.assertAlmostEqual(float(found["left", "sliding", "joint of 10 mm"]["would slide at most [m]"]) / slid, 1, delta=1e-6)
         for page in ("fragility.html", "submittal.html"):
-            self.assertIn("overturning about each edge", (self.place / "out" / page).read_text())
+            self.assertIn("overturning about the worst edge", (self.place / "out" / page).read_text())
         text = (self.place / "out" / "submittal.html").read_text()
         self.assertLess(text.index("below the factor of 1.1"), text.index("<table"))
 

@@ -268,7 +268,7 @@ def write(one: Envelope) -> tuple:
     parts = [(f"{one.study.width_title} that would be needed [m]".capitalize(), tables["joint"]),
              (spans.CAPTION, [row for row in one.span_rows if row["pga [m/s2]"] == one.level]),
              ("Each soil and state", tables["conditions"]),
-             *([(stability.CAPTION, one.mat_rows)] if one.mat_rows else []),
+             *([(stability.CAPTION, stability.shown(one.mat_rows))] if one.mat_rows else []),
              ("What moves the answer", tables["sensitivity"]), ("Largest probability of each event", tables["probability"]),
              ("Capacity of high confidence and low probability of failure (HCLPF)", tables["hclpf"])]
     box = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))

@@ -177,7 +177,7 @@ def of_run(result: Result) -> Outcomes:
     of_spans = np.array([span.largest for span in result.spans.values()]).reshape(-1, 2, len(MOTIONS))
     owner = np.array([contacts.index(name) for name in pairs.get("contact", [])], float)
     recorded = result.history.get("forces", [])
-    every = slice(None, None, _between_gaps(result)) if len(recorded) else slice(0, 0)
+    every = slice(None) if len(recorded) else slice(0, 0)
     return Outcomes(frequency, damping, channels, contacts, owner, place, spectra[None], of_contact("episodes", 0),
                     of_impacts("start", True), of_contact("total_impulse", 0), of_contact("largest_impulse", 0),
                     of_impacts("peak_force", False), np.array(gaps), np.array(peaks["peak_displacement"]),
@@ -186,13 +186,6 @@ def of_run(result: Result) -> Outcomes:
                     np.stack([of_pairs[f"d{axis}"] for axis in "xyz"], -1)[None], list(result.spans), of_spans[None, :, 0],
                     of_spans[None, :, 1], list(recorded), result.history["time"][every],
                     result.history.get("force", np.empty((0, 0)))[every][None])
-
-
-def _between_gaps(result: Result) -> int:
-    """Records between two samples of the gaps, at which members have their forces."""
-    time = result.history["time"]
-    gaps = float(result.summary["options"].get("gap_interval", 0.0))
-    return max(1, int(gaps / (time[1] - time[0]) * (1 + 1e-12))) if len(time) > 1 else 1
 
 
 def write(path: Path, columns: list, texts: list, parts: list) -> None:

@@ -119,7 +119,7 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
              (spans.CAPTION, [row for row in across if row["pga [m/s2]"] == level]),
              (f"Members that the mean of any spectrum needs, within {100 * TOLERANCE:g} %",
               enough_summary(enough_rows)), ("Repeats at full order: ln-ratio of the spectra", repeats_summary(tables["full_order"]))]
-    parts = [(stability.CAPTION, of_mats), *parts] if of_mats else parts
+    parts = [(stability.CAPTION, stability.shown(of_mats)), *parts] if of_mats else parts
     lines = told(analysis, fits, full, tables) + notes
     box = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))
     shown = [*figure_parts(folder, pages), ("Floor spectra", floor_table(analysis)),

@@ -13,7 +13,7 @@ from pounding.tables import write_csv
 from .study_file import Reader
 
 KEYS = ("asked", "level", "gravity", "mats")
-CAPTION = "Mats: least factor over time of sliding, overturning about each edge and flotation"
+CAPTION = "Mats: least factor over time of sliding, of overturning about the worst edge and of flotation"
 
 
 @dataclass(frozen=True)
@@ -84,10 +84,19 @@ def of_cell(analysis, gap: float | None, level: float, number: int) -> list[Foun
 
 
 def motions_of(analysis, sample: int) -> str:
-    """Records or seeds of a sample, by axis."""
+    """Records or seeds of a sample, axis by axis."""
     motion = analysis.design.motions[sample]
-    return ", ".join(f"{name}: {Path(axis.motions[motion]).stem if axis.records else f'seed {axis.motions[motion]}'}"
-                     for name, axis in analysis.study.axes.items())
+    return " ".join(Path(axis.motions[motion]).stem if axis.records else f"{axis.motions[motion]}" for axis in analysis.study.axes.values())
+
+
+def shown(rows: list) -> list:
+    """The rows that pages have, without some of their columns: of the edges of a mat the one that it is nearest to tipping over."""
+    edges = {}
+    for row in rows:
+        key = row["mat"], row["criterion"].split(" ")[0], row["pga [m/s2]"], row["runs"]
+        if key not in edges or row["least"] < edges[key]["least"]:
+            edges[key] = row
+    return [{key: value for key, value in row.items() if key not in ("sample", "would slide 84 % [m]")} for row in edges.values()]
 
 
 def rows_of(analyses: dict, gap: float) -> tuple:
@@ -113,7 +122,7 @@ def rows_of(analyses: dict, gap: float) -> tuple:
                                  "least": float(least[at][sample]), "time [s]": float(each[at][sample].time[c, 0]), "sample": sample,
                                  "motions": motions_of(analyses[at], sample), **(at.place if at else {}),
                                  **({"would slide 84 % [m]": float(max(np.quantile(some, 0.84) for some in slid)),
-                                     "at most [m]": float(max(map(max, slid)))} if slid else {})})
+                                     "would slide at most [m]": float(max(map(max, slid)))} if slid else {})})
                     instants += _worst_of(analyses, each, number, c, {"pga [m/s2]": level, "runs": words})
     return rows, instants
 

@@ -180,7 +180,7 @@ def write(one: Envelope) -> Path | None:
               f"{100 * one.first.outcomes.damping[one.damping]:g} % damping [m/s²]", html_table("", *cells_of(spectra), text=(0, 2))),
              *figure_parts(folder, one.spectra_figure),
              ("Equipment that fails: cases on the worst soil and in the worst state", html_table("", *cells_of(items), text=(0,))),
-             *([(stability.CAPTION, html_table("", *cells_of([row for row in one.mat_rows if row["pga [m/s2]"] in (told.design, told.beyond)]),
+             *([(stability.CAPTION, html_table("", *cells_of([row for row in stability.shown(one.mat_rows) if row["pga [m/s2]"] in (told.design, told.beyond)]),
                                                text=(0, 1, 3)))] if one.mat_rows else []),
              *figure_parts(folder, one.sensitivity_figure),
              ("Assumptions", html_table("", ["subject", "assumption"], assumptions(one), text=(0, 1))),
