@@ -201,9 +201,9 @@ class Stride {
 /// Largest |u| between samples that are `stride` apart: with U the largest |u| there, V the largest
 /// |h u'| and a the largest |h^2 a| of all samples it is of_displacement U + of_velocity V +
 /// of_load a. In units of the stride, an extremum lies within half of one of a sample, so
-/// |u| <= U + W / 8, W the largest |u''|; and |u'| <= 2 U + W, as it is |u1 - u0| somewhere between;
-/// the equation of motion bounds W by a + d (2 U + W) + k (U + W / 8). From series_limit on it is
-/// the particular solution with the amplitude of the free vibration beside it, see StepClosedForm.
+/// |u| <= U + W / 8, W the largest |u''|; and |u'| <= 2 U + W, as it is |u1 - u0| somewhere
+/// between; the equation of motion bounds W by a + d (2 U + W) + k (U + W / 8). From series_limit
+/// on it is the particular solution and the amplitude of the free vibration, see StepClosedForm.
 struct BetweenSamples {
   BetweenSamples(const Oscillator& o, std::size_t stride) {
     if (o.theta >= series_limit) {
