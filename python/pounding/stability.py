@@ -115,7 +115,7 @@ def facts_of(run: Result) -> dict:
         found[name] = {"mass": one.get("mass", 0.0), "extent": one.get("extent"), "sides": soil.get("size"), "centre": soil.get("centre"),
                        "held": bool(one.get("connectivity", {}).get("held_against_every_rigid_motion", True)),
                        "gravity": numbers[0] if len(numbers) == 1 else -numbers[-1],
-                       "at_rest": name in rest, "start": None}
+                       "at_rest": name in rest, "clamped": one.get("dofs") != one.get("dofs_before_clamping"), "start": None}
         item = item_of(run, name)
         if item and len(run.history.get("time", [])):
             found[name]["start"] = resultants(run, item)[0].tolist()
@@ -182,6 +182,8 @@ def _weight(given: Given, facts: dict, gravity: float | None, edges: tuple, refu
         weight = given.weight if given.weight is not None else facts["mass"] * gravity
         doubts = [] if given.weight_at else [f"Doubt: mat {given.name}: the scene has no gravity: its weight of {weight:.4g} N is taken "
                                              "to act at the middle of the mat (weight_at says otherwise)."]
+        if facts["clamped"] and given.weight is None:
+            doubts.append(f"Doubt: mat {given.name}: nodes clamped to the ground count in its weight, and their inertia is in none of its factors.")
         return weight, given.weight_at or middle, facts["mass"] if given.weight is None else weight / (gravity or G), weight, doubts
     if given.weight is not None or given.weight_at:
         refuse("weight is that of the scene, which has gravity; leave weight and weight_at out")
