@@ -23,15 +23,13 @@ def unit_of(motion: str) -> str:
 
 @dataclass(eq=False)
 class Span:
-    """`ends`: probes of the first and the second; `structures`, `places` [m] of these; `rotation_nodes`: nodes whose nearest
-    rigid body gives the rotation of each end, 0 where it is the node's own. `motion` (ends, records, 6): displacements
+    """`ends`: probes of the first and the second; `structures`, `places` [m] of these. `motion` (ends, records, 6): displacements
     relative to the ground [m] and rotations [rad] since the start; `ground` (records, 3): displacement of the ground [m]."""
 
     name: str
     ends: tuple
     structures: tuple
     places: tuple
-    rotation_nodes: tuple
     time: np.ndarray
     motion: np.ndarray
     ground: np.ndarray
@@ -89,7 +87,7 @@ def of_run(run: Result) -> dict:
     ground, found = ground_displacement(run), {}
     for name in names:
         columns = [place for place, one in enumerate(run.history["rotations"]) if one.startswith(f"{name}.")]
-        ends = tuple(run.history["rotations"][place].split(".")[1] for place in columns[::3])
+        ends = tuple(run.history["rotations"][place].partition(".")[2].rpartition(".")[0] for place in columns[::3])
         if len(columns) != 6 or any(f"{end}.{way}" not in run.history["channels"] for end in ends for way in DIRECTIONS):
             raise ResultError(f"{run.folder}: the ends of span {name} are not whole in history.h5")
         motion = np.stack([np.column_stack([*(run.series("displacement", end, way)[1] for way in DIRECTIONS),
@@ -100,7 +98,6 @@ def of_run(run: Result) -> dict:
         counted = int(np.ceil((start - half + interval / 2) / interval - 1e-6)) if start > 0 else 0
         found[name] = Span(name, ends, tuple(one.get("structure", "") for one in told),
                            tuple(tuple(one.get("position", (np.nan,) * 3)) for one in told),
-                           tuple(int(run.summary.get("rotations", {}).get(f"{name}.{end}", 0)) for end in ends),
                            run.history["time"], motion - motion[:, :1], ground, counted)
     return found
 

@@ -121,8 +121,7 @@ ModalRequest modal_request(MPI_Comm comm, const Scene& scene, std::size_t s, con
   for (const ResolvedForce& force : model.forces) {
     if (force.structure == number) add_node_points(force.nodes, 6, request.shown_points);
   }
-  for (std::size_t p = model.probes.size(); p < model.recorded.size(); ++p) {
-    const ResolvedProbe& end = model.recorded[p];
+  for (const ResolvedProbe& end : std::span(model.recorded).subspan(model.probes.size())) {
     if (end.structure == number) add_node_points(end.nodes, 6, request.shown_points);
   }
   for (const ResolvedProbe& base : model.storey_bases) {

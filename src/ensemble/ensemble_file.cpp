@@ -50,10 +50,8 @@ std::vector<Quantity> quantities(const EnsembleLayout& layout) {
       {"peaks/acceleration", "m/s2", {channels}, &MemberResult::acceleration},
       {"energy/residual", "-", {}, &MemberResult::energy_residual}};
   if (!layout.spans.empty()) {
-    const std::size_t spans = layout.spans.size();
-    list.push_back(
-        {"spans/peak", "m (x, y, z, length), rad", {spans, 8}, &MemberResult::span_peak});
-    list.push_back({"spans/time", "s", {spans, 8}, &MemberResult::span_time});
+    list.push_back({"spans/peak", "m, rad", {layout.spans.size(), 8}, &MemberResult::span_peak});
+    list.push_back({"spans/time", "s", {layout.spans.size(), 8}, &MemberResult::span_time});
   }
   if (!layout.forces.empty()) {
     list.push_back({"forces/history",
@@ -290,10 +288,10 @@ void write_ensemble_table(const std::string& path, const EnsembleLayout& layout,
   const MemberTable& table = *layout.table;
   const std::vector<bool> done = file.done();
   std::vector<Quantity> list = quantities(layout);
-  std::erase_if(list, [](const Quantity& quantity) {  // these have no place in a line
+  std::erase_if(list, [](const Quantity& quantity) {  // they have no place in a line
     const std::string_view named = quantity.name;
-    return named.starts_with("spectra/") || named.starts_with("pairs/") ||
-           named.starts_with("spans/") || named.starts_with("forces/");
+    return named.starts_with("sp") || named.starts_with("pairs/") ||  // spectra, spans
+           named.starts_with("forces/");
   });
   std::string text = "member,done";
   for (const std::string& column : table.columns) text += "," + column;

@@ -171,7 +171,7 @@ double BatchRecorder::memory(std::size_t channels, const Times& times) {
   return static_cast<double>(channels * batch_size * records_of(times) * sizeof(double));
 }
 
-BatchRecorder::BatchRecorder(const Model& model, std::span<const Span> spans, const Times& times)
+BatchRecorder::BatchRecorder(const Model& model, const Times& times)
     : channels_(3 * model.probes.size()),
       stride_(times.stride),
       interval_(times.time_step * times.stride),
@@ -196,13 +196,10 @@ BatchRecorder::BatchRecorder(const Model& model, std::span<const Span> spans, co
     rows.carried = probe_means(here, [&](std::size_t k) { return trace.carried(k); });
     rows_.push_back(std::move(rows));
   }
-  const auto first_of = [&](const std::string& end) {
-    const auto probe = std::ranges::find(recorded, end, &ResolvedProbe::name);
-    return 3 * static_cast<std::size_t>(probe - recorded.begin());
-  };
-  for (const Span& span : spans) {
-    ends_.push_back({first_of(span.from), first_of(span.to)});
-    ends_.push_back({first_of(span.name + "." + span.from), first_of(span.name + "." + span.to)});
+  for (std::size_t p = model.probes.size(); p < recorded.size(); ++p) {
+    const std::string probe = recorded[p].name.substr(recorded[p].name.find('.') + 1);
+    const auto end = std::ranges::find(recorded, probe, &ResolvedProbe::name);
+    ends_.push_back({3 * static_cast<std::size_t>(end - recorded.begin()), 3 * p});
   }
   values_.assign(3 * recorded.size(), BatchValue{});
   products_.assign(values_.size(), BatchValue{});
@@ -254,20 +251,18 @@ void BatchRecorder::take_displacements(std::span<const BatchStep> batches,
 }
 
 void BatchRecorder::note_spans(double time, bool counts) {
-  for (std::size_t e = 0; e < ends_.size(); ++e) {
-    BatchValue square{};
-    for (std::size_t k = 4 * e; k < 4 * e + 4; ++k) {
-      BatchValue found = square;
-      if (const std::size_t d = k % 4; d < 3) {
-        found = values_[ends_[e][1] + d] - values_[ends_[e][0] + d];
-        if (records_ == 0) apart_[3 * e + d] = found;
-        found = magnitude(found - apart_[3 * e + d]);
-        square += found * found;
-      }
-      const BatchMask more = largest_[k][0] < found;
-      if (!counts || !any(more)) continue;
-      largest_[k] = {larger(largest_[k][0], found), choose(more, all_eight(time), largest_[k][1])};
+  BatchValue square{};
+  for (std::size_t k = 0; k < largest_.size(); ++k) {  // x, y, z and the length of them, of each
+    BatchValue found = square;
+    if (const std::size_t d = k % 4, of = k / 4; d < 3) {  // even: displacements, odd: rotations
+      found = values_[ends_[of | 1][of % 2] + d] - values_[ends_[of & ~1UL][of % 2] + d];
+      if (records_ == 0) apart_[3 * of + d] = found;
+      found = magnitude(found - apart_[3 * of + d]);
+      square = d == 0 ? found * found : square + found * found;
     }
+    const BatchMask more = largest_[k][0] < found;
+    if (!counts || !any(more)) continue;
+    largest_[k] = {larger(largest_[k][0], found), choose(more, all_eight(time), largest_[k][1])};
   }
 }
 

@@ -60,7 +60,7 @@ class BatchRecorder {
   };
 
   /// `model`: of any of the runs, whose coordinates are alike.
-  BatchRecorder(const Model& model, std::span<const Span> spans, const Times& times);
+  BatchRecorder(const Model& model, const Times& times);
 
   std::size_t channels() const { return channels_; }
   double interval() const { return interval_; }
@@ -114,13 +114,14 @@ class BatchRecorder {
   std::size_t first_;
   std::size_t capacity_;  ///< records of a run
   std::vector<Rows> rows_;
-  std::vector<BatchValue> values_;                ///< per channel, and behind these of rotations
-  std::vector<BatchValue> products_;              ///< of the channels of one structure
-  std::vector<BatchValue> last_velocity_;         ///< per channel
-  std::vector<BatchValue> displacement_;          ///< per channel, largest
-  std::vector<std::array<std::size_t, 2>> ends_;  ///< per span, of displacements, then of rotations
-  std::vector<BatchValue> apart_;                 ///< three of each, at the start
-  /// Four of each, largest and when; of lengths the square.
+  std::vector<BatchValue> values_;         ///< per channel, and behind these of rotations
+  std::vector<BatchValue> products_;       ///< of the channels of one structure
+  std::vector<BatchValue> last_velocity_;  ///< per channel
+  std::vector<BatchValue> displacement_;   ///< per channel, largest
+  /// Per end of spans, first value of its displacements and its rotations.
+  std::vector<std::array<std::size_t, 2>> ends_;
+  std::vector<BatchValue> apart_;  ///< per span, six at the start
+  /// Eight of each, largest and when; of lengths the square.
   std::vector<std::array<BatchValue, 2>> largest_;
   std::array<BatchValue, 3> ground_{};
   std::vector<BatchValue> block_;  ///< shape (block records, channels)

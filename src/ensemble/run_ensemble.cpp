@@ -291,7 +291,7 @@ class Ensemble {
     const double start = MPI_Wtime();
     on_every_rank(comm_, [&] {
       if (missing_.empty()) return;
-      BatchRecorder recorder(model(), scene_.spans, times_);
+      BatchRecorder recorder(model(), times_);
       const std::size_t stride = batch_size * static_cast<std::size_t>(size_of(comm_));
       const std::size_t begin = batch_size * static_cast<std::size_t>(rank_of(comm_));
       for (std::size_t first = begin; first < missing_.size(); first += stride) {

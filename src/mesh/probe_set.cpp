@@ -102,49 +102,27 @@ std::vector<GlobalIndex> nodes_around(const GlobalMesh& mesh, GlobalIndex node) 
 }
 
 /// The rotation of the rigid body nearest to the displacements u_i of n nodes at r_i from their
-/// middle is the mean of n J^-1 (r_i x u_i), J = sum (r_i x)^T (r_i x): these factors of u_i. Empty
-/// where the nodes lie on a line.
+/// middle is the mean of n J^-1 (r_i x u_i), J = sum |r_i|^2 I - r_i r_i^T: these factors of u_i.
+/// Empty where the nodes lie on a line.
 std::vector<Matrix3> rigid_rotation(const GlobalMesh& mesh, std::span<const GlobalIndex> nodes) {
-  constexpr double line = 1e-6;  // det J over the cube of its trace
   const Vector3 middle = centroid(mesh, nodes);
-  std::vector<Matrix3> weights;
-  Matrix3 moment{};
+  Matrix3 moment{};  // J / n
   for (const GlobalIndex node : nodes) {
     const Vector3 r = minus(mesh.position(node), middle);
-    weights.push_back({{{0, -r[2], r[1]}, {r[2], 0, -r[0]}, {-r[1], r[0], 0}}});
     for (std::size_t i = 0; i < 9; ++i) {
-      moment[i / 3][i % 3] += dot(weights.back()[i / 3], weights.back()[i % 3]);
+      const double entry = (i % 4 == 0 ? dot(r, r) : 0) - r[i / 3] * r[i % 3];
+      moment[i / 3][i % 3] += entry / static_cast<double>(nodes.size());
     }
   }
   const double trace = moment[0][0] + moment[1][1] + moment[2][2];
-  if (!(determinant(moment) > line * trace * trace * trace)) return {};
-  const Matrix3 resolved = inverse(moment);
-  for (Matrix3& weight : weights) {
-    const Matrix3 arm = weight;
-    for (std::size_t i = 0; i < 9; ++i) {
-      weight[i / 3][i % 3] = static_cast<double>(nodes.size()) *
-                             dot(resolved[i / 3], {arm[0][i % 3], arm[1][i % 3], arm[2][i % 3]});
-    }
+  if (!(determinant(moment) > 1e-6 * trace * trace * trace)) return {};
+  const Matrix3 turned = inverse(moment);
+  std::vector<Matrix3> weights;
+  for (const GlobalIndex node : nodes) {
+    const Vector3 r = minus(mesh.position(node), middle);
+    weights.push_back({cross(turned[0], r), cross(turned[1], r), cross(turned[2], r)});
   }
   return weights;
-}
-
-ResolvedProbe rotation_of(ResolvedProbe end, const std::string& span, const GlobalMesh& mesh) {
-  const std::string probe = end.name;
-  const bool own = std::ranges::all_of(end.nodes, [&](GlobalIndex node) {
-    return (mesh.components[node] & rotation_bits) == rotation_bits;
-  });
-  const bool single = end.nodes.size() == 1;
-  if (single && !own) end.nodes = nodes_around(mesh, end.nodes[0]);
-  if (!single || !own) end.weights = rigid_rotation(mesh, end.nodes);
-  if (end.weights.empty() && !own) {
-    throw UserError("span " + span + ": the nodes at probe " + probe +
-                    " lie on a line and have no rotations; let it be of more nodes (-" + probe +
-                    "_group)");
-  }
-  end.component = end.weights.empty() ? 3 : 0;
-  end.name = span + "." + probe;
-  return end;
 }
 
 }  // namespace
@@ -152,18 +130,26 @@ ResolvedProbe rotation_of(ResolvedProbe end, const std::string& span, const Glob
 std::vector<ResolvedProbe> with_rotations(const Scene& scene, std::span<const GlobalMesh> meshes,
                                           std::vector<ResolvedProbe> probes) {
   for (const Span& span : scene.spans) {
-    for (const std::string& end : {span.from, span.to}) {
-      const auto probe = std::ranges::find(probes, end, &ResolvedProbe::name);
-      if (probe == probes.end()) {
-        throw UserError("span " + span.name + ": no probe " + end +
-                        " with one record is in -probes");
-      }
-      probes.push_back(rotation_of(*probe, span.name, meshes[probe->structure]));
+    const auto refuse = [&](const std::string& why) {
+      throw UserError("span " + span.name + ": " + why);
+    };
+    for (const std::string& name : {span.from, span.to}) {
+      const auto probe = std::ranges::find(probes, name, &ResolvedProbe::name);
+      if (probe == probes.end()) refuse("no probe " + name + " with one record is in -probes");
+      ResolvedProbe end = *probe;
+      const GlobalMesh& mesh = meshes[end.structure];
+      const bool own = std::ranges::all_of(end.nodes, [&](GlobalIndex node) {
+        return (mesh.components[node] & rotation_bits) == rotation_bits;
+      });
+      if (!own && end.nodes.size() == 1) end.nodes = nodes_around(mesh, end.nodes[0]);
+      if (!own || end.nodes.size() > 1) end.weights = rigid_rotation(mesh, end.nodes);
+      end.component = end.weights.empty() ? 3 : 0;
+      if (end.component == 3 && !own) refuse("nodes at " + name + " are on a line and do not turn");
+      end.name = span.name + "." + name;
+      probes.push_back(std::move(end));
     }
-    if (probes.back().structure == probes[probes.size() - 2].structure) {
-      throw UserError("span " + span.name + ": both ends are on structure " +
-                      scene.structures[probes.back().structure].name +
-                      "; a span goes from one structure to another");
+    if (const int s = probes.back().structure; s == probes[probes.size() - 2].structure) {
+      refuse("both ends are on structure " + scene.structures[s].name + "; give one on another");
     }
   }
   return probes;

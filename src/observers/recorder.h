@@ -74,10 +74,6 @@ class Recorder final : public Observer {
   std::size_t first_record_from(double start) const;
   double interval() const { return run_.model.time_step * stride_; }
   const std::vector<ResolvedProbe>& probes() const { return run_.model.probes; }
-  /// Rotations at the ends of spans.
-  std::span<const ResolvedProbe> rotations() const {
-    return std::span(run_.model.recorded).subspan(probes().size());
-  }
 
  private:
   /// The nodes of a structure that probes and rotations read, as far as this rank knows them. In

@@ -59,9 +59,6 @@ Facts probe_facts(const Scene& scene, const RunStatistics& run, const Recorder& 
         "peak m/s2 at Hz\n",
         {recorder.interval()});
   }
-  for (const ResolvedProbe& end : recorder.rotations()) {
-    facts.values["rotations"][end.name] = end.weights.size();
-  }
   for (std::size_t p = 0; p < recorder.probes().size(); ++p) {
     const ResolvedProbe& probe = recorder.probes()[p];
     Json& of =

@@ -29,9 +29,8 @@ def main() -> int:
         rows = spans.write(run, out, options.interval)
     print(markdown("Largest motion of the second end against the first, since the start", *cells_of(rows)))
     for name, span in run.spans.items():
-        how = [f"{end} ({', '.join(f'{x:g}' for x in place)}) on {structure}, rotation "
-               + (f"of the rigid body nearest to {nodes} nodes" if nodes else "its own")
-               for end, place, structure, nodes in zip(span.ends, span.places, span.structures, span.rotation_nodes)]
+        how = [f"{end} ({', '.join(f'{x:g}' for x in place)}) on {structure}"
+               for end, place, structure in zip(span.ends, span.places, span.structures)]
         print(f"{name}: from {how[0]}; to {how[1]}")
     print(f"see {out / 'spans.csv'}" + "".join(f", span_{name}.csv" for name in run.spans))
     return 0

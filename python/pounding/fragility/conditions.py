@@ -5,11 +5,11 @@ import re
 from dataclasses import dataclass, replace
 
 from pounding import UserError
+from .spans import ALONE
 from .study import Study, read_motions
 from .study_file import Reader, given_options
 
 NAME = re.compile(r"\w[\w-]*")
-ALONE = "as given"  # soil or state of a study that names none
 
 
 @dataclass(frozen=True, eq=False)

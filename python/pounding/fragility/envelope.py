@@ -263,16 +263,16 @@ def write(one: Envelope) -> tuple:
         write_csv(folder / f"{name}.csv", rows)
     joint.write(folder, {f"{run}, {condition.folder}": rows for condition, runs in one.elevation_runs.items()
                          for run, rows in runs.items()})
-    lines = one.told() + one.notes
+    lines = one.told() + spans.told(one.span_rows, one.level) + one.notes
     pages = one.sensitivity_figure + one.spectra_figure + one.span_figure
     parts = [(f"{one.study.width_title} that would be needed [m]".capitalize(), tables["joint"]),
-             (spans.CAPTION, [row for row in one.span_rows if row["pga [m/s2]"] == one.level]),
              ("Each soil and state", tables["conditions"]),
              *([(stability.CAPTION, stability.shown(one.mat_rows))] if one.mat_rows else []),
              ("What moves the answer", tables["sensitivity"]), ("Largest probability of each event", tables["probability"]),
              ("Capacity of high confidence and low probability of failure (HCLPF)", tables["hclpf"])]
     box = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))
-    shown = figure_parts(folder, pages) + [(caption, html_table("", *cells_of(rows), text=(0,))) for caption, rows in parts if rows]
+    shown = [*figure_parts(folder, pages), (spans.CAPTION, spans.table(one.span_rows, [one.level], one.first)),
+             *((caption, html_table("", *cells_of(rows), text=(0,))) for caption, rows in parts)]
     after = linked("The study in each condition", [(condition.title, f"conditions/{condition.folder}/fragility.html")
                                                    for condition in one.linked])
     text = "\n".join(lines) + "\n\n" + "\n".join(markdown(caption, *cells_of(rows)) for caption, rows in parts[:3])

@@ -116,13 +116,13 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
              ("Deviation of the logarithm of spectra, 5 % damping", of_shown(analysis, tables["joint_share"])),
              ("Other deviations and lengths of the joints' fields, 5 % damping", fields_summary(tables["fields"])),
              (f"{analysis.study.width_title} that would be needed [m]".capitalize(), tables["joint"]),
-             (spans.CAPTION, [row for row in across if row["pga [m/s2]"] == level]),
              (f"Members that the mean of any spectrum needs, within {100 * TOLERANCE:g} %",
               enough_summary(enough_rows)), ("Repeats at full order: ln-ratio of the spectra", repeats_summary(tables["full_order"]))]
     parts = [(stability.CAPTION, stability.shown(of_mats)), *parts] if of_mats else parts
-    lines = told(analysis, fits, full, tables) + notes
+    lines = told(analysis, fits, full, tables) + spans.told(across, level) + notes
     box = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))
     shown = [*figure_parts(folder, pages), ("Floor spectra", floor_table(analysis)),
+             (spans.CAPTION, spans.table(across, [level], analysis)),
              *((caption, html_table("", *cells_of(rows), text=(0,))) for caption, rows in parts)]
     names = ", ".join(f"{name}.csv" for name, rows in tables.items() if rows)
     after = paragraphs([f"Tables beside this page: {names}, design.csv, motions.csv, correlation.csv, {joint.TABLE}, spectra/*.csv."])

@@ -7,6 +7,7 @@ import numpy as np
 
 from pounding import UserError, load
 from pounding.fragility import moments, widened
+from pounding.plot.markup import html_table
 from pounding.plot.style import WIDTH, WITH, WITHOUT, log_scale, plt, save
 from pounding.results import DIRECTIONS
 from pounding.spans import MOTIONS, unit_of
@@ -15,8 +16,11 @@ from pounding.tables import write_csv
 from .study_file import Reader, given_options
 
 ENDS = {"from": "a", "to": "b"}  # end of a span -> last letter of the probe that the study puts there
+ROUND_OFF = 1e-6  # of the largest motion of its kind: below it nothing moves
 SAME = 1e-6  # of a largest value: as near as that of a single run is to a member's
 MOST_DRAWN = 6
+VALUES = ("mean", "84 %", "largest", "apart 84 %", "apart largest")
+ALONE = "as given"  # soil or state of a study that names none
 CAPTION = "What spans the joint: motion of the second end against the first since the start, with pounding and apart"
 
 
@@ -88,14 +92,45 @@ def rows_of(analyses: dict, gap: float) -> list:
                 at = int(np.argmax([values.max() for values in of[gap]]))
                 condition, one = list(analyses.items())[at]
                 sample = int(of[gap][at].argmax())
-                rows.append({"span": span, "pga [m/s2]": level, "motion": f"{motion} [{unit_of(motion)}]",
-                             "mean": float(max(values.mean() for values in of[gap])),
-                             "84 %": float(max(np.quantile(values, 0.84) for values in of[gap])), "largest": float(of[gap][at].max()),
-                             "time [s]": float(one.outcomes.span_time[one.of(gap, level)[sample], number, k]),
-                             "sample": sample, "motions": motions_of(one, sample), **place_of(condition),
-                             "apart 84 %": float(max(np.quantile(values, 0.84) for values in of[None])),
-                             "apart largest": float(max(values.max() for values in of[None]))})
+                row = {"span": span, "pga [m/s2]": level, "motion": f"{motion} [{unit_of(motion)}]",
+                       "mean": float(max(values.mean() for values in of[gap])),
+                       "84 %": float(max(np.quantile(values, 0.84) for values in of[gap])), "largest": float(of[gap][at].max()),
+                       "apart 84 %": float(max(np.quantile(values, 0.84) for values in of[None])),
+                       "apart largest": float(max(values.max() for values in of[None]))}
+                length = max(one.outcomes.span_peak[one.of(gap, level), number, 4 * (k // 4) + 3].max() for one in analyses.values())
+                moves = row["largest"] > ROUND_OFF * length
+                rows.append(row | ({"time [s]": float(one.outcomes.span_time[one.of(gap, level)[sample], number, k]), "sample": sample,
+                                    "motions": motions_of(one, sample), **place_of(condition)} if moves else dict.fromkeys(VALUES, 0.0)))
     return rows
+
+
+def told(rows: list, level: float) -> list:
+    """How far the ends of each span move and turn against each other at a level, a sentence each."""
+    lines = []
+    for span in dict.fromkeys(row["span"] for row in rows):
+        way, turn = (next(row for row in rows if (row["span"], row["pga [m/s2]"], row["motion"]) == (span, level, motion))
+                     for motion in ("u [m]", "r [rad]"))
+        lines.append(f"The ends of {span} move {1e3 * way['84 %']:.3g} mm against each other in 84 % of the cases at {level:g} m/s2 "
+                     f"({1e3 * way['largest']:.3g} at most), and turn {1e3 * turn['84 %']:.3g} mrad ({1e3 * turn['largest']:.3g}).")
+    return lines
+
+
+def table(rows: list, levels: list, one) -> str:
+    """Rows of some levels for a page, a column per motion: values in mm and mrad, times, and where the largest is governed: soil,
+    state and sample. Nothing of a study without spans."""
+    named = {"u": "|u|", "r": "|r|"}
+    head = ["span", "m/s²", "", *(f"{named.get(motion, motion)} [m{unit_of(motion)}]" if motion in ("ux", "rx") else named.get(motion, motion)
+                                  for motion in MOTIONS)]
+    lines = []
+    for span in dict.fromkeys(row["span"] for row in rows):
+        for level in levels:
+            mine = [row for row in rows if row["span"] == span and row["pga [m/s2]"] == level]
+            lines += [(span, level, value, *(1e3 * row[value] for row in mine)) for value in VALUES]
+            lines.append((span, level, "largest at [s]", *(row.get("time [s]", "") for row in mine)))
+            lines.append((span, level, "largest in", *(", ".join([str(row[key]) for key in ("soil", "state") if row.get(key, ALONE) != ALONE]
+                                                                 + [f"#{row['sample']}"]) if "sample" in row else "" for row in mine)))
+    return html_table(f"#: sample of motion. Mean, 84 % and largest of {one.study.samples} samples, each the largest over soils and states",
+                      head, lines, text=(0, 2)) if rows else ""
 
 
 def place_of(condition) -> dict:
@@ -153,7 +188,7 @@ def write_histories(rows: list, analyses: dict, folder: Path, gap: float, level:
     UserError."""
     lines = []
     for row in rows:
-        if row["pga [m/s2]"] != level or not row["motion"].startswith("u ["):
+        if row["pga [m/s2]"] != level or not row["motion"].startswith("u [") or "sample" not in row:
             continue
         one = next(one for condition, one in analyses.items() if place_of(condition).items() <= row.items())
         member = one.design.members[one.of(gap, level)[row["sample"]]]
@@ -161,7 +196,7 @@ def write_histories(rows: list, analyses: dict, folder: Path, gap: float, level:
         span.write_history(folder / f"span_{row['span']}.csv")
         found = float(span.largest[0][MOTIONS.index("u")])
         lines.append(f"span_{row['span']}.csv: history of sample {row['sample']} ({row['motions']}) at {level:g} m/s2"
-                     + "".join(f", {key} {value}" for key, value in row.items() if key in ("soil", "state") and value != "as given") + ".")
+                     + "".join(f", {key} {value}" for key, value in row.items() if key in ("soil", "state") and value != ALONE) + ".")
         if abs(found - row["largest"]) > SAME * row["largest"]:
             lines.append(f"Doubt: {row['span']}: a single run of sample {row['sample']} moves its ends {found:.9g} m apart, the member "
                          f"{row['largest']:.9g}.")
@@ -176,7 +211,7 @@ def figure(rows: list, analyses: dict, folder: Path, level: float) -> list:
         return []
     first = next(iter(analyses.values()))
     damping = first.damping(0.05)
-    drawn, panels = plt.subplots(len(spans), 3, figsize=(1.35 * WIDTH, 2.9 * len(spans)), squeeze=False)
+    drawn, panels = plt.subplots(len(spans), 3, figsize=(1.35 * WIDTH, 3.3 * len(spans)), squeeze=False)
     for line, span in zip(panels, spans):
         mine = [row for row in rows if row["span"] == span and row["pga [m/s2]"] == level]
         for axes, unit, some in ((line[0], "mm", mine[:4]), (line[1], "mrad", mine[4:])):
@@ -187,8 +222,8 @@ def figure(rows: list, analyses: dict, folder: Path, level: float) -> list:
             axes.set_yticks(place, [{"u": "|u|", "r": "|r|"}.get(row["motion"].split(" ")[0], row["motion"].split(" ")[0]) for row in some])
             axes.invert_yaxis()
             axes.grid(axis="y", visible=False)
-            axes.set(xlabel=unit, title=f"{span}: relative {'displacement' if unit == 'mm' else 'rotation'}", xlim=(0, None))
-        line[0].legend(fontsize=7, loc="lower right")
+            axes.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.17), ncol=2, title=unit, title_fontsize=9)
+            axes.set(title=f"{span}: relative {'displacement' if unit == 'mm' else 'rotation'}", xlim=(0, None))
         high = spectra(analyses, ends_of(first, span), level)[:, :2, damping].max(1)
         for values, style, end in zip(high, ("-", "--"), ends_of(first, span)):
             line[2].plot(first.outcomes.frequency, values, style, color=WITH, lw=1.3, label=end)

@@ -68,7 +68,7 @@ def answers(one: Envelope, told: Submittal) -> list:
                           + (f" ({governs(where)})" if len(one.conditions) > 1 and count else ""))
         lines.append(f"{words.capitalize()} ({level:g} m/s²) {'; '.join(shares)}; so that it stays open in 84 % of the "
                      f"cases it {study.width_told(needed)}" + (f" ({governs(place)})." if len(one.conditions) > 1 else "."))
-    return lines
+    return lines + [line for level in dict.fromkeys((told.design, told.beyond)) for line in spans.told(one.span_rows, level)]
 
 
 def open_points(one: Envelope) -> list:
@@ -172,10 +172,10 @@ def write(one: Envelope) -> Path | None:
     missing += [f"Other {word} than the one given." for word, key in (("soils", "soil"), ("states of the concrete", "state"))
                 if len({condition.place[key] for condition in one.conditions}) == 1]
     joint = [row for row in one.joint_rows if row["pga [m/s2]"] in (told.design, told.beyond)]
-    across = [row for row in one.span_rows if row["pga [m/s2]"] in (told.design, told.beyond)]
+    across = spans.table(one.span_rows, list(dict.fromkeys((told.design, told.beyond))), one.first)
     parts = [(f"The joint by elevation, at {one.level:g} m/s²", html_table("", *cells_of(one.elevation_rows()), text=(0, 1))),
              (f"{study.width_title} that would be needed [m]".capitalize(), html_table("", *cells_of(joint), text=(0,))),
-             *([(spans.CAPTION, html_table("", *cells_of(across), text=(0,)))] + figure_parts(folder, one.span_figure) if across else []),
+             (spans.CAPTION, across), *figure_parts(folder, one.span_figure),
              (f"Floor spectra for design: 84 % of the cases, the envelope of soils and states, widened by 15 %, "
               f"{100 * one.first.outcomes.damping[one.damping]:g} % damping [m/s²]", html_table("", *cells_of(spectra), text=(0, 2))),
              *figure_parts(folder, one.spectra_figure),
