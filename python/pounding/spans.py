@@ -14,6 +14,7 @@ from .results import DIRECTIONS, Result, ResultError
 COMPONENTS = ("ux", "uy", "uz", "rx", "ry", "rz")
 # What has a largest value: displacements and their length, rotations and theirs; the order in ensemble.h5.
 MOTIONS = ("ux", "uy", "uz", "u", "rx", "ry", "rz", "r")
+ROUND_OFF = 1e-9  # of the length of its kind
 INTERVAL = 1e-3  # between the lines of a history unless another is asked for [s]
 
 
@@ -50,9 +51,11 @@ class Span:
         return values[at, range(len(MOTIONS))], np.where(values.max(0) > 0, self.time[self.counted:][at], 0.0)
 
     def rows(self) -> list:
-        """A row per motion: its largest value and when."""
+        """A row per motion: its largest value and when; round-off is 0."""
+        length = np.repeat(self.largest[0][3::4], 4)
         return [{"span": self.name, "from": self.ends[0], "to": self.ends[1], "motion": motion, "unit": unit_of(motion),
-                 "largest": float(value), "time [s]": float(time)} for motion, value, time in zip(MOTIONS, *self.largest)]
+                 "largest": float(value) if value > ROUND_OFF * of else 0.0, "time [s]": float(time)}
+                for motion, value, time, of in zip(MOTIONS, *self.largest, length)]
 
     def write_history(self, path: Path, interval: float = INTERVAL) -> None:
         """A table with a line per record, or per as many as make up the interval [s]: both ends relative to the ground, the

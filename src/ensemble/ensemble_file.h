@@ -16,16 +16,16 @@ namespace pounding {
 struct EnsembleLayout {
   const MemberTable* table = nullptr;
   std::vector<std::string> channels;  ///< "probe direction"
-  std::vector<std::string> spans;
   std::vector<double> damping_ratios;
   std::vector<double> frequencies;  ///< [Hz]
   std::vector<std::string> contacts;
   std::vector<double> pair_contacts;  ///< numbers of the contacts of the pairs
   std::vector<double> pair_places;    ///< shape (pairs, 3) [m]
-  std::vector<std::string> forces;    ///< columns of recorded forces
-  std::vector<double> force_times;    ///< of their records [s]
   /// Lines of the sources of the results: a file of other ones is of another ensemble.
   std::vector<std::string> identity;
+  std::vector<std::string> spans;
+  std::vector<std::string> forces;  ///< columns of recorded forces
+  std::vector<double> force_times;  ///< of their records [s]
 };
 
 /// The file of the results of an ensemble: every member has a place of its own in it, taken when

@@ -145,7 +145,8 @@ const EnsembleLayout& layout() {
   static const EnsembleLayout layout{&table,       {"top x", "top y"},
                                      {0.02, 0.05}, {1, 2, 4},
                                      {"joint"},    {0},
-                                     {1, 2, 3},    {"option a 1", "columns", "member 1"}};
+                                     {1, 2, 3},    {"option a 1", "columns", "member 1"},
+                                     {"bridge"}};
   return layout;
 }
 
