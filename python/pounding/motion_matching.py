@@ -33,7 +33,7 @@ EARLIER = (1.0, 0.0)  # periods by which a wavelet comes before its oscillator's
 HELD = 20.0  # weight of a row that holds a displacement, beside one of an oscillator
 LOWEST = 4.0  # over the lowest frequency: until there spectra decide by how much a record is scaled
 ABOVE = 1.3  # part of the least density to which it is raised
-ROUNDS = 4  # in which it is raised again
+ROUNDS = 12  # in which it is raised again, at most
 ENOUGH = 0.8  # part of a limit on displacement within which it counts as kept while it is looked for
 
 
