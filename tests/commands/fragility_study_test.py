@@ -15,6 +15,7 @@ import two_buildings
 import yaml
 from two_buildings import pounding
 from pounding import fragility
+from pounding.fragility import design, matching, motions, study
 
 PROCESSORS = 2  # it starts runs
 
@@ -298,6 +299,32 @@ class Study(unittest.TestCase):
         table.write_text("name,kind\nlong,width\n")
         self.refuse("motion_rules: rules.csv, line 2: kind 'width' is none of", motions=one, motion_rules="rules.csv")
         self.refuse("motion_rules: none.csv: no such table of rules", motions=one, motion_rules="none.csv")
+
+    def test_motions_are_matched_to_the_targets_of_the_rules(self):
+        """Synthetic motions that a target refuses are accepted once they are matched to it, and members get their peaks."""
+        one = {"x": {**STUDY["motions"]["x"], "seeds": [1, 2]}, "correlation": 0.9}
+        (self.place / "rules.csv").write_text("name,kind,least,most,grid,target,pga,directions\n"
+                                              "below,largest_below,,10,1:20:30log,rg160_horizontal,anchor,x\n")
+        said = self.fragility("--dry-run", motions=one, motion_rules="rules.csv").stdout
+        self.assertIn("Doubt: motions are refused by the rules of rules.csv", said)
+        for turn in range(2):  # matched once
+            said = self.fragility("--dry-run", motions=one, motion_rules="rules.csv", match={}).stdout
+            self.assertEqual(said.count(" matched, accepted"), 2 if turn == 0 else 0)
+            self.assertIn("The motions are matched to the targets of rules.csv, match.csv.", said)
+            self.assertIn("The motions are accepted by the rules of rules.csv", said)
+        rows = rows_of(self.place / "out" / "match.csv")
+        self.assertEqual([row["motion"] for row in rows], ["1", "2"])
+        for row in rows:
+            self.assertLess(abs(float(row["change of peak displacement [%]"])), 5)
+        read = study.read(self.place / "study.yaml")
+        matching.make(read, motions.Motions(read, self.place / "out" / "motions", 1), motions.STEP, None)
+        for number, row in enumerate(rows):
+            record, pga = design.motion_values(read, number, 2.0)
+            found = np.loadtxt(record, delimiter=",", skiprows=2)[:, 1]
+            self.assertAlmostEqual(float(pga) / (2 / 5 * abs(found).max()), 1, delta=1e-8)  # as much over 5 m/s2 as over 2
+            self.assertAlmostEqual(float(row["peak over that of the level"]) / float(pga) * 2, 1, delta=1e-5)
+        self.refuse("match: goes with motion_rules", match={})
+        self.refuse("match: least is unknown", motion_rules="rules.csv", match={"least": 1})
 
     @program.long
     def test_motions_that_depend_on_each_other_are_told(self):

@@ -57,7 +57,7 @@ def make(study, made, step: float) -> None:
     gives them to the study. Throws UserError."""
     found: mats.Coherence = study.coherence
     count = study.motion_count
-    told = [found.told, found.model.name, [[axis, one.ratio] for axis, one in study.axes.items()]]
+    told = [found.told, found.model.name, [[axis, one.ratio] for axis, one in study.axes.items()]]  # names tell of peaks
     factors, names, files = None, None, []
     for number in range(count):
         motion = {axis: one.motions[number] for axis, one in study.axes.items()}
@@ -65,7 +65,7 @@ def make(study, made, step: float) -> None:
         own = {mat.name: (made.folder / f"{file_name(mat.name)}-{key}.csv").absolute() for mat in found.mats}
         files.append(own)
         if not all(path.is_file() for path in own.values()):
-            signals = {axis: study.axes[axis].ratio * made.signal(*pair) for axis, pair in zip(motion, motion.items())}
+            signals = {axis: study.axes[axis].ratio_of(number) * made.signal(*pair) for axis, pair in zip(motion, motion.items())}
             for one in signals.values():
                 one[0] *= 2  # the program's first step is half a one
             length = max(len(one) for one in signals.values())

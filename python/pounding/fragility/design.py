@@ -54,7 +54,7 @@ def motion_columns(study: Study) -> list:
 def motion_values(study: Study, motion: int, level: float) -> tuple:
     values = []
     for one in study.axes.values():
-        values += [str(one.motions[motion]), text_of(level * one.ratio)]
+        values += [str(one.motions[motion]), text_of(level * one.ratio_of(motion))]
     return tuple(values) + (study.moved.values(motion, text_of(level)) if study.moved else ())
 
 

@@ -18,7 +18,7 @@ from pounding.results import load
 from pounding.runs import Job, clear, environment
 from pounding.scenes import write_scene
 
-from . import coherence
+from . import coherence, matching
 from .study import Axis, Study
 
 STEP = 0.005  # of the accelerograms that are compared [s]
@@ -104,21 +104,22 @@ class Motions:
 
 def choose_seeds(study: Study, made: Motions) -> None:
     """Gives the study's targets the first seeds whose motions along the axes are independent of each other and, where
-    the study wants that, of all others. Throws UserError where hardly any are."""
+    the study wants that, of all others; some more where they are to be matched. Throws UserError where hardly any are."""
+    count = study.wanted + (int(matching.SPARE * study.wanted) + 1 if study.matching else 0)
     names = list(study.axes)
     kept, seeds, seed = [], {name: [] for name in names}, 1
-    while len(seeds[names[0]]) < study.wanted:
-        if seed > 100 * study.wanted:
+    while len(seeds[names[0]]) < count:
+        if seed > 100 * count:
             raise UserError(f"{study.path}: motions: of seeds up to {seed} only {len(seeds[names[0]])} are "
                             "independent; raise the correlation, take longer motions or fewer")
         batch = {name: [len(names) * k + place + seed for k in range(AT_ONCE)] for place, name in enumerate(names)}
-        found = f", {len(seeds[names[0]])} of {study.wanted} that are independent found" if seed > 1 else ""
+        found = f", {len(seeds[names[0]])} of {count} that are independent found" if seed > 1 else ""
         made.make([(name, one) for name in names for one in batch[name]], found)
         for k in range(AT_ONCE):
             signals = [made.signal(name, batch[name][k]) for name in names]
             trial = correlations(kept + signals)
             np.fill_diagonal(trial, 0)
-            if len(seeds[names[0]]) < study.wanted and abs(trial[len(kept):]).max() < study.correlation:
+            if len(seeds[names[0]]) < count and abs(trial[len(kept):]).max() < study.correlation:
                 kept += signals if study.between else []
                 for name in names:
                     seeds[name].append(batch[name][k])
@@ -136,10 +137,14 @@ def check(study: Study, folder: Path, jobs: int, write: bool = True, kept: Path 
     kept = kept or folder / "motions"
     made = Motions(study, kept, jobs)
     with alone_in(kept, called("run/fragility"), wait=True):  # parts of a study make them once
-        if study.wanted:
+        if study.wanted and not any(axis.matched for axis in study.axes.values()):
             choose_seeds(study, made)
         pairs = [(name, motion) for name, axis in study.axes.items() for motion in axis.motions]
         made.make(pairs)
+        if study.matching:
+            matching.make(study, made, STEP, folder if write else None)
+            pairs = [(name, motion) for name, axis in study.axes.items() for motion in axis.motions]
+            made.make(pairs, " of the matched records read")
         if study.coherence:
             coherence.make(study, made, STEP)
     labels = [f"{name} {Path(str(motion)).name}" for name, motion in pairs]
@@ -170,7 +175,7 @@ def judged(study: Study, folder: Path, jobs: int, write: bool = True, kept: Path
     made, level = Motions(study, kept or folder / "motions", jobs), study.levels[-1]
     lists = {name: axis.motions for name, axis in study.axes.items()}
     motions = [Motion(", ".join(Path(str(lists[name][k])).name for name in lists),
-                      {name: Signal(f"{name} {Path(str(lists[name][k])).name}", STEP, level * axis.ratio * made.signal(name, lists[name][k]))
+                      {name: Signal(f"{name} {Path(str(lists[name][k])).name}", STEP, level * axis.ratio_of(k) * made.signal(name, lists[name][k]))
                        for name, axis in study.axes.items()}) for k in range(len(next(iter(lists.values()))))]
     try:
         verdicts = judge(read_rules(study.rules), motions, level)
@@ -181,7 +186,7 @@ def judged(study: Study, folder: Path, jobs: int, write: bool = True, kept: Path
     source = source_of(study.rules)
     about = f"{study.rules.name}{f' ({source})' if source else ''}"
     if is_accepted(verdicts):
-        return [f"The motions are accepted by the rules of {about}, motion_rules.csv."]
+        return [*matching.notes(study), f"The motions are accepted by the rules of {about}, motion_rules.csv."]
     refused = [f"{one.rule.name}: {one.worst.number:.3g} for {limits_text(one.rule)}, {len(one.refused)} of {one.looked_at} refused, worst "
                f"{place_text(one.worst)}" for one in verdicts if one.word == "refused"]
-    return [f"Doubt: motions are refused by the rules of {about}: {'; '.join(refused)} (motion_rules.csv)."]
+    return [*matching.notes(study), f"Doubt: motions are refused by the rules of {about}: {'; '.join(refused)} (motion_rules.csv)."]

@@ -14,11 +14,12 @@ from pounding.results import DIRECTIONS
 
 from . import spans
 from .coherence import Moved, read as read_coherence
+from .matching import Matching, read as read_matching
 from .stability import Stability, read as read_stability
 from .study_file import Reader, beside, given_options, load
 
 KEYS = ("title", "scene", "output", "options", "reduction", "seed", "samples", "confidence", "motions", "levels",
-        "motion_rules", "gaps", "apart", "joints", "coherence", "soils", "states", "submittal", "uncertainty", "exchange", "field_factors",
+        "motion_rules", "match", "gaps", "apart", "joints", "coherence", "soils", "states", "submittal", "uncertainty", "exchange", "field_factors",
         "factors", "capacities", "full_order", "frequencies", "dampings", "show", "elevations", "spans", "stability")
 DAMPINGS = (0.02, 0.03, 0.04, 0.05, 0.07)
 SYNTHETIC = {"duration": "25", "envelope": "2,15"}
@@ -33,13 +34,25 @@ FACTOR = re.compile(r"\w+_(stiffness|damping)_factor")
 @dataclass(frozen=True)
 class Axis:
     """The motions along one axis: `records`, or synthetic ones that match `target`, told apart by `seeds`. `ratio`: its
-    peak over that of the level; `options`: more options of the motion, as duration."""
+    peak over that of the level; `options`: more options of the motion, as duration. Of records that the study matched how
+    they were (`matched`, their peaks in place of the ratio), and what they are `made_of`."""
 
     records: tuple = ()
     target: str = ""
     seeds: tuple = ()
     ratio: float = 1.0
     options: tuple = ()
+    matched: tuple = ()
+    made_of: str = ""
+
+    def ratio_of(self, motion: int) -> float:
+        """Peak of a motion over that of the level."""
+        return self.matched[motion]["peak"] if self.matched else self.ratio
+
+    @property
+    def kind(self) -> str:
+        """Its motions in words."""
+        return self.made_of or ("records" if self.records else f"synthetic motions to {Path(self.target).name}")
 
     @property
     def motions(self) -> tuple:
@@ -126,6 +139,7 @@ class Study:
     named: dict = field(default_factory=dict)  # `soils`, `states` and `submittal` as the file has them
     uncertainty: float | None = None  # beta_U of capacities, given by the user
     rules: Path | None = None  # table that judges the motions
+    matching: Matching | None = None  # of the motions to its targets
     coherence: Coherence | None = None  # of the ground under mats that move apart
     coherent_too: bool = False  # whether samples are run on coherent ground beside it
     moved: Moved | None = None  # these as supports, once their motions are made
@@ -409,6 +423,7 @@ def read(path: Path) -> Study:
     if not scene.is_file():
         raise UserError(f"{path}: scene: {scene}: no such file")
     axes, limit, between, wanted, motions = read_motions(reader)
+    table = _motion_rules(reader)
     frequencies = reader.increasing("frequencies", standard_frequencies())
     dampings = reader.increasing("dampings", DAMPINGS)
     full = reader.part("full_order", ("share", "options", "noise"))
@@ -434,7 +449,7 @@ def read(path: Path) -> Study:
         _capacities(reader, frequencies, dampings), full.number("share", 0.0, -1e-12, 1.0 + 1e-12),
         full.options("options"), full.number("noise", 1e-3, 0.0), frequencies, dampings,
         _show(reader, gaps, levels), {key: reader.values.get(key) for key in ("soils", "states", "submittal")},
-        reader.number("uncertainty", None, 0.0) if "uncertainty" in reader.values else None, _motion_rules(reader),
-        *read_coherence(reader),
+        reader.number("uncertainty", None, 0.0) if "uncertainty" in reader.values else None, table,
+        read_matching(reader, table, limit), *read_coherence(reader),
         elevations=reader.increasing("elevations", None, -1e9) if "elevations" in reader.values else None,
         stability=read_stability(reader, levels, {**given_options(scene), **reader.options("options")}.get("structures", "")))

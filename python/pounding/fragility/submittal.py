@@ -121,8 +121,7 @@ def assumptions(one: Envelope) -> list:
     """Rows of subject and assumption, from the options of the study and its scene."""
     study = one.study
     options = {**given_options(study.scene), **study.options, **study.reduction}
-    motions = [f"{name}: {len(axis.motions)} {'records' if axis.records else f'synthetic motions to {Path(axis.target).name}'}"
-               for name, axis in study.axes.items()]
+    motions = [f"{name}: {len(axis.motions)} {axis.kind}" for name, axis in study.axes.items()]
     damping = sorted(f"{name}: {value}" for name, value in options.items() if re.fullmatch(r"\w+_(damping_(uniform|ratio|alpha|beta)|modal_damping)", name))
     modes = sorted(f"{name}: {value}" for name, value in options.items() if name.endswith(("modal_vectors", "modal_cutoff")))
     rows = [("Motions", "; ".join(motions) + f"; components of a sample correlated by less than {study.correlation:g}"),
