@@ -53,19 +53,19 @@ def _spread(name: str, values: np.ndarray) -> dict:
             f"{name} largest [m]": float(values.max())}
 
 
-def by_elevation(outcomes, elevations=None, members=None, built=None) -> list:
+def by_elevation(outcomes, elevations=None, members=None, built=None, torsion: float = 1.0) -> list:
     """Rows of dictionaries, a row per contact and band of elevation with pairs of it, contacts in their order, bands from below.
 
     `outcomes`: with `contacts`, `pair_contact` (pairs), `pair_place` (pairs, 3), `pair_gap`, `pair_least` and `pair_time`
     (members, pairs) and `pair_moved` (members, pairs, 3), as fragility.outcomes has them of an ensemble or a run.
     `elevations`: between bands [m]. `members`: numbers of those that count. `built`: gaps as built (members, pairs), of runs
-    whose own joint is wide open so that nothing touches [m]. Of each member counts the pair of the band that closes most;
+    whose own joint is wide open so that nothing touches [m]. `torsion`: factor on closings and relative displacements. Of each member counts the pair of the band that closes most;
     `ratio` is the largest closing over gap of any pair, `margin` the least gap less closing, `first` the number of members
     whose pair nearest to touching, of all contacts, lies in the band. Throws JointError."""
     who = np.arange(len(outcomes.pair_gap)) if members is None else np.asarray(members)
     if not len(who) or not len(outcomes.pair_place):
         raise JointError("elevations: there is no member, or no contact has a pair")
-    closing = (outcomes.pair_gap - outcomes.pair_least)[who]
+    closing = torsion * (outcomes.pair_gap - outcomes.pair_least)[who]
     gap = outcomes.pair_gap[who] if built is None else np.broadcast_to(built, closing.shape)
     ratio = np.where(gap > 0, closing / np.where(gap > 0, gap, 1.0), np.where(closing > 0, np.inf, 1.0))
     first = ratio.argmax(1)
@@ -87,7 +87,7 @@ def by_elevation(outcomes, elevations=None, members=None, built=None) -> list:
                    "closing time [s]": float(outcomes.pair_time[who[most[0]], pairs[most[1]]]),
                    "closing member": int(who[most[0]]) + 1}
             for d, axis in enumerate("xyz"):
-                row |= _spread(f"relative {axis}", outcomes.pair_moved[np.ix_(who, pairs)][..., d].max(1))
+                row |= _spread(f"relative {axis}", torsion * outcomes.pair_moved[np.ix_(who, pairs)][..., d].max(1))
             rows.append(row | {"ratio": float(ratio[:, pairs].max()), "margin [m]": float((built_here - mine).min()),
                                "touching": float((built_here - mine <= 0).any(1).mean()),
                                "first": int(np.isin(first, pairs).sum())})

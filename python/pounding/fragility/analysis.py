@@ -136,13 +136,22 @@ class Analysis:
 
     # The joint that would be needed.
 
-    def needed(self, contact: int | None = None) -> np.ndarray:
+    def needed(self, contact: int | None = None, torsion: float | None = None) -> np.ndarray:
         """Nominal joint at which the contact (any: the worst) just does not close, of the runs apart [m]: their nominal
-        gap less the smallest that was left; (samples, levels)."""
+        gap less the smallest that was left; (samples, levels). `torsion`: factor on the closing of each pair; None: that of
+        the study, 1: what the runs did."""
         members = np.stack([self.of(None, level) for level in self.study.levels], 1)
         places = [self.outcomes.contacts.index(name) for name in self.study.joints]
-        left = self.outcomes.smallest_gap[members]
+        left = self.left(self.study.torsion.factor if torsion is None else torsion)[members]
         return self.study.apart - (left[..., places].min(-1) if contact is None else left[..., contact])
+
+    def left(self, torsion: float) -> np.ndarray:
+        """Smallest gap of each contact where closings are so many times those of the runs (members, contacts) [m]."""
+        found = self.outcomes
+        if torsion == 1:
+            return found.smallest_gap
+        gaps = found.pair_gap - torsion * (found.pair_gap - found.pair_least)
+        return np.stack([gaps[:, found.pair_contact == number].min(1, initial=np.inf) for number in range(len(found.contacts))], 1)
 
     def joint_rows(self, rules: dict) -> list:
         rows = []
@@ -160,8 +169,8 @@ class Analysis:
 
     def first_contact(self) -> np.ndarray:
         """Peak ground acceleration at which each sample first closes a joint of each gap (samples, gaps) [m/s2]: the
-        needed joint, linear between the levels and from zero, and on beyond the last level."""
-        needed = self.needed()
+        needed joint of the runs as they were, linear between the levels and from zero, and on beyond the last level."""
+        needed = self.needed(torsion=1)
         shapes = [min(joint.shape) for joint in self.study.joints.values()]
         names = [one.name for one in self.study.variables]
         drawn = np.stack([self.design.samples[:, names.index(f"{name}_gap")] if joint.deviation
@@ -183,7 +192,7 @@ class Analysis:
 
     def contradictions(self) -> int:
         """Members that touched although the run apart says that the joint was wide enough, or the other way round."""
-        needed = self.needed()
+        needed = self.needed(torsion=1)
         return int(sum((self.hits(CONTACT, gap) != (needed > gap)).sum() for gap in self.study.gaps))
 
     # How many motions were enough.

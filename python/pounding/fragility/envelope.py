@@ -232,7 +232,7 @@ class Envelope:
         for row in self.joint_rows:
             if row["joint"] == "any" and row["exceeded in"] == "5 %":
                 lines.append(f"So that no joint closes in 95 % of the cases at {row['pga [m/s2]']:g} m/s2 it "
-                             f"{self.study.width_told(row['needed [m]'])}; {governs(row)}.")
+                             f"{self.study.width_told(row['needed [m]'])}; {governs(row)}{self.study.torsion.told}.")
         for gap in self.study.gaps:
             share, place = self.governing([one.hits(CONTACT, gap)[:, -1].mean() for one in self.analyses.values()])
             lines.append(f"In a {self.study.joint_named(gap)} the buildings touch at {self.study.levels[-1]:g} m/s2 in "

@@ -74,7 +74,7 @@ def draw_map(axes, analysis: Analysis) -> str:
             share = counts[i, k] / study.samples
             axes.text(gap, level, f"{share:.2f}\n{low[i, k]:.2f}-{high[i, k]:.2f}", ha="center", va="center",
                       fontsize=7, color="white" if share > 0.6 else "black")
-    needed = 1e3 * analysis.needed()
+    needed = 1e3 * analysis.needed(torsion=1)
     for part, style in zip(EXCEEDED, ("-", "--", ":")):
         axes.plot(np.quantile(needed, 1 - part, axis=0), levels, color="#1B4F72", ls=style, lw=1.6,
                   label=f"{100 * part:g} % would need more")
@@ -223,4 +223,4 @@ def joints(analysis: Analysis, rules: dict, folder: Path) -> list:
     axes.legend(fontsize=8, ncol=2)
     return save(figure, folder, "joint.png", "The joint that is wide enough",
                 "Of the runs without pounding, by peak ground acceleration; vertical lines are those of the rules"
-                + (f" of {worst}." if worst else "."))
+                + (f" of {worst}" if worst else "") + f"{study.torsion.told}.")

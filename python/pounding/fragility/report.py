@@ -69,9 +69,9 @@ def elevation_runs(analysis: Analysis) -> dict:
     study, (gap, level, *_) = analysis.study, figures.shown(analysis)
     members = analysis.of(gap, level)
     try:
-        return {"with pounding": joint.by_elevation(analysis.outcomes, study.elevations, members),
+        return {"with pounding": joint.by_elevation(analysis.outcomes, study.elevations, members, torsion=study.torsion.factor),
                 "apart": joint.by_elevation(analysis.outcomes, study.elevations, analysis.of(None, level),
-                                            analysis.outcomes.pair_gap[members])}
+                                            analysis.outcomes.pair_gap[members], study.torsion.factor)}
     except joint.JointError as error:
         raise UserError(f"{study.path}: {error}") from error
 
@@ -207,7 +207,7 @@ def needed_joint(rows: list, study) -> str:
                        f"{end(row[f'{key} high'])})" for row in rows if row["joint"] == "any")
     return (f"So that no joint closes in {100 * (1 - part):g} % of the cases it {'' if study.is_surveyed else 'must be as wide as '}"
             f"{widths}; in brackets{' the change in mm,' if study.is_surveyed else ''} the "
-            f"interval at {100 * study.confidence:g} % confidence.")
+            f"interval at {100 * study.confidence:g} % confidence{study.torsion.told}.")
 
 
 def touching(fits: dict, analysis: Analysis) -> list:

@@ -17,10 +17,12 @@ from .coherence import Moved, read as read_coherence
 from .matching import Matching, read as read_matching
 from .stability import Stability, read as read_stability
 from .study_file import Reader, beside, given_options, load
+from .torsion import Torsion, read as read_torsion
 
 KEYS = ("title", "scene", "output", "options", "reduction", "seed", "samples", "confidence", "motions", "levels",
         "motion_rules", "match", "gaps", "apart", "joints", "coherence", "soils", "states", "submittal", "uncertainty", "exchange", "field_factors",
-        "factors", "capacities", "full_order", "frequencies", "dampings", "show", "elevations", "spans", "stability")
+        "factors", "capacities", "full_order", "frequencies", "dampings", "show", "elevations", "spans", "stability",
+        "accidental_torsion")
 DAMPINGS = (0.02, 0.03, 0.04, 0.05, 0.07)
 SYNTHETIC = {"duration": "25", "envelope": "2,15"}
 RECORDED = {"unit": "auto", "time_step": "0", "column": "0"}
@@ -145,6 +147,7 @@ class Study:
     moved: Moved | None = None  # these as supports, once their motions are made
     elevations: list | None = None  # between bands of the table of the joint [m]; None: those that suit its pairs
     stability: Stability | None = None  # of the mats
+    torsion: Torsion = Torsion()  # accidental, on the closings
 
     @property
     def motion_count(self) -> int:
@@ -452,4 +455,5 @@ def read(path: Path) -> Study:
         reader.number("uncertainty", None, 0.0) if "uncertainty" in reader.values else None, table,
         read_matching(reader, table, limit), *read_coherence(reader),
         elevations=reader.increasing("elevations", None, -1e9) if "elevations" in reader.values else None,
-        stability=read_stability(reader, levels, {**given_options(scene), **reader.options("options")}.get("structures", "")))
+        stability=read_stability(reader, levels, {**given_options(scene), **reader.options("options")}.get("structures", "")),
+        torsion=read_torsion(reader))

@@ -134,6 +134,8 @@ def assumptions(one: Envelope) -> list:
                 for name, joint in study.joints.items())),
             ("Drawn beside the motion", ", ".join(one_of.name for one_of in study.factors) or "nothing"),
             ("Damping", "; ".join(damping) or "none"), ("Reduction", "; ".join(modes) or "none: full order")]
+    if study.torsion.factor != 1:
+        rows.append(("Accidental torsion", study.torsion.assumption))
     if study.share:
         rows.append(("Error of the reduction", f"{100 * study.share:g} % of the members repeated at full order, see full_order.csv"))
     return rows
@@ -172,7 +174,7 @@ def write(one: Envelope) -> Path | None:
                 if len({condition.place[key] for condition in one.conditions}) == 1]
     joint = [row for row in one.joint_rows if row["pga [m/s2]"] in (told.design, told.beyond)]
     across = spans.table(one.span_rows, list(dict.fromkeys((told.design, told.beyond))), one.first)
-    parts = [(f"The joint by elevation, at {one.level:g} m/s²", html_table("", *cells_of(one.elevation_rows()), text=(0, 1))),
+    parts = [(f"The joint by elevation, at {one.level:g} m/s²{study.torsion.told}", html_table("", *cells_of(one.elevation_rows()), text=(0, 1))),
              (f"{study.width_title} that would be needed [m]".capitalize(), html_table("", *cells_of(joint), text=(0,))),
              (spans.CAPTION, across), *figure_parts(folder, one.span_figure),
              (f"Floor spectra for design: 84 % of the cases, the envelope of soils and states, widened by 15 %, "
