@@ -105,9 +105,9 @@ def job(arguments, ranks=RANKS, timeout=900, folder=SOURCE, environment=None):
     return subprocess.CompletedProcess(line, statuses[0], answer["stdout"], answer["stderr"])
 
 
-def command(name, *words, timeout=900):
-    """Runs one of the commands in run/, from any folder, on the programs of this build."""
-    return subprocess.run([os.path.join(SOURCE, "run", name), *map(str, words)], cwd=tempfile.gettempdir(),
+def command(name, *words, timeout=900, cwd=None):
+    """Runs one of the commands in run/, from any folder or from `cwd`, on the programs of this build."""
+    return subprocess.run([os.path.join(SOURCE, "run", name), *map(str, words)], cwd=cwd or tempfile.gettempdir(),
                           env={**os.environ, "POUNDING_BUILD": os.path.abspath(BUILD)},
                           capture_output=True, text=True, timeout=timeout)
 

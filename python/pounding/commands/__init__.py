@@ -41,6 +41,11 @@ def start(name: str) -> None:
     end(command.main, goes_on=getattr(command, "GOES_ON", False))
 
 
+def command_line(name: str) -> str:
+    """A command as it is started from any folder."""
+    return f"{TOP}/run/{name}" if PREFIX == "run/" else PREFIX + name
+
+
 def words_of_command(name: str, *words) -> list:
     """What starts a command in a process of its own."""
     return [sys.executable, "-B", "-P", os.path.join(os.path.dirname(__file__), "__main__.py"), name, *map(str, words)]

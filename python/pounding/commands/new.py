@@ -1,14 +1,15 @@
-"""A scene to begin from: run/new two-buildings DIR
+"""A scene or a study to begin from: run/new two-buildings DIR
 
-Copies the geometry, the scene and the spectrum of its ground motion into a folder, which may be there already;
-nothing that is there is written over. Without arguments it lists what there is.
+Copies its files into a folder, which may be there already; nothing that is there is written over. Without arguments it lists what there is.
 """
 
 import os
+import shlex
 from pathlib import Path
 
 from pounding.runs import next_steps
 
+from . import command_line
 from .process import called, parser_of
 
 NAME = called("run/new")
@@ -64,5 +65,9 @@ def main() -> int:
         parser.error(f"say where to: {NAME} two-buildings DIR")
     files = write(options.scene, options.folder)
     print("wrote " + ", ".join(map(str, files)))
-    print(next_steps(options.folder / f"{options.scene}.yaml"))
+    first = options.folder / f"{options.scene}.yaml"
+    if "\nscene:" in first.read_text():
+        print("next: " + shlex.join([command_line("fragility"), str(first), "--dry-run"]))
+    else:
+        print(next_steps(first))
     return 0
