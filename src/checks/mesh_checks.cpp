@@ -8,8 +8,8 @@
 
 #include "common/error.h"
 #include "common/facts.h"
+#include "common/integer_sets.h"
 #include "common/matrix3.h"
-#include "common/number_set.h"
 
 namespace pounding {
 namespace {

@@ -9,7 +9,7 @@
 #include "checks/model_doubts.h"
 #include "common/facts.h"
 #include "common/parallel.h"
-#include "model/rest.h"
+#include "model/start_at_rest.h"
 #include "model/time_step.h"
 #include "scene/option_table.h"
 #include "scene/option_values.h"

@@ -29,35 +29,35 @@ TimeLoop::TimeLoop(MPI_Comm comm, const Scene& scene, const Model& model, Profil
       scene_(scene),
       model_(model),
       profile_(profile),
-      solver_(solver_parts(comm, scene, model, model.meshes, profile)) {}
+      scheme_(scheme_parts(comm, scene, model, model.meshes, profile)) {}
 
 double TimeLoop::measure(int steps) {
   MPI_Barrier(comm_);
   const double start = MPI_Wtime();
-  for (int i = 0; i < steps; ++i) solver_.stepper().step(true, false);
+  for (int i = 0; i < steps; ++i) scheme_.stepper().step(true, false);
   MPI_Barrier(comm_);
   const double seconds = (MPI_Wtime() - start) / steps;
-  solver_.restart();
+  scheme_.restart();
   return seconds;
 }
 
 int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
   const StopSignal stop_signal;
-  observers_.emplace(make_observers({comm_, scene_, model_, solver_}, profile_));
+  observers_.emplace(make_observers({comm_, scene_, model_, scheme_}, profile_));
   Observers& observers = *observers_;
   if (restart != nullptr) {
-    solver_.stepper().load(*restart);
+    scheme_.stepper().load(*restart);
     for (const auto& observer : observers.list()) observer->load(*restart);
     first_step_ = step() + 1;
   }
-  observers.start(solver_.stepper(), restart);
+  observers.start(scheme_.stepper(), restart);
   CheckpointSchedule schedule(comm_, scene_.checkpoint_interval, scene_.checkpoint_steps,
                               first_step_);
   int signal = 0;
   for (std::int64_t n = first_step_; n <= model_.steps && signal == 0; ++n) {
-    const StepNeeds needs = observers.before(solver_.stepper());
-    solver_.stepper().step(needs.gaps, needs.energies, needs.forces);
-    observers.after(solver_.stepper());
+    const StepNeeds needs = observers.before(scheme_.stepper());
+    scheme_.stepper().step(needs.gaps, needs.energies, needs.forces);
+    observers.after(scheme_.stepper());
     const CheckpointSchedule::Decision decision = schedule.after_step(n);
     if (decision.write) {
       write_checkpoint(identity);
@@ -80,7 +80,7 @@ void TimeLoop::flush() {
 void TimeLoop::write_checkpoint(const RunIdentity& identity) {
   const ScopedTimer timer(profile_, Phase::output);
   SavedState saved;
-  solver_.stepper().save(saved);
+  scheme_.stepper().save(saved);
   int finite = saved.dofs_are_finite() ? 1 : 0;
   MPI_Allreduce(MPI_IN_PLACE, &finite, 1, MPI_INT, MPI_MIN, comm_);
   if (finite == 0) {
@@ -96,20 +96,20 @@ void TimeLoop::fill(RunStatistics& statistics) const {
   statistics.complete = step() >= model_.steps;
   statistics.steps = step() + 1 - first_step_;
   for (const auto& observer : observers_->list()) observer->report(statistics);
-  if (solver_.contact() != nullptr) {
-    statistics.contact_rows = solver_.contact()->rows();
-    statistics.coupled_rows = solver_.contact()->coupled_rows();
-    statistics.interface_ranks = solver_.contact()->members();
-    statistics.interface_looks = solver_.looks();
+  if (scheme_.contact() != nullptr) {
+    statistics.contact_rows = scheme_.contact()->rows();
+    statistics.coupled_rows = scheme_.contact()->coupled_rows();
+    statistics.interface_ranks = scheme_.contact()->members();
+    statistics.interface_looks = scheme_.looks();
     MPI_Allreduce(MPI_IN_PLACE, &statistics.interface_looks, 1, MPI_INT64_T, MPI_MAX, comm_);
-    statistics.complementarity_residual = solver_.contact()->largest_residual();
+    statistics.complementarity_residual = scheme_.contact()->largest_residual();
   }
-  if (solver_.fillers() != nullptr) {
-    statistics.fillers = solver_.fillers()->totals();
-    broadcast_values(comm_, solver_.fillers()->pairs().rows().root(), statistics.fillers);
+  if (scheme_.fillers() != nullptr) {
+    statistics.fillers = scheme_.fillers()->totals();
+    broadcast_values(comm_, scheme_.fillers()->pairs().rows().root(), statistics.fillers);
   }
   for (std::size_t s = 0; s < model_.systems.size(); ++s) {
-    const interactions::StructureLinks* const links = solver_.links(s);
+    const interactions::StructureLinks* const links = scheme_.links(s);
     int overpressed = links != nullptr && links->overpressed() ? 1 : 0;
     MPI_Allreduce(MPI_IN_PLACE, &overpressed, 1, MPI_INT, MPI_MAX, comm_);
     if (overpressed != 0) statistics.overpressed.push_back(model_.systems[s].name);

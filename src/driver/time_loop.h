@@ -10,7 +10,7 @@
 #include <mpi.h>
 
 #include "model/model.h"
-#include "model/solver.h"
+#include "model/model_scheme.h"
 #include "observers/kinds.h"
 #include "observers/run_statistics.h"
 #include "output/checkpoint.h"
@@ -36,7 +36,7 @@ class TimeLoop {
   const ImpactCatalogue& impacts() const { return observers_->impacts(); }
   const Recorder& recorder() const { return observers_->history(); }
   /// The last step made.
-  std::int64_t step() const { return solver_.stepper().state().step - 1; }
+  std::int64_t step() const { return scheme_.stepper().state().step - 1; }
   /// After `run`: findings of the steps and of the observers, which write their tables. Collective.
   void fill(RunStatistics& statistics) const;
 
@@ -48,7 +48,7 @@ class TimeLoop {
   const Scene& scene_;
   const Model& model_;
   Profile& profile_;
-  Solver solver_;
+  ModelScheme scheme_;
   std::optional<Observers> observers_;  ///< of the run
   std::int64_t first_step_ = 0;
 };

@@ -9,7 +9,7 @@
 #include "interactions/pairing/absorbing_faces.h"
 #include "mesh/find_supported_nodes.h"
 #include "mesh/gmsh_reader.h"
-#include "mesh/sliding_order.h"
+#include "mesh/order_bearings.h"
 #include "mesh/soil_node.h"
 #include "mesh/start_states.h"
 #include "model/applied_loads.h"

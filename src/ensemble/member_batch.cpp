@@ -24,10 +24,10 @@ std::size_t records_of(const BatchRecorder::Times& times) {
   return static_cast<std::size_t>(times.steps / times.stride) + 1;
 }
 
-Solver::Parts parts_in_batch(const MemberScene& member, const EnsembleModel& shared,
-                             const Model& model, BatchPlace place, Profile& profile) {
-  Solver::Parts parts =
-      solver_parts(MPI_COMM_SELF, member.scene, model, shared.model->meshes, profile);
+ModelScheme::Parts parts_in_batch(const MemberScene& member, const EnsembleModel& shared,
+                                  const Model& model, BatchPlace place, Profile& profile) {
+  ModelScheme::Parts parts =
+      scheme_parts(MPI_COMM_SELF, member.scene, model, shared.model->meshes, profile);
   parts.batch = place;
   return parts;
 }
@@ -51,7 +51,7 @@ const std::vector<double>& velocity_of_supports(const CdLagrange& stepper) {
 class SmallestGaps final : public Observer {
  public:
   SmallestGaps(const ObservedRun& run, std::vector<PairMotion>& pairs)
-      : solver_(run.solver),
+      : scheme_(run.scheme),
         record_stride_(record_stride(run.scene, run.model)),
         gap_stride_(gap_stride(run.scene, run.model)),
         pairs_(pairs) {}
@@ -62,15 +62,15 @@ class SmallestGaps final : public Observer {
   StepNeeds begin(const CdLagrange& /*stepper*/) override { return {.gaps = true}; }
   bool follows() const override { return true; }
   void follow(const CdLagrange& stepper) override {
-    if (!solver_.interface_known() || (stepper.state().step - 1) % record_stride_ != 0) return;
-    const std::vector<double>& gaps = solver_.contact()->gaps();
+    if (!scheme_.interface_known() || (stepper.state().step - 1) % record_stride_ != 0) return;
+    const std::vector<double>& gaps = scheme_.contact()->gaps();
     for (std::size_t row = 0; row < gaps.size(); ++row) {
       pairs_[row].note(gaps[row], stepper.time());
     }
   }
 
  private:
-  const Solver& solver_;
+  const ModelScheme& scheme_;
   std::int64_t record_stride_;  ///< steps between two records
   std::int64_t gap_stride_;     ///< and between two samples of the gaps, a multiple of it
   std::vector<PairMotion>& pairs_;
@@ -305,8 +305,8 @@ std::span<const double> BatchRecorder::acceleration(std::size_t channel, std::si
 
 MemberRun::MemberRun(const MemberScene& member, const EnsembleModel& shared, const Model& model,
                      BatchPlace place)
-    : solver_(parts_in_batch(member, shared, model, place, profile_)),
-      run_{MPI_COMM_SELF, member.scene, model, solver_},
+    : scheme_(parts_in_batch(member, shared, model, place, profile_)),
+      run_{MPI_COMM_SELF, member.scene, model, scheme_},
       observers_(make_observers(run_, profile_, true)),
       pairs_(model.interface.constraints.size()) {
   for (const auto& observer : observers_.list()) {
@@ -314,19 +314,19 @@ MemberRun::MemberRun(const MemberScene& member, const EnsembleModel& shared, con
     if (columns && columns->list == "forces") forces_ = columns->values;
   }
   observers_.add(std::make_unique<SmallestGaps>(run_, pairs_));
-  observers_.start(solver_.stepper(), nullptr);
+  observers_.start(scheme_.stepper(), nullptr);
 }
 
 StepNeeds MemberRun::open() {
-  StepNeeds needs = observers_.before(solver_.stepper());
-  needs.energies = solver_.stepper().open(needs.gaps, needs.energies);
+  StepNeeds needs = observers_.before(scheme_.stepper());
+  needs.energies = scheme_.stepper().open(needs.gaps, needs.energies);
   return needs;
 }
 
 void MemberRun::close() {
-  solver_.stepper().close();
-  observers_.after(solver_.stepper());
-  if ((solver_.stepper().state().step - 1) % record_stride(run_.scene, run_.model) != 0) return;
+  scheme_.stepper().close();
+  observers_.after(scheme_.stepper());
+  if ((scheme_.stepper().state().step - 1) % record_stride(run_.scene, run_.model) != 0) return;
   history_.insert(history_.end(), forces_.begin(), forces_.end());
 }
 
@@ -343,9 +343,9 @@ void MemberRun::fill(MemberResult& result) {
     result.pair_time.push_back(pairs_[row].time);
   }
   result.forces = history_;
-  result.energy_residual = {solver_.stepper().energy().relative_residual()};
-  if (solver_.contact() != nullptr) {
-    result.contact_residual = {solver_.contact()->largest_residual()};
+  result.energy_residual = {scheme_.stepper().energy().relative_residual()};
+  if (scheme_.contact() != nullptr) {
+    result.contact_residual = {scheme_.contact()->largest_residual()};
   }
   result.first_time.assign(contacts, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t c = 0; c < contacts; ++c) {

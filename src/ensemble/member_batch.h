@@ -31,14 +31,14 @@ class MemberRun {
   StepNeeds open();
   /// After it. Throws DivergenceError if this member's numbers cannot be trusted.
   void close();
-  const CdLagrange& stepper() const { return solver_.stepper(); }
+  const CdLagrange& stepper() const { return scheme_.stepper(); }
 
   /// Impacts, gaps, forces and the ledger's residual.
   void fill(MemberResult& result);
 
  private:
   Profile profile_{Profile::Clock::off};
-  Solver solver_;
+  ModelScheme scheme_;
   ObservedRun run_;
   Observers observers_;
   std::vector<PairMotion> pairs_;   ///< per row, without displacements

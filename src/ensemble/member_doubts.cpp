@@ -10,7 +10,7 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "interactions/pairing/contact_checks.h"
-#include "model/rest.h"
+#include "model/start_at_rest.h"
 #include "motion/load_histories.h"
 #include "motion/synthetic.h"
 

@@ -6,7 +6,7 @@
 #include "common/error.h"
 #include "interactions/pairing/gap_field.h"
 #include "modal/reduced_system.h"
-#include "model/rest.h"
+#include "model/start_at_rest.h"
 #include "model/time_step.h"
 #include "scene/stiffness_factor.h"
 #include "scene/support_reader.h"

@@ -13,7 +13,7 @@
 #include "fidelity/inherited_motion.h"
 #include "fidelity/probe_means.h"
 #include "fidelity/window_place.h"
-#include "model/solver.h"
+#include "model/model_scheme.h"
 #include "motion/response_spectrum.h"
 #include "observers/observed_run.h"
 #include "scene/law_kinds.h"
@@ -63,23 +63,23 @@ void set_free(Model& model) {
 }
 
 /// Sum of the impulses of a run, on the root of its contacts.
-void add_impulses(MPI_Comm comm, Solver& solver, double& sum) {
-  if (solver.contact() == nullptr || solver.contact()->root() != rank_of(comm)) return;
-  if (!solver.rows_act()) return;
-  for (const double impulse : solver.row_actions().impulses) sum += impulse;
+void add_impulses(MPI_Comm comm, ModelScheme& scheme, double& sum) {
+  if (scheme.contact() == nullptr || scheme.contact()->root() != rank_of(comm)) return;
+  if (!scheme.rows_act()) return;
+  for (const double impulse : scheme.row_actions().impulses) sum += impulse;
 }
 
 /// Velocities of the channels at full order at the times of the records, this rank's part.
 std::vector<double> run_window(const Window& window, InheritedMotion& inherited, int stride,
-                               double reduced_step, double step, ProbeMeans& means, Solver& solver,
-                               const std::function<void()>& after_step) {
+                               double reduced_step, double step, ProbeMeans& means,
+                               ModelScheme& scheme, const std::function<void()>& after_step) {
   const std::size_t channels = means.channels();
   interactions::ContactProblem::Carried carried;
   std::vector<double> next(inherited.dofs());
   carried.displacement.resize(next.size());
   carried.velocity.resize(next.size());
   inherited.places(0, carried.displacement);
-  if (solver.contact() != nullptr) solver.contact()->carry(carried);
+  if (scheme.contact() != nullptr) scheme.contact()->carry(carried);
   std::vector<double> records(channels, 0.0);
   std::vector<double> before(channels, 0.0);
   std::vector<double> now(channels);
@@ -92,10 +92,10 @@ std::vector<double> run_window(const Window& window, InheritedMotion& inherited,
       carried.velocity[i] = (next[i] - carried.displacement[i]) / step;
     }
     if (n == 0) carried.velocity_before = carried.velocity;
-    solver.stepper().step(true, false);
+    scheme.stepper().step(true, false);
     after_step();
     carried.displacement = next;
-    means.velocities(solver.stepper().state(), now);
+    means.velocities(scheme.stepper().state(), now);
     const double time = (static_cast<double>(n) + 0.5) * step;
     for (; made <= wanted; ++made) {
       const double due = (static_cast<double>(made * stride) - 0.5) * reduced_step;
@@ -163,20 +163,20 @@ Spectra spectra_of(MPI_Comm comm, const Scene& scene, const Model& model,
 /// called after every one. Collective.
 std::vector<double> run_reduced(MPI_Comm comm, const Scene& scene, const Model& model,
                                 const GroundMotion& motion,
-                                const std::function<void(Solver&)>& after_step) {
+                                const std::function<void(ModelScheme&)>& after_step) {
   Profile profile;
-  Solver::Parts parts = solver_parts(comm, scene, model, model.meshes, profile);
+  ModelScheme::Parts parts = scheme_parts(comm, scene, model, model.meshes, profile);
   parts.motion = &motion;
-  Solver solver(std::move(parts));
+  ModelScheme scheme(std::move(parts));
   ProbeMeans means(model.probes, model.systems, model.meshes);
   const int stride = record_stride(scene, model);
   std::vector<double> velocities;
   std::vector<double> now(means.channels());
   for (std::int64_t n = 0; n <= model.steps; ++n) {
-    solver.stepper().step(false, false);
-    after_step(solver);
+    scheme.stepper().step(false, false);
+    after_step(scheme);
     if (n % stride != 0) continue;
-    means.velocities(solver.stepper().state(), now);
+    means.velocities(scheme.stepper().state(), now);
     velocities.insert(velocities.end(), now.begin(), now.end());
   }
   add_parts(comm, velocities);
@@ -224,18 +224,18 @@ std::vector<double> run_full_window(MPI_Comm comm, const Scene& scene, const Mod
   const double start = inherited.start();
   const GroundMotion driving =
       model.motion->part(GroundMotion::Part::sets_in, start, start + fade_in).counted_from(start);
-  Solver::Parts parts = solver_parts(comm, full_scene, full, full.meshes, profile);
+  ModelScheme::Parts parts = scheme_parts(comm, full_scene, full, full.meshes, profile);
   parts.interface = &model.interface;
   parts.motion = &driving;
   parts.loads = nullptr;
   parts.carried = true;
-  Solver solver(std::move(parts));
+  ModelScheme scheme(std::move(parts));
   ProbeMeans means(full.probes, full.systems, full.meshes);
   MPI_Barrier(comm);
   const double began = MPI_Wtime();
   std::vector<double> velocities =
       run_window(window, inherited, record_stride(scene, model), model.time_step, full.time_step,
-                 means, solver, [&] { add_impulses(comm, solver, estimate.full_impulse); });
+                 means, scheme, [&] { add_impulses(comm, scheme, estimate.full_impulse); });
   double seconds = MPI_Wtime() - began;
   MPI_Bcast(&seconds, 1, MPI_DOUBLE, 0, comm);
   inherited.finish(window.last);
@@ -263,10 +263,10 @@ FidelityEstimate estimate_fidelity(MPI_Comm comm, const Scene& scene, const Mode
   const int stride = record_stride(scene, model);
 
   SavedState state;  // in which the window begins
-  const auto note_window = [&](Solver& solver) {
-    const std::int64_t step = solver.stepper().state().step - 1;
-    if (step == window.first) solver.stepper().save(state);
-    if (step > window.first && step <= window.last) add_impulses(comm, solver, estimate.impulse);
+  const auto note_window = [&](ModelScheme& scheme) {
+    const std::int64_t step = scheme.stepper().state().step - 1;
+    if (step == window.first) scheme.stepper().save(state);
+    if (step > window.first && step <= window.last) add_impulses(comm, scheme, estimate.impulse);
   };
   const std::vector<double> reduced = run_reduced(comm, scene, model, *model.motion, note_window);
   const std::vector<double> sum = run_full_window(comm, scene, model, window, state, estimate);
@@ -289,7 +289,7 @@ FidelityEstimate estimate_fidelity(MPI_Comm comm, const Scene& scene, const Mode
   std::vector<std::vector<ChannelDistance>> spread;
   for (const double sign : {1.0, -1.0}) {
     const GroundMotion motion = model.motion->times(1 + sign * estimate.disturbance);
-    const std::vector<double> other = run_reduced(comm, scene, model, motion, [](Solver&) {});
+    const std::vector<double> other = run_reduced(comm, scene, model, motion, [](ModelScheme&) {});
     spread.push_back(
         distances(model, spectra_of(comm, scene, model, motion, {0, other}), whole, moving));
   }

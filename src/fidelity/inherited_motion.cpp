@@ -18,11 +18,11 @@ InheritedMotion::InheritedMotion(MPI_Comm comm, const Scene& scene, const Model&
       first_(first),
       motion_(model.motion->part(GroundMotion::Part::leaves, start(), start() + fade_in)),
       none_{{}, {}, {}, model.interface.extents, model.interface.model_size, {}, {}},
-      solver_(parts(scene, profile)),
+      scheme_(parts(scene, profile)),
       means_(model.probes, model.systems, model.meshes),
       rows_(comm, interactions::with_friction_rows(model.interface.constraints), model.systems,
             model.meshes) {
-  solver_.stepper().load(state);
+  scheme_.stepper().load(state);
   take_places(-model.time_step);
   take_places(0);
   record();
@@ -43,15 +43,15 @@ void InheritedMotion::places(double time, std::vector<double>& result) {
   }
 }
 
-Solver::Parts InheritedMotion::parts(const Scene& scene, Profile& profile) const {
-  Solver::Parts parts = solver_parts(comm_, scene, model_, model_.meshes, profile);
+ModelScheme::Parts InheritedMotion::parts(const Scene& scene, Profile& profile) const {
+  ModelScheme::Parts parts = scheme_parts(comm_, scene, model_, model_.meshes, profile);
   parts.interface = &none_;
   parts.motion = &motion_;
   return parts;
 }
 
 void InheritedMotion::step() {
-  CdLagrange& stepper = solver_.stepper();
+  CdLagrange& stepper = scheme_.stepper();
   stepper.step(false, false);
   if ((stepper.state().step - 1) % stride_ == 0) record();
   take_places(0);
@@ -61,7 +61,7 @@ void InheritedMotion::take_places(double duration) {
   std::vector<double> values(rows_.dofs());
   if (rows_.member()) {
     for (std::size_t s = 0; s < model_.systems.size(); ++s) {
-      const StructureState& state = solver_.stepper().state().structures[s];
+      const StructureState& state = scheme_.stepper().state().structures[s];
       std::vector<double> owned = state.displacement;
       for (std::size_t i = 0; i < owned.size(); ++i) owned[i] += duration * state.velocity[i];
       rows_.set(s, 0, 1, owned.data(), {});
@@ -75,7 +75,7 @@ void InheritedMotion::take_places(double duration) {
 void InheritedMotion::record() {
   const std::size_t before = records_.size();
   records_.resize(before + means_.channels());
-  means_.velocities(solver_.stepper().state(), {records_.data() + before, means_.channels()});
+  means_.velocities(scheme_.stepper().state(), {records_.data() + before, means_.channels()});
 }
 
 }  // namespace pounding

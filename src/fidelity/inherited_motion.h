@@ -10,7 +10,7 @@
 #include "fidelity/probe_means.h"
 #include "interactions/interface_rows.h"
 #include "model/model.h"
-#include "model/solver.h"
+#include "model/model_scheme.h"
 #include "motion/ground_motion.h"
 #include "scene/scene.h"
 
@@ -33,13 +33,13 @@ class InheritedMotion {
   void places(double time, std::vector<double>& result);
   /// Makes the records until step `last` of the run.
   void finish(std::int64_t last) {
-    while (solver_.stepper().state().step <= last) step();
+    while (scheme_.stepper().state().step <= last) step();
   }
   /// Velocities of the channels in every record from the window's first step on, this rank's part.
   const std::vector<double>& records() const { return records_; }
 
  private:
-  Solver::Parts parts(const Scene& scene, Profile& profile) const;
+  ModelScheme::Parts parts(const Scene& scene, Profile& profile) const;
   void step();
   /// The places of the state, and how its velocity moves them for a while [s].
   void take_places(double duration);
@@ -51,7 +51,7 @@ class InheritedMotion {
   std::int64_t first_;
   GroundMotion motion_;
   interactions::Interface none_;
-  Solver solver_;
+  ModelScheme scheme_;
   ProbeMeans means_;
   interactions::InterfaceRows rows_;
   std::deque<std::vector<double>> places_;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "common/magnitude.h"
+#include "common/array_reductions.h"
 #include "interactions/delassus.h"
 
 namespace pounding::interactions {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/number_set.h"
+#include "common/integer_sets.h"
 #include "common/parallel.h"
 
 namespace pounding::interactions {

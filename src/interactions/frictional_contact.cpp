@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "common/magnitude.h"
+#include "common/array_reductions.h"
 #include "interactions/pairing/interface.h"
 
 namespace pounding::interactions {

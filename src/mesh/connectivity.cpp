@@ -7,8 +7,8 @@
 #include <set>
 #include <span>
 
+#include "common/integer_sets.h"
 #include "common/matrix3.h"
-#include "common/number_set.h"
 #include "elements/element_traits.h"
 #include "mesh/facet_place.h"
 #include "mesh/global_mesh.h"

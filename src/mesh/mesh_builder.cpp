@@ -9,7 +9,7 @@
 #include <set>
 
 #include "common/error.h"
-#include "common/number_set.h"
+#include "common/integer_sets.h"
 #include "elements/element_traits.h"
 #include "mesh/element_checks.h"
 #include "mesh/facet_place.h"

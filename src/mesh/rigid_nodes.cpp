@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "common/error.h"
-#include "common/number_set.h"
+#include "common/integer_sets.h"
 #include "mesh/connectivity.h"
 
 namespace pounding {

@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "common/error.h"
+#include "common/integer_sets.h"
 #include "common/matrix3.h"
-#include "common/number_set.h"
 #include "mesh/followed_facets.h"
 #include "mesh/mortar.h"
 

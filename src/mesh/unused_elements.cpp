@@ -5,7 +5,7 @@
 #include <span>
 #include <unordered_map>
 
-#include "common/number_set.h"
+#include "common/integer_sets.h"
 #include "elements/element_traits.h"
 
 namespace pounding {

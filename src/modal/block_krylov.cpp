@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "common/scattered_number.h"
+#include "common/repeatable_random.h"
 #include "modal/eigen_solver.h"
 #include "modal/orthonormal_space.h"
 

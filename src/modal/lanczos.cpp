@@ -10,7 +10,7 @@
 #include <petscblaslapack.h>
 
 #include "common/error.h"
-#include "common/scattered_number.h"
+#include "common/repeatable_random.h"
 
 namespace pounding {
 namespace {

@@ -111,7 +111,7 @@ struct JointGaps {
 
 /// Everything about a scene that is constant in time, on this rank.
 struct Model {
-  std::vector<Mesh> meshes;  ///< per structure, one after the other for the solver
+  std::vector<Mesh> meshes;  ///< per structure, one after the other for the scheme
   /// Numbers of the nodes in the mesh file, per structure, by file order; on rank 0, where matrices
   /// are exported and the mesh was read whole.
   std::vector<std::vector<std::int64_t>> node_tags;

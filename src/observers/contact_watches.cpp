@@ -40,7 +40,7 @@ class ImpactWatch final : public Observer {
 
   bool follows() const override { return run_.is_contact_root(); }
   void follow(const CdLagrange& stepper) override {
-    if (run_.solver.rows_act()) add_contact(stepper);
+    if (run_.scheme.rows_act()) add_contact(stepper);
   }
   void finish(bool /*complete*/) override { catalogue_.finish(run_.comm, root_); }
   void save(SavedState& saved) override {
@@ -143,8 +143,8 @@ class ContactHistory final : public Observer {
 }  // namespace
 
 void ImpactWatch::add_contact(const CdLagrange& stepper) {
-  const interactions::ContactProblem& contact = *run_.solver.contact();
-  const auto [impulses, works] = run_.solver.row_actions();
+  const interactions::ContactProblem& contact = *run_.scheme.contact();
+  const auto [impulses, works] = run_.scheme.row_actions();
   ContactStep step{contact.gaps(), impulses, works, {}, {}, {}};
   if (contact.friction().has_any()) {
     step.tangential_impulses = contact.friction().tangential_impulses();
@@ -182,7 +182,7 @@ void UpliftWatch::observe(const CdLagrange& stepper) {
   const double interval = static_cast<double>(rest == 0 ? between : rest) * stepper.time_step();
   std::vector<double> sums;  // pressed and all, structure by structure
   for (std::size_t s = 0; s < ratios_.size(); ++s) {
-    const interactions::StructureLinks* const links = run_.solver.links(s);
+    const interactions::StructureLinks* const links = run_.scheme.links(s);
     const auto bedding =
         links != nullptr ? links->bedding() : interactions::StructureLinks::Bedding{};
     sums.insert(sums.end(), {bedding.pressed, bedding.all});
@@ -229,8 +229,8 @@ OutputKind uplift_output() {
 }
 
 void ContactHistory::follow(const CdLagrange& /*stepper*/) {
-  if (!run_.solver.rows_act()) return;
-  const std::span<const double> impulses = run_.solver.row_actions().impulses;
+  if (!run_.scheme.rows_act()) return;
+  const std::span<const double> impulses = run_.scheme.row_actions().impulses;
   for (std::size_t row = 0; row < impulses.size(); ++row) {
     impulses_[contact_of(row)] += impulses[row];
   }
@@ -238,7 +238,7 @@ void ContactHistory::follow(const CdLagrange& /*stepper*/) {
 
 void ContactHistory::observe(const CdLagrange& stepper) {
   if (!run_.is_contact_root()) return;
-  const bool known = run_.solver.interface_known();
+  const bool known = run_.scheme.interface_known();
   for (std::size_t c = 0; c < impulses_.size(); ++c) {
     values_[2 * c] =
         known ? std::numeric_limits<double>::max() : std::numeric_limits<double>::quiet_NaN();
@@ -247,7 +247,7 @@ void ContactHistory::observe(const CdLagrange& stepper) {
     impulses_[c] = 0;
   }
   if (!known) return;
-  const std::span<const double> gaps = run_.solver.contact()->gaps();
+  const std::span<const double> gaps = run_.scheme.contact()->gaps();
   for (std::size_t row = 0; row < gaps.size(); ++row) {
     double& smallest = values_[2 * contact_of(row)];
     smallest = std::min(smallest, gaps[row]);

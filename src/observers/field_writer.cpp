@@ -41,7 +41,7 @@ FieldWriter::FieldWriter(const ObservedRun& run)
       vtkhdf_(run.scene.fields_format != FieldsFormat::xdmf),
       labels_(mesh_labels(run.scene, run.model.interface)),
       yields_(yielding_structures(run.scene)) {
-  if (run.contact_root() >= 0) impulses_.assign(run.solver.contact()->dof_list().size(), 0.0);
+  if (run.contact_root() >= 0) impulses_.assign(run.scheme.contact()->dof_list().size(), 0.0);
   structures_.reserve(run.model.meshes.size());
   for (std::size_t s = 0; s < run.model.meshes.size(); ++s) structures_.push_back(fields_of(s));
   const double bytes = fields_size(run.scene, run.model, steps_);
@@ -91,7 +91,7 @@ FieldWriter::StructureFields FieldWriter::fields_of(std::size_t structure) {
     }
   }
   for (std::size_t i = 0; i < impulses_.size(); ++i) {
-    const interactions::InterfaceDof& dof = run_.solver.contact()->dof_list()[i];
+    const interactions::InterfaceDof& dof = run_.scheme.contact()->dof_list()[i];
     if (dof.structure != static_cast<int>(structure)) continue;
     const LocalIndex node = mesh.owned_node(dof.node);
     if (node < 0) continue;
@@ -204,7 +204,7 @@ void FieldWriter::follow(const CdLagrange& stepper) {
   const std::int64_t step = stepper.state().step - 1;
   const FieldSteps& steps = steps_;
   const bool counts = step > steps.first - steps.stride && step <= steps.last();
-  if (counts && run_.solver.touching()) run_.solver.contact()->add_dof_impulses(impulses_);
+  if (counts && run_.scheme.touching()) run_.scheme.contact()->add_dof_impulses(impulses_);
 }
 
 void FieldWriter::observe(const CdLagrange& stepper) {

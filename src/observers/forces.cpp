@@ -166,7 +166,7 @@ Forces::Forces(const ObservedRun& run) : run_(run), peaks_start_(run.scene.spect
     elements_.push_back({s, std::make_unique<ElementForces>(model.systems[s], mesh, rows)});
   }
   for (const Total& total : totals_) {
-    run.solver.stepper().watch_forces(total.structure, total.force->dofs());
+    run.scheme.stepper().watch_forces(total.structure, total.force->dofs());
   }
 }
 
@@ -223,8 +223,8 @@ StepNeeds Forces::begin(const CdLagrange& stepper) {
 void Forces::observe(const CdLagrange& stepper) {
   for (const Total& total : totals_) {
     Wrench sum{};
-    total.force->add(stepper, total.structure, run_.solver.links(total.structure),
-                     run_.solver.inelastic(total.structure), sum);
+    total.force->add(stepper, total.structure, run_.scheme.links(total.structure),
+                     run_.scheme.inelastic(total.structure), sum);
     for (std::size_t k = 0; k < sum.size(); ++k) part_[total.first + k] += sum[k];
     if (total.elements) {
       total.elements->add(acting_displacement(total.structure), supports_, part_);
@@ -240,7 +240,7 @@ void Forces::observe(const CdLagrange& stepper) {
 }
 
 std::span<const double> Forces::acting_displacement(std::size_t structure) {
-  const CdLagrange& stepper = run_.solver.stepper();
+  const CdLagrange& stepper = run_.scheme.stepper();
   const std::vector<double>& squares = run_.model.buildings[structure].basis->squared_frequency;
   acting_ = stepper.displacement(structure);
   for (std::size_t i = 0; i < acting_.size(); ++i) {
@@ -265,7 +265,7 @@ void Forces::save(SavedState& saved) {
 }
 
 void Forces::load(const SavedState& saved) {
-  const double time = run_.solver.stepper().time();
+  const double time = run_.scheme.stepper().time();
   std::vector<double> table(2 * peaks_.size());
   saved.get("force_peaks", table);
   std::array<double, 1> start{};

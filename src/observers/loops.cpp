@@ -112,17 +112,17 @@ std::vector<Source> find_sources(const ObservedRun& run) {
   };
   for (std::size_t s = 0; s < run.model.systems.size(); ++s) {
     const Mesh& mesh = run.model.meshes[s];
-    if (auto* const links = run.solver.links(s)) {
+    if (auto* const links = run.scheme.links(s)) {
       add(*links, [&mesh, &all = run.model.systems[s].links->links()](
                       const Loop& loop, auto& take) { find_links(mesh, all, loop, take); });
     }
-    for (auto* const elements : run.solver.inelastic(s)) {
+    for (auto* const elements : run.scheme.inelastic(s)) {
       add(*elements, [&mesh, elements](const Loop& loop, auto& take) {
         find_parts(mesh, *elements, loop, take);
       });
     }
   }
-  auto* const fillers = run.solver.fillers();
+  auto* const fillers = run.scheme.fillers();
   if (fillers != nullptr && fillers->pairs().rows().root() == rank_of(run.comm)) {
     add(*fillers, [&run, fillers](const Loop& loop, auto& take) {
       find_rows(run.scene, *fillers, loop, take);

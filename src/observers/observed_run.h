@@ -13,7 +13,7 @@
 #include "common/parallel.h"
 #include "io/csv_file.h"
 #include "model/model.h"
-#include "model/solver.h"
+#include "model/model_scheme.h"
 #include "observers/observer.h"
 #include "output/result_folder.h"
 #include "scene/scene.h"
@@ -34,13 +34,13 @@ struct ObservedRun {
   MPI_Comm comm;
   const Scene& scene;
   const Model& model;
-  Solver& solver;
+  ModelScheme& scheme;
 
   std::string path(const std::string& name) const { return scene.output + "/" + name; }
   /// A file beside the checkpoint that this run continues; empty for a new run.
   std::string continued_path(const std::string& name) const;
   /// The rank that knows gaps and impulses, -1 without contacts.
-  int contact_root() const { return solver.contact() != nullptr ? solver.contact()->root() : -1; }
+  int contact_root() const { return scheme.contact() != nullptr ? scheme.contact()->root() : -1; }
   bool is_contact_root() const { return rank_of(comm) == contact_root(); }
   std::vector<std::string> contact_names() const {
     std::vector<std::string> names;

@@ -91,7 +91,7 @@ void ProgressWatch::observe(const CdLagrange& stepper) {
   const double no_gap = std::numeric_limits<double>::max();
   std::array<double, 2> now{no_gap, 0};  // smallest gap, minus the number of impacts
   if (run_.is_contact_root()) {
-    now = {run_.solver.contact()->smallest_gap(), -static_cast<double>(impacts_.episodes())};
+    now = {run_.scheme.contact()->smallest_gap(), -static_cast<double>(impacts_.episodes())};
   }
   MPI_Allreduce(MPI_IN_PLACE, now.data(), 2, MPI_DOUBLE, MPI_MIN, run_.comm);
   if (rank_of(run_.comm) != 0) return;

@@ -170,16 +170,16 @@ ClosedLine close_line(MPI_Comm comm, const Model& model, const State& state,
 }
 
 void EnergyWatch::observe(const CdLagrange& stepper) {
-  EnergyBalance& energy = run_.solver.stepper().energy();
+  EnergyBalance& energy = run_.scheme.stepper().energy();
   const ClosedLine closed =
-      close_line(run_.comm, run_.model, stepper.state(), run_.solver.contact(), energy);
-  run_.solver.note_energies(energy.closed_steps() - 1, closed.energies, closed.round_off);
+      close_line(run_.comm, run_.model, stepper.state(), run_.scheme.contact(), energy);
+  run_.scheme.note_energies(energy.closed_steps() - 1, closed.energies, closed.round_off);
   ledger_.add(closed.line);
 }
 
 void EnergyWatch::report(RunStatistics& statistics) {
   statistics.energy = ledger_.last();
-  statistics.energy_residual = run_.solver.stepper().energy().relative_residual();
+  statistics.energy_residual = run_.scheme.stepper().energy().relative_residual();
   on_rank0(run_.comm,
            [&] { write_energy(run_.path("energy.csv"), ledger_.lines(), run_.scene.csv_digits); });
 }

@@ -40,7 +40,7 @@ struct FoundLaw {
 
 std::vector<FoundLaw> yielding_laws(const ObservedRun& run, std::size_t structure) {
   std::vector<FoundLaw> laws;
-  for (const auto* elements : run.solver.inelastic(structure)) {
+  for (const auto* elements : run.scheme.inelastic(structure)) {
     for (const auto& part : elements->parts()) laws.push_back({elements, part});
   }
   return laws;

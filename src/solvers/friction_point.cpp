@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "common/magnitude.h"
+#include "common/array_reductions.h"
 
 namespace pounding::interactions {
 namespace {

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "common/array_reductions.h"
 #include "common/dense_matrix.h"
-#include "common/magnitude.h"
 #include "solvers/friction_point.h"
 #include "solvers/sparse_rows.h"
 

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/array_reductions.h"
 #include "common/dense_matrix.h"
-#include "common/magnitude.h"
-#include "common/number_set.h"
+#include "common/integer_sets.h"
 #include "common/row_products.h"
 
 namespace pounding::interactions {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/magnitude.h"
+#include "common/array_reductions.h"
 #include "solvers/sparse_rows.h"
 
 namespace pounding::interactions {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/magnitude.h"
+#include "common/array_reductions.h"
 #include "solvers/sparse_rows.h"
 
 namespace pounding::interactions {

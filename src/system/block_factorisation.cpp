@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "system/six_lanes.h"
+#include "system/six_by_six.h"
 
 namespace pounding {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "common/dense_matrix.h"
 #include "common/error.h"
-#include "common/number_set.h"
+#include "common/integer_sets.h"
 #include "elements/element_traits.h"
 #include "laws/law_of.h"
 #include "mesh/element_properties.h"

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "common/matrix3.h"
-#include "system/six_lanes.h"
+#include "system/six_by_six.h"
 
 namespace pounding {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/number_set.h"
+#include "common/integer_sets.h"
 
 namespace pounding {
 namespace disjoint_sets_test {

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/magnitude.h"
+#include "common/array_reductions.h"
 #include "solvers/lcp.h"
 #include "support/full_rows.h"
 

@@ -1,4 +1,4 @@
-#include "model/solver.h"
+#include "model/model_scheme.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@
 namespace pounding {
 namespace {
 
-std::unique_ptr<interactions::ContactProblem> make_contact(const Solver::Parts& parts) {
+std::unique_ptr<interactions::ContactProblem> make_contact(const ModelScheme::Parts& parts) {
   if (parts.interface->constraints.empty()) return nullptr;
   auto contact = std::make_unique<interactions::ContactProblem>(
       parts.comm, *parts.interface, parts.systems, parts.meshes, parts.gap_tolerance);
@@ -81,7 +81,7 @@ GapWatch::Bound energy_bound(const interactions::ContactProblem& contact, std::s
 
 }  // namespace
 
-Solver::Solver(Parts parts) : parts_(std::move(parts)), contact_(make_contact(parts_)) {
+ModelScheme::ModelScheme(Parts parts) : parts_(std::move(parts)), contact_(make_contact(parts_)) {
   if (parts_.carried || interactions::has_fillers(*parts_.interface) ||
       !parts_.interface->sliding.empty()) {
     // Energy that a filler holds is no structure's, and the bounds are those of the first pairs:
@@ -103,7 +103,7 @@ Solver::Solver(Parts parts) : parts_(std::move(parts)), contact_(make_contact(pa
   make_stepper();
 }
 
-Solver::RowActions Solver::row_actions() {
+ModelScheme::RowActions ModelScheme::row_actions() {
   if (!gives_way_) return {contact_->impulses(), contact_->works()};
   std::ranges::copy(contact_->impulses(), impulses_.begin());
   std::ranges::copy(contact_->works(), works_.begin());
@@ -111,13 +111,13 @@ Solver::RowActions Solver::row_actions() {
   return {impulses_, works_};
 }
 
-void Solver::restart() {
+void ModelScheme::restart() {
   stepper_.reset();  // it refers to the contact problem
   contact_ = make_contact(parts_);
   make_stepper();
 }
 
-void Solver::make_stepper() {
+void ModelScheme::make_stepper() {
   const Parts& parts = parts_;
   stepper_ = std::make_unique<CdLagrange>(parts.comm, parts.systems, *parts.motion, parts.time_step,
                                           *parts.profile, parts.supports, parts.loads, parts.batch);
@@ -152,21 +152,21 @@ void Solver::make_stepper() {
   }
 }
 
-Solver::Parts solver_parts(MPI_Comm comm, const Scene& scene, const Model& model,
-                           std::span<const Mesh> meshes, Profile& profile) {
-  Solver::Parts parts{comm,
-                      model.systems,
-                      meshes,
-                      &model.interface,
-                      model.motion.get(),
-                      scene.gap_tolerance * model.interface.model_size,
-                      model.time_step,
-                      {},
-                      &profile,
-                      scene.progress_interval,
-                      scene.contacts,
-                      model.supports.get(),
-                      model.load_histories.get()};
+ModelScheme::Parts scheme_parts(MPI_Comm comm, const Scene& scene, const Model& model,
+                                std::span<const Mesh> meshes, Profile& profile) {
+  ModelScheme::Parts parts{comm,
+                           model.systems,
+                           meshes,
+                           &model.interface,
+                           model.motion.get(),
+                           scene.gap_tolerance * model.interface.model_size,
+                           model.time_step,
+                           {},
+                           &profile,
+                           scene.progress_interval,
+                           scene.contacts,
+                           model.supports.get(),
+                           model.load_histories.get()};
   for (const Building& building : model.buildings) {
     parts.energy_margins.push_back(building.energy_margin);
   }

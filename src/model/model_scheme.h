@@ -23,9 +23,9 @@ namespace pounding {
 
 /// The contact problem and the scheme of a model, put together in one place for the program and its
 /// benchmarks.
-class Solver {
+class ModelScheme {
  public:
-  /// Parts of a solver; all that is referred to must outlive it.
+  /// Parts of a scheme; all that is referred to must outlive it.
   struct Parts {
     MPI_Comm comm = MPI_COMM_NULL;
     std::span<const LinearSystem> systems;
@@ -47,7 +47,7 @@ class Solver {
   };
 
   /// Puts contact and scheme together, at t_0. Collective.
-  explicit Solver(Parts parts);
+  explicit ModelScheme(Parts parts);
   /// Back to t_0: all steps are forgotten, the bounds of the gap rates are kept. Contact and
   /// stepper are new objects. Collective.
   void restart();
@@ -107,9 +107,9 @@ class Solver {
   std::vector<double> works_;
 };
 
-/// Parts of the solver of a model; `meshes`: those of its structures.
-Solver::Parts solver_parts(MPI_Comm comm, const Scene& scene, const Model& model,
-                           std::span<const Mesh> meshes, Profile& profile);
+/// Parts of the scheme of a model; `meshes`: those of its structures.
+ModelScheme::Parts scheme_parts(MPI_Comm comm, const Scene& scene, const Model& model,
+                                std::span<const Mesh> meshes, Profile& profile);
 
 /// Bounds of the gap rates of structures at a time step [s] with their energy margins (see
 /// EnergyNorm), the same on all ranks; `contact` may be null. `progress_interval` [s]: see

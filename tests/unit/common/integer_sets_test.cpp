@@ -1,4 +1,4 @@
-#include "common/number_set.h"
+#include "common/integer_sets.h"
 
 #include <cstdlib>
 #include <limits>
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace pounding {
-namespace number_set_test {
+namespace integer_sets_test {
 
 TEST(NumberSet, IsAnOrderedSet) {
   NumberSet set;
@@ -44,5 +44,5 @@ TEST(NumberSet, EmptyHasNoNumbers) {
   EXPECT_EQ(set.place(0), -1);
 }
 
-}  // namespace number_set_test
+}  // namespace integer_sets_test
 }  // namespace pounding

@@ -1,4 +1,4 @@
-#include "mesh/sliding_order.h"
+#include "mesh/order_bearings.h"
 
 #include <algorithm>
 #include <deque>
@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "common/error.h"
-#include "common/number_set.h"
+#include "common/integer_sets.h"
 #include "mesh/connectivity.h"
 
 namespace pounding {

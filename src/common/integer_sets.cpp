@@ -1,4 +1,4 @@
-#include "common/number_set.h"
+#include "common/integer_sets.h"
 
 namespace pounding {
 

@@ -1,4 +1,4 @@
-#include "model/rest.h"
+#include "model/start_at_rest.h"
 
 #include <algorithm>
 #include <cmath>
