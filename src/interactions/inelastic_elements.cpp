@@ -123,7 +123,7 @@ void InelasticElements::find_ghosts() {
 
 void InelasticElements::take_ghosts(std::vector<double>& values) const {
   for (std::size_t g = 0; g < ghosts_.size(); ++g) {
-    values[ghosts_[g]] = halo_->ghosts()[halo_->place(g)];
+    values[ghosts_[g]] = halo_->ghosts()[halo_->slot(g)];
   }
 }
 

@@ -36,10 +36,10 @@ Halo::Halo(MPI_Comm comm, GlobalIndex first_owned, LocalIndex owned_count,
   const std::vector<int> receive_start = starts_of(needed);
   std::vector<int> next(receive_start.begin(), receive_start.end() - 1);
   std::vector<GlobalIndex> wanted(ghosts.size());
-  place_.resize(ghosts.size());
+  slot_.resize(ghosts.size());
   for (std::size_t i = 0; i < ghosts.size(); ++i) {
-    place_[i] = next[owner[i]]++;
-    wanted[place_[i]] = ghosts[i];
+    slot_[i] = next[owner[i]]++;
+    wanted[slot_[i]] = ghosts[i];
   }
 
   std::vector<int> given(ranks, 0);  // owned dofs per rank that needs them

@@ -17,7 +17,7 @@ namespace pounding {
 ///
 ///     halo.begin(w);  ... work on owned values ...  halo.end();  ... work on halo.ghosts() ...
 ///
-/// Ghost values lie grouped by owner: ghost i of the list given is at place(i).
+/// Ghost values lie grouped by owner: ghost i of the list given is at slot(i).
 class Halo {
  public:
   /// `ghosts`: global numbers of the ghost dofs, each owned by another rank. Owned dofs are
@@ -43,7 +43,7 @@ class Halo {
 
   const double* ghosts() const { return received_.data(); }
   std::size_t ghost_count() const { return received_.size(); }
-  LocalIndex place(std::size_t ghost) const { return place_[ghost]; }
+  LocalIndex slot(std::size_t ghost) const { return slot_[ghost]; }
   /// Ranks that this one receives from or sends to.
   int neighbour_count() const { return static_cast<int>(neighbours_.size()); }
   bool uses_common_memory() const { return shared_ != nullptr; }
@@ -62,7 +62,7 @@ class Halo {
   void start();
 
   MPI_Comm comm_ = MPI_COMM_NULL;
-  std::vector<LocalIndex> place_;
+  std::vector<LocalIndex> slot_;
   std::vector<LocalIndex> sent_dofs_;  ///< owned dofs in the order in which they are sent
   std::vector<double> received_;
   std::vector<Neighbour> neighbours_;       ///< by rank

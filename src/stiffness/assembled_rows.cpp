@@ -5,11 +5,11 @@
 
 namespace pounding::stiffness {
 
-void AssembledRows::Pattern::add(std::span<const LocalIndex> places) {
-  for (const LocalIndex row : places) {
+void AssembledRows::Pattern::add(std::span<const LocalIndex> slots) {
+  for (const LocalIndex row : slots) {
     if (row < 0 || row >= owned_) continue;
     auto& columns = columns_[row];
-    for (const LocalIndex column : places) {
+    for (const LocalIndex column : slots) {
       if (column >= 0) columns.push_back(column);
     }
     // Neighbours repeat each other: keep the list short while it grows.
@@ -40,15 +40,15 @@ AssembledRows::AssembledRows(Pattern&& pattern) : owned_dofs_(pattern.owned_) {
   ghost_part_.values.assign(ghost_part_.columns.size(), 0.0);
 }
 
-void AssembledRows::add(std::span<const LocalIndex> places, std::span<const double> matrix) {
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (places[i] < 0 || places[i] >= owned_dofs_) continue;
-    for (std::size_t j = 0; j < places.size(); ++j) {
-      const double value = matrix[i * places.size() + j];
-      if (places[j] >= owned_dofs_) {
-        add_entry(ghost_part_, places[i], places[j] - owned_dofs_, value);
-      } else if (places[j] >= 0) {
-        add_entry(owned_part_, places[i], places[j], value);
+void AssembledRows::add(std::span<const LocalIndex> slots, std::span<const double> matrix) {
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    if (slots[i] < 0 || slots[i] >= owned_dofs_) continue;
+    for (std::size_t j = 0; j < slots.size(); ++j) {
+      const double value = matrix[i * slots.size() + j];
+      if (slots[j] >= owned_dofs_) {
+        add_entry(ghost_part_, slots[i], slots[j] - owned_dofs_, value);
+      } else if (slots[j] >= 0) {
+        add_entry(owned_part_, slots[i], slots[j], value);
       }
     }
   }

@@ -11,11 +11,11 @@ namespace pounding::stiffness {
 /// the few elements that nothing better fits. Rows without entries cost nothing.
 class AssembledRows {
  public:
-  /// Entries that elements will have; `places` as in DofPlaces.
+  /// Entries that elements will have; `slots` as in DofSlots.
   class Pattern {
    public:
     explicit Pattern(LocalIndex owned_dofs) : owned_(owned_dofs) { columns_.resize(owned_dofs); }
-    void add(std::span<const LocalIndex> places);
+    void add(std::span<const LocalIndex> slots);
 
    private:
     friend class AssembledRows;
@@ -27,7 +27,7 @@ class AssembledRows {
 
   /// Adds an element matrix, shape (n, n), that the pattern knows. Entries sum in the order of the
   /// calls.
-  void add(std::span<const LocalIndex> places, std::span<const double> matrix);
+  void add(std::span<const LocalIndex> slots, std::span<const double> matrix);
 
   /// Rows with entries on owned columns, or on ghosts. An owned row is a column of one, too.
   const std::vector<LocalIndex>& owned_rows() const { return owned_part_.rows; }

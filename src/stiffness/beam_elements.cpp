@@ -86,7 +86,7 @@ BeamElements::Beam BeamElements::make(const std::array<LocalIndex, 2>& start,
 
 BeamElements::BeamElements(const std::vector<Beam>& beams, LocalIndex idle) {
   Batch empty;
-  for (auto& places : empty.start) places.fill(idle);
+  for (auto& slots : empty.start) slots.fill(idle);
   for (std::size_t i = 0; i < beams.size(); ++i) {
     const std::size_t lane = i % beams_at_once;
     if (lane == 0) batches_.push_back(empty);

@@ -23,7 +23,7 @@ namespace pounding::stiffness {
 class BeamElements {
  public:
   struct Beam {
-    /// Places of the six dofs in a row of each node.
+    /// Slots of the six dofs in a row of each node.
     std::array<LocalIndex, 2> start{};
     Matrix3 axes{};  ///< rows x, y, z
     double stretch = 0;
@@ -37,10 +37,10 @@ class BeamElements {
   static Beam make(const std::array<LocalIndex, 2>& start, std::span<const double> coordinates,
                    const ElementProperties& properties);
 
-  /// `idle`: place of six dofs that no node uses, for the lanes of the last batch.
+  /// `idle`: slot of six dofs that no node uses, for the lanes of the last batch.
   BeamElements(const std::vector<Beam>& beams, LocalIndex idle);
 
-  /// q += K w; both arrays hold all places. Allocates nothing.
+  /// q += K w; both arrays hold all slots. Allocates nothing.
   void apply(const double* w, double* q) const;
 
  private:

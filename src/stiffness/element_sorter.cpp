@@ -32,24 +32,24 @@ ElementSorter::ElementSorter(const Structure& structure, const Mesh& mesh,
       element_shapes_(shapes),
       forms_(forms),
       general_(structure, mesh, shapes) {
-  places_.owned_dofs = mesh.owned_dofs;
-  places_.of_dof.resize(mesh.dof_count);
+  slots_.owned_dofs = mesh.owned_dofs;
+  slots_.of_dof.resize(mesh.dof_count);
   for (LocalIndex dof = 0; dof < mesh.dof_count; ++dof) {
-    places_.of_dof[dof] =
+    slots_.of_dof[dof] =
         dof < mesh.owned_dofs
             ? dof
-            : mesh.owned_dofs + halo.place(static_cast<std::size_t>(dof - mesh.owned_dofs));
+            : mesh.owned_dofs + halo.slot(static_cast<std::size_t>(dof - mesh.owned_dofs));
   }
   for (LocalIndex node = 0; node < mesh.node_count(); ++node) {
-    std::array<LocalIndex, 6> place{};
+    std::array<LocalIndex, 6> slot{};
     for (int c = 0; c < 6; ++c) {
       const LocalIndex dof = mesh.dof(node, c);
-      place[c] = dof < 0 ? -1 : places_.of_dof[dof];
+      slot[c] = dof < 0 ? -1 : slots_.of_dof[dof];
     }
-    places_.of_node.push_back(place);
+    slots_.of_node.push_back(slot);
     if (node < mesh.owned_nodes) {
       const std::size_t n = node;
-      places_.node_end.push_back(mesh.first_dof[n] + component_count(mesh.free_components[n]));
+      slots_.node_end.push_back(mesh.first_dof[n] + component_count(mesh.free_components[n]));
     }
   }
 }
@@ -118,11 +118,11 @@ bool ElementSorter::add_rectangle(const Element& element, const ElementPropertie
 bool ElementSorter::add_beam(const Element& element) {
   const ElementBlock& block = mesh_.blocks[element.first];
   if (!forms_.beams || !is_beam(block.type) || !block.axial_force.empty()) return false;
-  const auto place = places(element);
+  const auto slot = slots(element);
   for (std::size_t i = 1; i < 12; ++i) {
     // Six dofs in a row, or none.
-    const LocalIndex first = place[i - i % 6];
-    if (place[i] != (first < 0 ? -1 : first + static_cast<LocalIndex>(i % 6))) return false;
+    const LocalIndex first = slot[i - i % 6];
+    if (slot[i] != (first < 0 ? -1 : first + static_cast<LocalIndex>(i % 6))) return false;
   }
   beams_[touches_ghost(element) ? 1 : 0].push_back(element);
   return true;
@@ -176,11 +176,11 @@ std::vector<std::unique_ptr<ElementLines>> ElementSorter::element_lines(bool out
   std::vector<std::unique_ptr<ElementLines>> lines;
   for (const auto& [frame, set] : largest_first(brick_sets_[outer ? 1 : 0])) {
     lines.push_back(
-        brick_lines(places_, element_shapes_.axes(frame), brick_shapes_, form_rows(*set)));
+        brick_lines(slots_, element_shapes_.axes(frame), brick_shapes_, form_rows(*set)));
   }
   for (const auto& [key, set] : largest_first(rectangle_sets_[outer ? 1 : 0])) {
     const auto& [frame, normal] = key;
-    lines.push_back(shell_lines(places_, element_shapes_.axes(frame), normal, rectangle_shapes_,
+    lines.push_back(shell_lines(slots_, element_shapes_.axes(frame), normal, rectangle_shapes_,
                                 form_rows(*set)));
   }
   return lines;
@@ -191,11 +191,10 @@ BeamElements ElementSorter::beam_elements(bool outer, LocalIndex idle) const {
   for (const Element& element : beams_[outer ? 1 : 0]) {
     const auto [b, e] = element;
     const ElementBlock& block = mesh_.blocks[b];
-    const auto place = places(element);
-    beams.push_back(
-        BeamElements::make({place[0] < 0 ? idle : place[0], place[6] < 0 ? idle : place[6]},
-                           gather_coordinates(mesh_, block, e, work_),
-                           element_properties(structure_.regions[block.region])));
+    const auto slot = slots(element);
+    beams.push_back(BeamElements::make({slot[0] < 0 ? idle : slot[0], slot[6] < 0 ? idle : slot[6]},
+                                       gather_coordinates(mesh_, block, e, work_),
+                                       element_properties(structure_.regions[block.region])));
   }
   return {beams, idle};
 }
@@ -203,8 +202,8 @@ BeamElements ElementSorter::beam_elements(bool outer, LocalIndex idle) const {
 std::vector<LocalIndex> ElementSorter::beam_dofs(bool outer) const {
   std::vector<LocalIndex> dofs;
   for (const Element& element : beams_[outer ? 1 : 0]) {
-    for (const LocalIndex place : places(element)) {
-      if (place >= 0 && place < mesh_.owned_dofs) dofs.push_back(place);
+    for (const LocalIndex slot : slots(element)) {
+      if (slot >= 0 && slot < mesh_.owned_dofs) dofs.push_back(slot);
     }
   }
   return dofs;
@@ -218,7 +217,7 @@ AssembledRows ElementSorter::assembled_rows() const {
     return static_cast<std::size_t>(element_layout(mesh_.blocks[element.first].type).size());
   };
   for (const Element& element : elements) {
-    pattern.add({places(element).data(), size_of_element(element)});
+    pattern.add({slots(element).data(), size_of_element(element)});
   }
   AssembledRows rows(std::move(pattern));
   for (const Element& element : elements) {
@@ -241,7 +240,7 @@ AssembledRows ElementSorter::assembled_rows() const {
                               element_properties(structure_.regions[block.region]),
                               block.axial_force[e], stiffness);
     }
-    rows.add({places(element).data(), size}, stiffness);
+    rows.add({slots(element).data(), size}, stiffness);
   }
   return rows;
 }
@@ -273,11 +272,11 @@ bool ElementSorter::touches_ghost(const Element& element) const {
                      [&](LocalIndex node) { return node >= mesh_.owned_nodes; });
 }
 
-ElementSorter::Places ElementSorter::places(const Element& element) const {
+ElementSorter::Slots ElementSorter::slots(const Element& element) const {
   const ElementBlock& block = mesh_.blocks[element.first];
   auto dofs = element_dofs(mesh_, block, element.second, element_layout(block.type));
   for (LocalIndex& dof : dofs) {
-    if (dof >= 0) dof = places_.of_dof[dof];
+    if (dof >= 0) dof = slots_.of_dof[dof];
   }
   return dofs;
 }

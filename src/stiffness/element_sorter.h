@@ -31,9 +31,9 @@ class ElementSorter {
   /// Results of `sort`; `outer`: elements that touch a ghost. Call in this order; rows are formed
   /// here, and elements that fit in none join the others.
   std::vector<std::unique_ptr<ElementLines>> element_lines(bool outer);
-  GeneralElements general_elements(bool outer) const { return general_.elements(outer, places_); }
+  GeneralElements general_elements(bool outer) const { return general_.elements(outer, slots_); }
   /// Owned dofs of those, some more than once.
-  std::vector<LocalIndex> general_dofs(bool outer) const { return general_.dofs(outer, places_); }
+  std::vector<LocalIndex> general_dofs(bool outer) const { return general_.dofs(outer, slots_); }
   /// Beams between nodes that are free or clamped in all six components; `idle` as there.
   BeamElements beam_elements(bool outer, LocalIndex idle) const;
   /// Owned dofs of those beams, some more than once.
@@ -42,7 +42,7 @@ class ElementSorter {
   ElementKinds kinds() const;
 
  private:
-  /// An element of the mesh: block, place in the block.
+  /// An element of the mesh: block, slot in the block.
   using Element = std::pair<std::size_t, std::size_t>;
   /// Elements that may stand in rows together, with `lines` edges along a row.
   template <std::size_t lines>
@@ -50,7 +50,7 @@ class ElementSorter {
     std::vector<RowElement<lines>> rows;
     std::vector<Element> elements;
   };
-  using Places = std::array<LocalIndex, max_element_size>;  ///< as in DofPlaces
+  using Slots = std::array<LocalIndex, max_element_size>;  ///< as in DofSlots
 
   void sort_shapes(std::size_t block);
   bool add_brick(const Element& element, const ElementProperties& properties);
@@ -62,13 +62,13 @@ class ElementSorter {
   template <std::size_t lines>
   ElementRows<lines> form_rows(RowSet<lines>& set);
   bool touches_ghost(const Element& element) const;
-  Places places(const Element& element) const;
+  Slots slots(const Element& element) const;
 
   const Structure& structure_;
   const Mesh& mesh_;
   const ElementShapes& element_shapes_;
   ProductForms forms_;
-  DofPlaces places_;
+  DofSlots slots_;
   mutable ElementWork work_;
   std::vector<BrickShape> brick_shapes_;
   std::vector<RectangleShape> rectangle_shapes_;

@@ -83,9 +83,9 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
       part.dofs.insert(part.dofs.end(), dofs.begin(), dofs.end());
     }
     sparse_ = std::make_unique<AssembledRows>(sorter.assembled_rows());
-    const std::size_t places = mesh.dof_count + dofs_per_node;
-    argument_ = ZeroedArray(places);
-    force_ = ZeroedArray(places);
+    const std::size_t slots = mesh.dof_count + dofs_per_node;
+    argument_ = ZeroedArray(slots);
+    force_ = ZeroedArray(slots);
     kinds_ = sorter.kinds();
     plan();
   });

@@ -67,7 +67,7 @@ class ElementStiffness final : public Stiffness {
   std::vector<DofRange> general_ranges_;   ///< owned dofs that others than rows read
   std::vector<DofRange> late_ranges_;      ///< owned dofs that rows do not hand over
   ElementKinds kinds_;
-  /// Owned dofs, ghosts, and six dofs that stay at rest for the places of clamped nodes.
+  /// Owned dofs, ghosts, and six dofs that stay at rest for the slots of clamped nodes.
   ZeroedArray argument_;  ///< w in general_ranges_, and ghosts
   ZeroedArray force_;     ///< of owned dofs zero between products
 };

@@ -11,7 +11,7 @@
 namespace pounding::stiffness {
 namespace {
 
-/// Places along a curve that fills space: what is close there is close in space. By the bits of the
+/// Positions along a space-filling curve: what is close there is close in space. By the bits of the
 /// three coordinates in turns.
 class SpaceCurve {
  public:
@@ -29,8 +29,8 @@ class SpaceCurve {
     scale_ = extent > 0 ? cells / extent : 0;
   }
 
-  /// Place of the middle of some nodes.
-  std::uint64_t place(std::span<const LocalIndex> nodes) const {
+  /// Position of the middle of some nodes.
+  std::uint64_t position(std::span<const LocalIndex> nodes) const {
     std::uint64_t result = 0;
     for (std::size_t d = 0; d < 3; ++d) {
       double sum = 0;
@@ -127,49 +127,49 @@ std::size_t StrainSorter::shape_of(Collection<Shape>& collection, std::size_t b)
 
 template <typename Shape>
 StrainElements<Shape> StrainSorter::in_order(const Collection<Shape>& collection, bool outer,
-                                             const DofPlaces& places) const {
+                                             const DofSlots& slots) const {
   const auto& elements = collection.elements[outer ? 1 : 0];
   const SpaceCurve curve(mesh_);
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
   for (std::size_t e = 0; e < elements.size(); ++e) {
-    order.push_back({curve.place(elements[e].nodes), e});
+    order.push_back({curve.position(elements[e].nodes), e});
   }
   std::sort(order.begin(), order.end());
   std::vector<typename StrainElements<Shape>::Element> sorted;
   sorted.reserve(elements.size());
-  for (const auto& [place, e] : order) sorted.push_back(elements[e]);
-  return {collection.shapes, sorted, places.owned_dofs, places.of_node};
+  for (const auto& [position, e] : order) sorted.push_back(elements[e]);
+  return {collection.shapes, sorted, slots.owned_dofs, slots.of_node};
 }
 
 /// Nodes with their components in the order in which elements extruded along an axis see them.
-DofPlaces StrainSorter::seen_along(std::size_t axis, const DofPlaces& places) {
+DofSlots StrainSorter::seen_along(std::size_t axis, const DofSlots& slots) {
   const Extrusion extrusion{axis, {}};
-  DofPlaces seen;
-  seen.owned_dofs = places.owned_dofs;
-  for (const auto& node : places.of_node) {
+  DofSlots seen;
+  seen.owned_dofs = slots.owned_dofs;
+  for (const auto& node : slots.of_node) {
     auto& turned = seen.of_node.emplace_back(node);
     for (std::size_t d = 0; d < 3; ++d) turned[d] = node[extrusion.direction(d)];
   }
   return seen;
 }
 
-GeneralElements StrainSorter::elements(bool outer, const DofPlaces& places) const {
+GeneralElements StrainSorter::elements(bool outer, const DofSlots& slots) const {
   return {
-      in_order(hexahedra_, outer, places),
-      {in_order(extruded_[0], outer, seen_along(0, places)),
-       in_order(extruded_[1], outer, seen_along(1, places)), in_order(extruded_[2], outer, places)},
-      in_order(quadrangles_, outer, places),
-      in_order(triangles_, outer, places)};
+      in_order(hexahedra_, outer, slots),
+      {in_order(extruded_[0], outer, seen_along(0, slots)),
+       in_order(extruded_[1], outer, seen_along(1, slots)), in_order(extruded_[2], outer, slots)},
+      in_order(quadrangles_, outer, slots),
+      in_order(triangles_, outer, slots)};
 }
 
-std::vector<LocalIndex> StrainSorter::dofs(bool outer, const DofPlaces& places) const {
+std::vector<LocalIndex> StrainSorter::dofs(bool outer, const DofSlots& slots) const {
   std::vector<LocalIndex> dofs;
   const auto append = [&](const auto& collection, std::size_t components) {
     for (const auto& element : collection.elements[outer ? 1 : 0]) {
       for (const LocalIndex node : element.nodes) {
         for (std::size_t c = 0; c < components; ++c) {
-          const LocalIndex place = places.of_node[node][c];
-          if (place >= 0 && place < places.owned_dofs) dofs.push_back(place);
+          const LocalIndex slot = slots.of_node[node][c];
+          if (slot >= 0 && slot < slots.owned_dofs) dofs.push_back(slot);
         }
       }
     }

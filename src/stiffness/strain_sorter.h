@@ -23,7 +23,7 @@ struct GeneralElements {
   StrainElements<QuadrangleStrains> quadrangles;
   StrainElements<TriangleStrains> triangles;
 
-  /// q += K w; both arrays hold all places. Allocates nothing.
+  /// q += K w; both arrays hold all slots. Allocates nothing.
   void apply(const double* w, double* q) const {
     hexahedra.apply(w, q);
     for (const auto& elements : extruded) elements.apply(w, q);
@@ -43,9 +43,9 @@ class StrainSorter {
   bool add(std::size_t block, std::size_t element, bool outer);
 
   /// Results of `add`.
-  GeneralElements elements(bool outer, const DofPlaces& places) const;
+  GeneralElements elements(bool outer, const DofSlots& slots) const;
   /// Owned dofs of the elements, some more than once.
-  std::vector<LocalIndex> dofs(bool outer, const DofPlaces& places) const;
+  std::vector<LocalIndex> dofs(bool outer, const DofSlots& slots) const;
   /// Elements that this rank counts.
   GlobalIndex counted() const { return counted_; }
 
@@ -65,10 +65,10 @@ class StrainSorter {
   template <typename Shape>
   std::size_t shape_of(Collection<Shape>& collection, std::size_t block);
   void find_coordinates(std::size_t block, std::size_t element);
-  static DofPlaces seen_along(std::size_t axis, const DofPlaces& places);
+  static DofSlots seen_along(std::size_t axis, const DofSlots& slots);
   template <typename Shape>
   StrainElements<Shape> in_order(const Collection<Shape>& collection, bool outer,
-                                 const DofPlaces& places) const;
+                                 const DofSlots& slots) const;
 
   const Structure& structure_;
   const Mesh& mesh_;

@@ -206,7 +206,7 @@ std::vector<double> with_ghosts(const Mesh& mesh, const std::vector<double>& own
   std::vector<double> values = owned;
   values.resize(mesh.dof_count);
   for (std::size_t i = 0; i < ghosts.size(); ++i) {
-    values[mesh.owned_dofs + static_cast<LocalIndex>(i)] = halo.ghosts()[halo.place(i)];
+    values[mesh.owned_dofs + static_cast<LocalIndex>(i)] = halo.ghosts()[halo.slot(i)];
   }
   return values;
 }

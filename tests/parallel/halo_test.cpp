@@ -31,7 +31,7 @@ void expect_ghosts_of_their_owners(bool common_memory) {
     std::fill(owned.begin(), owned.end(), -1.0);  // the values have left
     halo.end();
     for (std::size_t i = 0; i < ghosts.size(); ++i) {
-      ASSERT_EQ(halo.ghosts()[halo.place(i)], 1000.0 * round + static_cast<double>(ghosts[i]));
+      ASSERT_EQ(halo.ghosts()[halo.slot(i)], 1000.0 * round + static_cast<double>(ghosts[i]));
     }
   }
   EXPECT_EQ(halo.neighbour_count(), size - 1);
@@ -58,7 +58,7 @@ TEST(Halo, RanksThatShareNothingStaySilent) {
     halo.begin(owned.data());
     halo.end();
     if (rank == 1) {
-      ASSERT_EQ(halo.ghosts()[halo.place(0)], 3.5 + round);
+      ASSERT_EQ(halo.ghosts()[halo.slot(0)], 3.5 + round);
     }
   }
 }

@@ -48,7 +48,7 @@ struct Windows {
   Window v0, v1, v2;
 };
 
-/// Places of the nodes of a vector in a run.
+/// Offsets of the nodes of a vector in a run.
 struct RunEnds {
   WideMask inside;   ///< in the run at all
   WideLanes weight;  ///< 1, at the first and the last node 1/2; 0 outside
@@ -67,7 +67,7 @@ struct Arrays {
   double* v1;
   double* v2;
 
-  Arrays at(std::ptrdiff_t place) const { return {v0 + place, v1 + place, v2 + place}; }
+  Arrays at(std::ptrdiff_t offset) const { return {v0 + offset, v1 + offset, v2 + offset}; }
 };
 
 /// Forces on the nodes of a vector.

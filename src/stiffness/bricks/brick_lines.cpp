@@ -34,9 +34,9 @@ int round_up(int count) {
 /// side by side are handed over as one, as long as they stay small.
 class BrickLines final : public ElementLines {
  public:
-  BrickLines(const DofPlaces& places, const Matrix3& axes, const std::vector<BrickShape>& shapes,
+  BrickLines(const DofSlots& slots, const Matrix3& axes, const std::vector<BrickShape>& shapes,
              const BrickRows& rows)
-      : owned_dofs_(places.owned_dofs) {
+      : owned_dofs_(slots.owned_dofs) {
     const BrickPairs pairs = pair_chains(rows);
     rotated_ = axes != Matrix3{Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}};
     for (std::size_t d = 0; d < 3; ++d) {
@@ -53,7 +53,7 @@ class BrickLines final : public ElementLines {
     }
     std::vector<ChainForm> chain_forms;
     for (const auto& nodes : rows.chains) {
-      const BrickChain& chain = chains_.add(places, nodes);
+      const BrickChain& chain = chains_.add(slots, nodes);
       chain_forms.push_back({chain.length, chain.row});
       line_stride_ = std::max(line_stride_, round_up(chain.length + most_lanes));
     }
@@ -62,25 +62,25 @@ class BrickLines final : public ElementLines {
       stores_.push_back({store, false});
     }
     for (const PairSplit& split : schedule_.splits) {
-      pair_loads_.push_back(split.load ? plan_load(split.place) : PairLoad{});
+      pair_loads_.push_back(split.load ? plan_load(split.slot) : PairLoad{});
     }
     buffer_.assign(schedule_.buffer_size, 0.0);
   }
 
   std::size_t chain_count() const override { return stores_.size(); }
-  std::vector<LocalIndex> chain_dofs(std::size_t place) const override {
-    const BrickChain& chain = chains_.at(stores_[place].place.chain);
+  std::vector<LocalIndex> chain_dofs(std::size_t number) const override {
+    const BrickChain& chain = chains_.at(stores_[number].slot.chain);
     std::vector<LocalIndex> dofs;
     for (int p = 0; p < chain.length; ++p) {
       for (int c = 0; c < 3; ++c) {
-        const LocalIndex dof = chains_.place(chain, p, c);
+        const LocalIndex dof = chains_.slot(chain, p, c);
         if (dof >= 0 && dof < owned_dofs_) dofs.push_back(dof);
       }
     }
     return dofs;
   }
-  DofRange chain_range(std::size_t place) const override {
-    return chains_.at(stores_[place].place.chain).range;
+  DofRange chain_range(std::size_t number) const override {
+    return chains_.at(stores_[number].slot.chain).range;
   }
   void set_handed_over(const std::vector<char>& handed_over) override {
     for (std::size_t s = 0; s < stores_.size(); ++s) stores_[s].handed_over = handed_over[s] != 0;
@@ -108,13 +108,13 @@ class BrickLines final : public ElementLines {
 
  private:
   struct Store {
-    ChainStore place;
+    ChainStore slot;
     bool handed_over = false;
   };
 
   struct PairEnd {
     int node = 0;
-    std::array<LocalIndex, 3> near{};  ///< places of x, y, z, as in ChainEnd
+    std::array<LocalIndex, 3> near{};  ///< slots of x, y, z, as in ChainEnd
     std::array<LocalIndex, 3> far{};
   };
   /// How a pair of rows is loaded: a stretch of both in vectors, other nodes one by one.
@@ -128,7 +128,7 @@ class BrickLines final : public ElementLines {
   /// Sorts the stores of one step in the order of their dofs.
   void sort_stores(std::size_t begin, std::size_t end) {
     const auto first_of = [this](const Store& store) {
-      return chains_.at(store.place.chain).range.begin;
+      return chains_.at(store.slot.chain).range.begin;
     };
     std::stable_sort(stores_.begin() + static_cast<std::ptrdiff_t>(begin),
                      stores_.begin() + static_cast<std::ptrdiff_t>(end),
@@ -139,7 +139,7 @@ class BrickLines final : public ElementLines {
     LocalIndex added = 0;
     LocalIndex handed_over = 0;
     for (const Store& store : stores_) {
-      const DofRange range = chains_.at(store.place.chain).range;
+      const DofRange range = chains_.at(store.slot.chain).range;
       LocalIndex& longest = store.handed_over ? handed_over : added;
       longest = std::max(longest, range.end - range.begin);
     }
@@ -153,10 +153,10 @@ class BrickLines final : public ElementLines {
     if (chain.row) {
       load_row(w, chain.range.begin, chain.core, core);
     } else {
-      load_nodes(w, chains_.places(chain), chain.core, core);
+      load_nodes(w, chains_.slots(chain), chain.core, core);
     }
     for (const ChainEnd& end : chains_.ends(chain)) {
-      const Vector3 x = value(end.place, w, ghosts);
+      const Vector3 x = value(end.slot, w, ghosts);
       to.x[end.node] = x[0];
       to.y[end.node] = x[1];
       to.z[end.node] = x[2];
@@ -168,37 +168,37 @@ class BrickLines final : public ElementLines {
     if (load.clear) clear_forces(load.start, chain.length);
   }
   /// w of a node, less its origin.
-  Vector3 value(const std::array<LocalIndex, 3>& place, const StiffnessArgument& w,
+  Vector3 value(const std::array<LocalIndex, 3>& slot, const StiffnessArgument& w,
                 const double* ghosts) const {
-    return {value_at(place[0], owned_dofs_, w, ghosts) - w.origin[0],
-            value_at(place[1], owned_dofs_, w, ghosts) - w.origin[1],
-            value_at(place[2], owned_dofs_, w, ghosts) - w.origin[2]};
+    return {value_at(slot[0], owned_dofs_, w, ghosts) - w.origin[0],
+            value_at(slot[1], owned_dofs_, w, ghosts) - w.origin[1],
+            value_at(slot[2], owned_dofs_, w, ghosts) - w.origin[2]};
   }
   /// Common part of the two cores of a pair of rows, and the nodes beside that.
-  PairLoad plan_load(const PairPlace& place) const {
-    const BrickChain& near = chains_.at(place.chain[0]);
-    const BrickChain& far = chains_.at(place.chain[1]);
+  PairLoad plan_load(const PairSlot& slot) const {
+    const BrickChain& near = chains_.at(slot.chain[0]);
+    const BrickChain& far = chains_.at(slot.chain[1]);
     PairLoad load;
     load.begin = std::max(near.first, far.first);
     load.count = std::max(0, std::min(near.first + near.core, far.first + far.core) - load.begin);
     load.first = {near.range.begin + 3 * (load.begin - near.first),
                   far.range.begin + 3 * (load.begin - far.first)};
-    for (int p = 0; p < place.length; ++p) {
+    for (int p = 0; p < slot.length; ++p) {
       if (load.begin <= p && p < load.begin + load.count) continue;
       PairEnd& end = load.ends.emplace_back();
       end.node = p;
       for (int c = 0; c < 3; ++c) {
-        end.near[c] = chains_.place(near, p, c);
-        end.far[c] = chains_.place(far, p, c);
+        end.near[c] = chains_.slot(near, p, c);
+        end.far[c] = chains_.slot(far, p, c);
       }
     }
     return load;
   }
   /// Sums and differences of two chains that have not been loaded.
-  void load_pair(const PairPlace& place, const PairLoad& load, const StiffnessArgument& w,
+  void load_pair(const PairSlot& slot, const PairLoad& load, const StiffnessArgument& w,
                  const double* ghosts) const {
-    const ComponentArrays sum = displacements(place.line[0]);
-    const ComponentArrays difference = displacements(place.line[1]);
+    const ComponentArrays sum = displacements(slot.line[0]);
+    const ComponentArrays difference = displacements(slot.line[1]);
     load_row_pair(w, load.first, load.count, shifted(sum, load.begin),
                   shifted(difference, load.begin));
     for (const PairEnd& end : load.ends) {
@@ -214,20 +214,20 @@ class BrickLines final : public ElementLines {
   }
   void split_chains(std::size_t number, const StiffnessArgument& w, const double* ghosts) const {
     const PairSplit& split = schedule_.splits[number];
-    const PairPlace& place = split.place;
+    const PairSlot& slot = split.slot;
     double* const buffer = buffer_.data();
     if (split.load) {
-      load_pair(place, pair_loads_[number], w, ghosts);
+      load_pair(slot, pair_loads_[number], w, ghosts);
       for (std::size_t i = 0; rotated_ && i < 2; ++i) {
-        rotate_vectors(axes_, false, place.length, line_stride_, buffer + place.line[i]);
+        rotate_vectors(axes_, false, slot.length, line_stride_, buffer + slot.line[i]);
       }
     } else {
-      split_pair(buffer + place.node[0], buffer + place.node[1], place.length, line_stride_,
-                 {buffer + place.line[0], buffer + place.line[1]});
+      split_pair(buffer + slot.node[0], buffer + slot.node[1], slot.length, line_stride_,
+                 {buffer + slot.line[0], buffer + slot.line[1]});
     }
     if (split.clear) {
-      clear_forces(place.line[0], place.length);
-      clear_forces(place.line[1], place.length);
+      clear_forces(slot.line[0], slot.length);
+      clear_forces(slot.line[1], slot.length);
     }
   }
   void apply_step(const LineStep& step) const {
@@ -239,17 +239,17 @@ class BrickLines final : public ElementLines {
                     lines[2], line_stride_, step.count);
   }
   void join_chains(const PairJoin& join) const {
-    const auto& [place, first] = join;
+    const auto& [slot, first] = join;
     double* const buffer = buffer_.data();
-    join_pair({buffer + place.line[0], buffer + place.line[1]}, place.length, line_stride_, first,
-              buffer + place.node[0], buffer + place.node[1]);
+    join_pair({buffer + slot.line[0], buffer + slot.line[1]}, slot.length, line_stride_, first,
+              buffer + slot.node[0], buffer + slot.node[1]);
   }
   void store_chain(const Store& store, double* q, ForceReceiver& receiver) const {
-    const auto& [place, handed_over] = store;
-    const BrickChain& chain = chains_.at(place.chain);
+    const auto& [slot, handed_over] = store;
+    const BrickChain& chain = chains_.at(slot.chain);
     if (rotated_) {
       rotate_vectors(axes_, true, chain.length, line_stride_,
-                     buffer_.data() + place.start + 3 * line_stride_);
+                     buffer_.data() + slot.start + 3 * line_stride_);
     }
     add_ends(store, q);
     if (!handed_over) {
@@ -261,7 +261,7 @@ class BrickLines final : public ElementLines {
   }
   /// Adds the forces of a chain to q.
   void add_core(const Store& store, double* q) const {
-    const BrickChain& chain = chains_.at(store.place.chain);
+    const BrickChain& chain = chains_.at(store.slot.chain);
     if (chain.range.empty()) return;
     const LocalIndex size = chain.range.end - chain.range.begin;
     if (!chain.row) std::fill(added_.begin(), added_.begin() + size, 0.0);
@@ -270,25 +270,25 @@ class BrickLines final : public ElementLines {
   }
   /// Adds the forces of the nodes outside the core to q.
   void add_ends(const Store& store, double* q) const {
-    const BrickChain& chain = chains_.at(store.place.chain);
-    const ComponentArrays force = forces(store.place.start);
+    const BrickChain& chain = chains_.at(store.slot.chain);
+    const ComponentArrays force = forces(store.slot.start);
     const auto add = [&](LocalIndex dof, double value) {
       if (dof >= 0 && dof < owned_dofs_) q[dof] += value;
     };
     for (const ChainEnd& end : chains_.ends(chain)) {
-      add(end.place[0], force.x[end.node]);
-      add(end.place[1], force.y[end.node]);
-      add(end.place[2], force.z[end.node]);
+      add(end.slot[0], force.x[end.node]);
+      add(end.slot[1], force.y[end.node]);
+      add(end.slot[2], force.z[end.node]);
     }
   }
   /// Forces of a core with a range, that of its first dof to range[0].
   void collect_forces(const Store& store, double* range) const {
-    const BrickChain& chain = chains_.at(store.place.chain);
-    const ComponentArrays core = shifted(forces(store.place.start), chain.first);
+    const BrickChain& chain = chains_.at(store.slot.chain);
+    const ComponentArrays core = shifted(forces(store.slot.start), chain.first);
     if (chain.row) {
       store_row(core, chain.core, range);
     } else {
-      store_nodes(core, chains_.places(chain), chain.core, chain.range.begin, range);
+      store_nodes(core, chains_.slots(chain), chain.core, chain.range.begin, range);
     }
   }
   ComponentArrays displacements(int start) const {
@@ -322,10 +322,10 @@ class BrickLines final : public ElementLines {
 
 }  // namespace
 
-std::unique_ptr<ElementLines> brick_lines(const DofPlaces& places, const Matrix3& axes,
+std::unique_ptr<ElementLines> brick_lines(const DofSlots& slots, const Matrix3& axes,
                                           const std::vector<BrickShape>& shapes,
                                           const BrickRows& rows) {
-  return std::make_unique<BrickLines>(places, axes, shapes, rows);
+  return std::make_unique<BrickLines>(slots, axes, shapes, rows);
 }
 
 }  // namespace pounding::stiffness

@@ -19,7 +19,7 @@ struct BrickShape {
 
 /// Product of the bricks of one frame. `rows` of splittable bricks of `shapes`; `axes`: rows are
 /// the axes of the frame.
-std::unique_ptr<ElementLines> brick_lines(const DofPlaces& places, const Matrix3& axes,
+std::unique_ptr<ElementLines> brick_lines(const DofSlots& slots, const Matrix3& axes,
                                           const std::vector<BrickShape>& shapes,
                                           const BrickRows& rows);
 

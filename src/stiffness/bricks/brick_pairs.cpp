@@ -38,8 +38,8 @@ class PairFinder {
 
   BrickPairs run() {
     for (std::size_t r = 0; r < rows_.runs.size(); ++r) {
-      places_.push_back(
-          {find_place(r, corners_[0], corners_[1]), find_place(r, corners_[2], corners_[3])});
+      slots_.push_back(
+          {find_slot(r, corners_[0], corners_[1]), find_slot(r, corners_[2], corners_[3])});
     }
     find_extents();
     find_alone();
@@ -49,7 +49,7 @@ class PairFinder {
 
  private:
   /// Where a run meets a pair: offset of its first node.
-  struct Place {
+  struct Slot {
     std::size_t pair = 0;
     int offset = 0;
   };
@@ -62,7 +62,7 @@ class PairFinder {
   enum End : std::size_t { first, second };  ///< of a run: the pairs before and behind its bricks
 
   /// The pair of two chains of a run, made known; offsets are those of the near chain.
-  Place find_place(std::size_t run, std::size_t near, std::size_t far) {
+  Slot find_slot(std::size_t run, std::size_t near, std::size_t far) {
     const auto& [shape, chain, offset, count] = rows_.runs[run];
     const int shift = offset[far] - offset[near];
     const auto [found, fresh] =
@@ -81,9 +81,9 @@ class PairFinder {
     bricks_.resize(result_.pairs.size());
     for (std::size_t r = 0; r < rows_.runs.size(); ++r) {
       for (const End end : {first, second}) {
-        Place& place = places_[r][end];
-        place.offset -= result_.pairs[place.pair].near_begin;
-        bricks_[place.pair][end].push_back({r, place.offset, place.offset + rows_.runs[r].count});
+        Slot& slot = slots_[r][end];
+        slot.offset -= result_.pairs[slot.pair].near_begin;
+        bricks_[slot.pair][end].push_back({r, slot.offset, slot.offset + rows_.runs[r].count});
       }
     }
   }
@@ -160,16 +160,16 @@ class PairFinder {
 
   /// The pair at the given end of a piece's run, and where the piece meets it.
   void set_neighbour(const Piece& piece, End end, int& pair, int& offset) const {
-    const auto& places = places_[piece.run];
-    const Place& own = places[end == first ? second : first];
-    pair = static_cast<int>(places[end].pair);
-    offset = places[end].offset + piece.begin - own.offset;
+    const auto& slots = slots_[piece.run];
+    const Slot& own = slots[end == first ? second : first];
+    pair = static_cast<int>(slots[end].pair);
+    offset = slots[end].offset + piece.begin - own.offset;
   }
 
   const BrickRows& rows_;
-  std::array<std::size_t, 4> corners_{};  ///< places in ElementRun::chain: near, far, near, far
+  std::array<std::size_t, 4> corners_{};  ///< slots in ElementRun::chain: near, far, near, far
   std::map<std::tuple<int, int, int>, std::size_t> numbers_;
-  std::vector<std::array<Place, 2>> places_;               ///< per run
+  std::vector<std::array<Slot, 2>> slots_;                 ///< per run
   std::vector<std::array<std::vector<Piece>, 2>> bricks_;  ///< per pair: at which end of the run
   BrickPairs result_;
 };

@@ -66,7 +66,7 @@ class Scheduler {
   struct PairState {
     int uses = 0;  ///< steps to come
     bool open = false;
-    PairPlace place;
+    PairSlot slot;
   };
 
   void add_step(const PairStep& pair_step) {
@@ -83,8 +83,8 @@ class Scheduler {
         open(pair_step.pair[i], !covered);
         step.first_behind = covered;
       }
-      step.start[i] = {pair.place.line[0] + pair_step.offset[i],
-                       pair.place.line[1] + pair_step.offset[i]};
+      step.start[i] = {pair.slot.line[0] + pair_step.offset[i],
+                       pair.slot.line[1] + pair_step.offset[i]};
     }
     for (const int p : pair_step.pair) {
       if (p >= 0 && --pair_states_[index(p)].uses == 0) close(p);
@@ -101,17 +101,17 @@ class Scheduler {
     const bool load = pair.alone && chains_[index(pair.near)].row && chains_[index(pair.far)].row;
     PairState& state = pair_states_[index(number)];
     state.open = true;
-    state.place = {{pair.near, pair.far},
-                   {start_chain(pair.near, !load) + pair.near_begin,
-                    start_chain(pair.far, !load) + pair.far_begin},
-                   {},
-                   pair.length};
+    state.slot = {{pair.near, pair.far},
+                  {start_chain(pair.near, !load) + pair.near_begin,
+                   start_chain(pair.far, !load) + pair.far_begin},
+                  {},
+                  pair.length};
     if (pair.alone) {
-      state.place.line = state.place.node;
+      state.slot.line = state.slot.node;
     } else {
-      state.place.line = {pool_.take(), pool_.take()};
+      state.slot.line = {pool_.take(), pool_.take()};
     }
-    result_.splits.push_back({state.place, clear, load});
+    result_.splits.push_back({state.slot, clear, load});
   }
 
   /// A chain's line in the buffer; `load`: its nodes' values, if they are not there.
@@ -129,14 +129,14 @@ class Scheduler {
 
   void close(int number) {
     const ChainPair& pair = pairs_.pairs[index(number)];
-    const PairPlace& place = pair_states_[index(number)].place;
+    const PairSlot& slot = pair_states_[index(number)].slot;
     const std::array<bool, 2> first{join_chain(pair.near, pair), join_chain(pair.far, pair)};
-    result_.joins.push_back({place, first});
+    result_.joins.push_back({slot, first});
     if (!pair.alone) {
-      pool_.give_back(place.line[0]);
-      pool_.give_back(place.line[1]);
+      pool_.give_back(slot.line[0]);
+      pool_.give_back(slot.line[1]);
     }
-    for (const int number_of_chain : place.chain) {
+    for (const int number_of_chain : slot.chain) {
       ChainState& chain = chain_states_[index(number_of_chain)];
       if (--chain.uses > 0) continue;
       result_.stores.push_back({number_of_chain, chain.line});

@@ -19,7 +19,7 @@ struct ChainLoad {
   bool clear = false;  ///< forces start from zero
 };
 
-struct PairPlace {
+struct PairSlot {
   std::array<int, 2> chain{};  ///< near, far
   std::array<int, 2> node{};   ///< start of the near chain's and the far chain's nodes
   std::array<int, 2> line{};   ///< start of the sums and of the differences
@@ -27,13 +27,13 @@ struct PairPlace {
 };
 
 struct PairSplit {
-  PairPlace place;
+  PairSlot slot;
   bool clear = false;  ///< forces start from zero
   bool load = false;   ///< the chains have not been loaded: they are lent and rows in memory
 };
 
 struct PairJoin {
-  PairPlace place;
+  PairSlot slot;
   /// Nothing has been added to the forces of the near, of the far chain.
   std::array<bool, 2> first{};
 };

@@ -111,12 +111,12 @@ struct FourVectors {
 using FourLanes = FourVectors<Lanes>;
 
 /// The components from `begin` on of four nodes.
-inline void load_components(const StiffnessArgument& w, const LocalIndex* places, int begin,
+inline void load_components(const StiffnessArgument& w, const LocalIndex* slots, int begin,
                             FourLanes& v) {
-  load_argument(w, places[0] + begin, v.a);
-  load_argument(w, places[1] + begin, v.b);
-  load_argument(w, places[2] + begin, v.c);
-  load_argument(w, places[3] + begin, v.d);
+  load_argument(w, slots[0] + begin, v.a);
+  load_argument(w, slots[1] + begin, v.b);
+  load_argument(w, slots[2] + begin, v.c);
+  load_argument(w, slots[3] + begin, v.d);
   transpose(v.a, v.b, v.c, v.d);
 }
 
@@ -137,12 +137,12 @@ inline void load_argument(const StiffnessArgument& w, LocalIndex low, LocalIndex
   values += w.beta * velocity;
 }
 
-inline void load_components(const StiffnessArgument& w, const LocalIndex* places, int begin,
+inline void load_components(const StiffnessArgument& w, const LocalIndex* slots, int begin,
                             FourVectors<WideLanes>& v) {
-  load_argument(w, places[0] + begin, places[4] + begin, v.a);
-  load_argument(w, places[1] + begin, places[5] + begin, v.b);
-  load_argument(w, places[2] + begin, places[6] + begin, v.c);
-  load_argument(w, places[3] + begin, places[7] + begin, v.d);
+  load_argument(w, slots[0] + begin, slots[4] + begin, v.a);
+  load_argument(w, slots[1] + begin, slots[5] + begin, v.b);
+  load_argument(w, slots[2] + begin, slots[6] + begin, v.c);
+  load_argument(w, slots[3] + begin, slots[7] + begin, v.d);
   transpose(v.a, v.b, v.c, v.d);
 }
 
@@ -151,31 +151,31 @@ inline void store_halves(const WideLanes& values, double* low, double* high) {
   store(high, __builtin_shufflevector(values, values, 4, 5, 6, 7));
 }
 
-inline void store_rows(const FourVectors<WideLanes>& v, const LocalIndex* places, double* q) {
-  store_halves(v.a, q + places[0], q + places[4]);
-  store_halves(v.b, q + places[1], q + places[5]);
-  store_halves(v.c, q + places[2], q + places[6]);
-  store_halves(v.d, q + places[3], q + places[7]);
+inline void store_rows(const FourVectors<WideLanes>& v, const LocalIndex* slots, double* q) {
+  store_halves(v.a, q + slots[0], q + slots[4]);
+  store_halves(v.b, q + slots[1], q + slots[5]);
+  store_halves(v.c, q + slots[2], q + slots[6]);
+  store_halves(v.d, q + slots[3], q + slots[7]);
 }
 
 #endif
 
-inline void store_rows(const FourLanes& v, const LocalIndex* places, double* q) {
-  store(q + places[0], v.a);
-  store(q + places[1], v.b);
-  store(q + places[2], v.c);
-  store(q + places[3], v.d);
+inline void store_rows(const FourLanes& v, const LocalIndex* slots, double* q) {
+  store(q + slots[0], v.a);
+  store(q + slots[1], v.b);
+  store(q + slots[2], v.c);
+  store(q + slots[3], v.d);
 }
 
 /// Loads as many nodes as a vector has lanes.
 template <typename Vector>
-inline void load_vector(const StiffnessArgument& w, const LocalIndex* places, int p,
+inline void load_vector(const StiffnessArgument& w, const LocalIndex* slots, int p,
                         const SixArrays& to) {
   FourVectors<Vector> v;
-  load_components(w, places, 0, v);
+  load_components(w, slots, 0, v);
   store(to[0] + p, v.a);
   store(to[1] + p, v.b);
-  load_components(w, places, 2, v);
+  load_components(w, slots, 2, v);
   store(to[2] + p, v.a);
   store(to[3] + p, v.b);
   store(to[4] + p, v.c);
@@ -185,29 +185,29 @@ inline void load_vector(const StiffnessArgument& w, const LocalIndex* places, in
 /// Stores the forces of nodes; `q`: where dof 0 would stand.
 template <typename Vector>
 inline void store_components(const double* x, const double* y, const double* z, const double* t,
-                             const LocalIndex* places, double* q) {
+                             const LocalIndex* slots, double* q) {
   FourVectors<Vector> v;
   load(x, v.a);
   load(y, v.b);
   load(z, v.c);
   load(t, v.d);
   transpose(v.a, v.b, v.c, v.d);
-  store_rows(v, places, q);
+  store_rows(v, slots, q);
 }
 
 template <typename Vector>
-inline void store_vector(const SixArrays& from, int p, const LocalIndex* places, LocalIndex first,
+inline void store_vector(const SixArrays& from, int p, const LocalIndex* slots, LocalIndex first,
                          double* q) {
-  store_components<Vector>(from[0] + p, from[1] + p, from[2] + p, from[3] + p, places, q - first);
-  store_components<Vector>(from[2] + p, from[3] + p, from[4] + p, from[5] + p, places,
+  store_components<Vector>(from[0] + p, from[1] + p, from[2] + p, from[3] + p, slots, q - first);
+  store_components<Vector>(from[2] + p, from[3] + p, from[4] + p, from[5] + p, slots,
                            q - first + 2);
 }
 
 }  // namespace
 
-void load_nodes(const StiffnessArgument& w, const LocalIndex* places, int count,
+void load_nodes(const StiffnessArgument& w, const LocalIndex* slots, int count,
                 const ComponentArrays& to) {
-  for (int p = 0; p < count; ++p) load_node(w, places[p], p, to);
+  for (int p = 0; p < count; ++p) load_node(w, slots[p], p, to);
 }
 
 void load_row(const StiffnessArgument& w, LocalIndex first, int count, const ComponentArrays& to) {
@@ -243,9 +243,9 @@ void load_row_pair(const StiffnessArgument& w, std::array<LocalIndex, 2> first, 
       });
 }
 
-void store_nodes(const ComponentArrays& from, const LocalIndex* places, int count, LocalIndex first,
+void store_nodes(const ComponentArrays& from, const LocalIndex* slots, int count, LocalIndex first,
                  double* q) {
-  for (int p = 0; p < count; ++p) store_node(from, p, q + (places[p] - first));
+  for (int p = 0; p < count; ++p) store_node(from, p, q + (slots[p] - first));
 }
 
 void store_row(const ComponentArrays& from, int count, double* q) {
@@ -277,23 +277,23 @@ void rotate_vectors(const Matrix3& rotation, bool back, int count, std::ptrdiff_
   }
 }
 
-void load_shell_nodes(const StiffnessArgument& w, const LocalIndex* places, int count,
+void load_shell_nodes(const StiffnessArgument& w, const LocalIndex* slots, int count,
                       const SixArrays& to) {
   in_groups(
-      count, [&]<typename Vector>(Vector, int p) { load_vector<Vector>(w, places + p, p, to); },
+      count, [&]<typename Vector>(Vector, int p) { load_vector<Vector>(w, slots + p, p, to); },
       [&](int p) {
-        for (std::size_t c = 0; c < 6; ++c) to[c][p] = w[places[p] + static_cast<LocalIndex>(c)];
+        for (std::size_t c = 0; c < 6; ++c) to[c][p] = w[slots[p] + static_cast<LocalIndex>(c)];
       });
 }
 
-void store_shell_nodes(const SixArrays& from, const LocalIndex* places, int count, LocalIndex first,
+void store_shell_nodes(const SixArrays& from, const LocalIndex* slots, int count, LocalIndex first,
                        double* q) {
   in_groups(
       count,
-      [&]<typename Vector>(Vector, int p) { store_vector<Vector>(from, p, places + p, first, q); },
+      [&]<typename Vector>(Vector, int p) { store_vector<Vector>(from, p, slots + p, first, q); },
       [&](int p) {
         for (std::size_t c = 0; c < 6; ++c) {
-          q[places[p] - first + static_cast<LocalIndex>(c)] = from[c][p];
+          q[slots[p] - first + static_cast<LocalIndex>(c)] = from[c][p];
         }
       });
 }

@@ -18,8 +18,8 @@ struct ComponentArrays {
   double* z = nullptr;
 };
 
-/// w, less its origin, of `count` nodes with dofs x, y, z in a row from places[p].
-void load_nodes(const StiffnessArgument& w, const LocalIndex* places, int count,
+/// w, less its origin, of `count` nodes with dofs x, y, z in a row from slots[p].
+void load_nodes(const StiffnessArgument& w, const LocalIndex* slots, int count,
                 const ComponentArrays& to);
 /// Loads nodes whose dofs follow each other from `first`: a row.
 void load_row(const StiffnessArgument& w, LocalIndex first, int count, const ComponentArrays& to);
@@ -28,7 +28,7 @@ void load_row_pair(const StiffnessArgument& w, std::array<LocalIndex, 2> first, 
                    const ComponentArrays& sum, const ComponentArrays& difference);
 
 /// The way back: dof `first` stands at q[0].
-void store_nodes(const ComponentArrays& from, const LocalIndex* places, int count, LocalIndex first,
+void store_nodes(const ComponentArrays& from, const LocalIndex* slots, int count, LocalIndex first,
                  double* q);
 void store_row(const ComponentArrays& from, int count, double* q);
 
@@ -42,12 +42,12 @@ void rotate_vectors(const Matrix3& rotation, bool back, int count, std::ptrdiff_
 /// One array per component: x, y, z and the rotations about them.
 using SixArrays = std::array<double*, 6>;
 
-/// w of `count` nodes whose dofs start at places[p].
-void load_shell_nodes(const StiffnessArgument& w, const LocalIndex* places, int count,
+/// w of `count` nodes whose dofs start at slots[p].
+void load_shell_nodes(const StiffnessArgument& w, const LocalIndex* slots, int count,
                       const SixArrays& to);
 
 /// The way back: dof `first` stands at q[0].
-void store_shell_nodes(const SixArrays& from, const LocalIndex* places, int count, LocalIndex first,
+void store_shell_nodes(const SixArrays& from, const LocalIndex* slots, int count, LocalIndex first,
                        double* q);
 
 }  // namespace pounding::stiffness

@@ -54,21 +54,21 @@ class StoredForces final : public ForceReceiver {
   double* product_;
 };
 
-/// Where the value of a dof stands: owned dofs in an array of their own, ghosts in another. A place
+/// Where the value of a dof stands: owned dofs in an array of their own, ghosts in another. A slot
 /// below owned_dofs is an owned dof; owned_dofs + i is ghost value i; -1 is a clamped component.
-struct DofPlaces {
+struct DofSlots {
   LocalIndex owned_dofs = 0;
   std::vector<LocalIndex> of_dof;                  ///< per local dof, owned then ghost
   std::vector<std::array<LocalIndex, 6>> of_node;  ///< per local node: its components
   std::vector<LocalIndex> node_end;                ///< per owned node: one beyond its last dof
 };
 
-/// Value at a place; 0 at -1. `owned` is indexed by dof.
+/// Value at a slot; 0 at -1. `owned` is indexed by dof.
 template <typename Values>
-inline double value_at(LocalIndex place, LocalIndex owned_dofs, const Values& owned,
+inline double value_at(LocalIndex slot, LocalIndex owned_dofs, const Values& owned,
                        const double* ghosts) {
-  if (place < 0) return 0;
-  return place < owned_dofs ? owned[place] : ghosts[place - owned_dofs];
+  if (slot < 0) return 0;
+  return slot < owned_dofs ? owned[slot] : ghosts[slot - owned_dofs];
 }
 
 /// The product of elements in rows, of one kind and one frame. It visits chains of nodes in the
@@ -82,10 +82,10 @@ class ElementLines {
   /// Chains in the order in which `apply` is done with them.
   virtual std::size_t chain_count() const = 0;
   /// Owned dofs of a chain to which the elements add.
-  virtual std::vector<LocalIndex> chain_dofs(std::size_t place) const = 0;
+  virtual std::vector<LocalIndex> chain_dofs(std::size_t chain) const = 0;
   /// All dofs of the chain's nodes, those included to which the elements do not add, if they are
   /// owned and follow each other; else an empty range.
-  virtual DofRange chain_range(std::size_t place) const = 0;
+  virtual DofRange chain_range(std::size_t chain) const = 0;
   /// Decides for every chain whether its forces, final as they are, are handed over and not added
   /// to q; only for those with a range. Call once.
   virtual void set_handed_over(const std::vector<char>& handed_over) = 0;

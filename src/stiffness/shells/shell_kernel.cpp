@@ -19,8 +19,8 @@ constexpr std::size_t along = 1;   // the run
 constexpr std::size_t across = 2;  // it
 constexpr std::size_t both = 3;
 
-/// Place in B of component c, row s, both named by the run.
-std::size_t place(std::size_t c, std::size_t s, int run_axis) {
+/// Offset in B of component c, row s, both named by the run.
+std::size_t offset(std::size_t c, std::size_t s, int run_axis) {
   constexpr std::array<std::size_t, 6> other_component{1, 0, 2, 4, 3, 5};
   constexpr std::array<std::size_t, 4> other_row{sum, across, along, both};
   return run_axis == 0 ? s + corner_count * c : other_row[s] + corner_count * other_component[c];
@@ -209,7 +209,7 @@ std::optional<ShellSplit> split_rectangle(const ElementProperties& properties,
                                           const std::array<double, 2>& lengths, int run_axis) {
   BlockPicker picker(stiffness_by_parity(ElementType::shell4, properties,
                                          {lengths[0], lengths[1], 0}, gmsh_corner));
-  const auto value = [&](std::size_t c, std::size_t s) { return place(c, s, run_axis); };
+  const auto value = [&](std::size_t c, std::size_t s) { return offset(c, s, run_axis); };
   ShellSplit split;
   split.stretch = picker.take2(value(0, along), value(1, across));
   split.bending = {picker.take2(value(1, both), value(5, across)),

@@ -27,9 +27,9 @@ int padded(int length) {
 ///     w -> [load chain] -> u0[] .. u5[] -> [runs] -> f0[] .. f5[] -> [store chain] -> q
 class ShellLines final : public ElementLines {
  public:
-  ShellLines(const DofPlaces& places, const Matrix3& axes, int normal,
+  ShellLines(const DofSlots& slots, const Matrix3& axes, int normal,
              const std::vector<RectangleShape>& shapes, const RectangleRows& rows)
-      : owned_dofs_(places.owned_dofs) {
+      : owned_dofs_(slots.owned_dofs) {
     const int run = rows.run_axis;
     const std::array<int, 3> order{(normal + 1 + run) % 3, (normal + 2 - run) % 3, normal};
     rotated_ = axes != Matrix3{Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}};
@@ -43,24 +43,24 @@ class ShellLines final : public ElementLines {
       if (!split) throw std::logic_error("ShellLines: a shape that does not split");
       splits_.push_back(*split);
     }
-    for (const auto& nodes : rows.chains) add_chain(places, nodes);
+    for (const auto& nodes : rows.chains) add_chain(slots, nodes);
     schedule(rows);
   }
 
   std::size_t chain_count() const override { return stores_.size(); }
-  std::vector<LocalIndex> chain_dofs(std::size_t place_in_order) const override {
-    const Chain& chain = chain_of(stores_[place_in_order].chain);
+  std::vector<LocalIndex> chain_dofs(std::size_t number) const override {
+    const Chain& chain = chain_of(stores_[number].chain);
     std::vector<LocalIndex> dofs;
     for (int p = 0; p < chain.length; ++p) {
       for (int c = 0; c < components; ++c) {
-        const LocalIndex dof = place(chain, p, c);
+        const LocalIndex dof = slot(chain, p, c);
         if (dof >= 0 && dof < owned_dofs_) dofs.push_back(dof);
       }
     }
     return dofs;
   }
-  DofRange chain_range(std::size_t place_in_order) const override {
-    return chain_of(stores_[place_in_order].chain).range;
+  DofRange chain_range(std::size_t number) const override {
+    return chain_of(stores_[number].chain).range;
   }
   void set_handed_over(const std::vector<char>& handed_over) override {
     for (std::size_t s = 0; s < stores_.size(); ++s) {
@@ -88,7 +88,7 @@ class ShellLines final : public ElementLines {
 
  private:
   struct Chain {
-    int begin = 0;  ///< into places_: one per node if plain, else six
+    int begin = 0;  ///< into slots_: one per node if plain, else six
     int length = 0;
     bool plain = false;  ///< every node owns six dofs in a row
     DofRange range;      ///< as in chain_range
@@ -107,14 +107,14 @@ class ShellLines final : public ElementLines {
     std::size_t stores_end = 0;
   };
 
-  void add_chain(const DofPlaces& places, const std::vector<LocalIndex>& nodes) {
-    Chain chain{static_cast<int>(places_.size()), static_cast<int>(nodes.size()), true, {}};
+  void add_chain(const DofSlots& slots, const std::vector<LocalIndex>& nodes) {
+    Chain chain{static_cast<int>(slots_.size()), static_cast<int>(nodes.size()), true, {}};
     bool contiguous = true;
     for (const LocalIndex node : nodes) {
-      const auto& place = places.of_node[node];
-      const LocalIndex first = place[0];
+      const auto& slot = slots.of_node[node];
+      const LocalIndex first = slot[0];
       for (int c = 0; c < components; ++c) {
-        chain.plain = chain.plain && first >= 0 && place[c] == first + c;
+        chain.plain = chain.plain && first >= 0 && slot[c] == first + c;
       }
       chain.plain = chain.plain && first + components <= owned_dofs_;
       contiguous = contiguous && chain.plain && (node == nodes[0] || first == chain.range.end);
@@ -123,8 +123,8 @@ class ShellLines final : public ElementLines {
     }
     if (!contiguous) chain.range = {};
     for (const LocalIndex node : nodes) {
-      const auto& place = places.of_node[node];
-      places_.insert(places_.end(), place.begin(), place.begin() + (chain.plain ? 1 : components));
+      const auto& slot = slots.of_node[node];
+      slots_.insert(slots_.end(), slot.begin(), slot.begin() + (chain.plain ? 1 : components));
     }
     line_stride_ = std::max(line_stride_, padded(chain.length));
     chains_.push_back(chain);
@@ -168,11 +168,11 @@ class ShellLines final : public ElementLines {
     double* const line = buffer_.data() + transfer.start;
     const SixArrays to = arrays(line);
     if (chain.plain) {
-      load_shell_nodes(w, places_.data() + chain.begin, chain.length, to);
+      load_shell_nodes(w, slots_.data() + chain.begin, chain.length, to);
     } else {
       for (int p = 0; p < chain.length; ++p) {
         for (int c = 0; c < components; ++c) {
-          to[c][p] = value_at(place(chain, p, c), owned_dofs_, w, ghosts);
+          to[c][p] = value_at(slot(chain, p, c), owned_dofs_, w, ghosts);
         }
       }
     }
@@ -190,14 +190,14 @@ class ShellLines final : public ElementLines {
     if (!transfer.handed_over) {
       for (int p = 0; p < chain.length; ++p) {
         for (int c = 0; c < components; ++c) {
-          const LocalIndex dof = place(chain, p, c);
+          const LocalIndex dof = slot(chain, p, c);
           if (dof >= 0 && dof < owned_dofs_) q[dof] += from[c][p];
         }
       }
       return;
     }
     const auto [begin, end] = chain.range;
-    store_shell_nodes(from, places_.data() + chain.begin, chain.length, begin, range_.data());
+    store_shell_nodes(from, slots_.data() + chain.begin, chain.length, begin, range_.data());
     receiver.receive(begin, end, range_.data());
   }
   /// Turns displacements and rotations, or forces and moments, from global axes or back.
@@ -214,9 +214,9 @@ class ShellLines final : public ElementLines {
     }
     return result;
   }
-  LocalIndex place(const Chain& chain, int node, int component) const {
-    const LocalIndex* const places = places_.data() + chain.begin;
-    return chain.plain ? places[node] + component : places[components * node + component];
+  LocalIndex slot(const Chain& chain, int node, int component) const {
+    const LocalIndex* const slots = slots_.data() + chain.begin;
+    return chain.plain ? slots[node] + component : slots[components * node + component];
   }
   const Chain& chain_of(int number) const { return chains_[number]; }
 
@@ -226,7 +226,7 @@ class ShellLines final : public ElementLines {
   std::array<int, 3> component_{};  ///< where x, y, z stand in a line
   std::vector<ShellSplit> splits_;  ///< per shape
   std::vector<Chain> chains_;
-  std::vector<LocalIndex> places_;
+  std::vector<LocalIndex> slots_;
   std::vector<Run> runs_;
   std::vector<Transfer> loads_;
   std::vector<Transfer> stores_;
@@ -238,10 +238,10 @@ class ShellLines final : public ElementLines {
 
 }  // namespace
 
-std::unique_ptr<ElementLines> shell_lines(const DofPlaces& places, const Matrix3& axes, int normal,
+std::unique_ptr<ElementLines> shell_lines(const DofSlots& slots, const Matrix3& axes, int normal,
                                           const std::vector<RectangleShape>& shapes,
                                           const RectangleRows& rows) {
-  return std::make_unique<ShellLines>(places, axes, normal, shapes, rows);
+  return std::make_unique<ShellLines>(slots, axes, normal, shapes, rows);
 }
 
 }  // namespace pounding::stiffness

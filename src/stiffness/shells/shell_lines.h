@@ -20,7 +20,7 @@ struct RectangleShape {
 
 /// Product of the rectangular shells that lie in the planes across one axis, `normal`, of a frame.
 /// `rows` of splittable rectangles of `shapes`; `axes`: rows are the axes of the frame.
-std::unique_ptr<ElementLines> shell_lines(const DofPlaces& places, const Matrix3& axes, int normal,
+std::unique_ptr<ElementLines> shell_lines(const DofSlots& slots, const Matrix3& axes, int normal,
                                           const std::vector<RectangleShape>& shapes,
                                           const RectangleRows& rows);
 

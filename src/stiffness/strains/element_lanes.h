@@ -61,10 +61,9 @@ static inline __attribute__((always_inline)) ElementLanes load_half_rows(
 
 #endif
 
-/// Adds the lanes from `first` on, as many as a `Part` has, to the values at a place.
+/// Adds the lanes from `first` on, as many as a `Part` has, to the values there.
 template <std::size_t first, typename Part>
-static inline __attribute__((always_inline)) void add_part(const ElementLanes& values,
-                                                           double* place) {
+static inline __attribute__((always_inline)) void add_part(const ElementLanes& values, double* to) {
   Part part, sum;
   if constexpr (sizeof part == sizeof(ElementLanes)) {
     std::memcpy(&part, &values, sizeof part);
@@ -73,8 +72,8 @@ static inline __attribute__((always_inline)) void add_part(const ElementLanes& v
   } else {
     part = __builtin_shufflevector(values, values, first, first + 1);
   }
-  load(place, sum);
-  store(place, sum + part);
+  load(to, sum);
+  store(to, sum + part);
 }
 
 // Sums of products of a batch of elements, rounded once per product where the machine can.

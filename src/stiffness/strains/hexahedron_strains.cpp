@@ -70,28 +70,28 @@ inline __attribute__((always_inline)) void corners_of(const ElementLanes* s, Ele
 constexpr int none = -1;
 
 /// Where the numbers of X^-1, T and M stand among the element's own.
-struct Places {
+struct Offsets {
   std::array<std::array<int, 3>, 3> inverse{};
   std::array<std::array<int, 3>, mode_count> skew{}, mean{};
 };
 
 template <bool extruded>
-constexpr Places number_places() {
+constexpr Offsets number_offsets() {
   using Strains = HexahedronStrains<extruded>;
-  Places places;
+  Offsets offsets;
   int inverse = Strains::inverse, skew = Strains::skew, mean = Strains::mean;
   for (std::size_t j = 0; j < 3; ++j) {
     for (std::size_t k = 0; k < 3; ++k) {
-      places.inverse[j][k] = extruded && (j == 2) != (k == 2) ? none : inverse++;
+      offsets.inverse[j][k] = extruded && (j == 2) != (k == 2) ? none : inverse++;
     }
   }
   for (std::size_t m = 0; m < mode_count; ++m) {
     for (std::size_t j = 0; j < 3; ++j) {
-      places.skew[m][j] = extruded && (m != xi_eta || j == 2) ? none : skew++;
-      places.mean[m][j] = extruded && (m == xi_eta || j != 2) ? none : mean++;
+      offsets.skew[m][j] = extruded && (m != xi_eta || j == 2) ? none : skew++;
+      offsets.mean[m][j] = extruded && (m == xi_eta || j != 2) ? none : mean++;
     }
   }
-  return places;
+  return offsets;
 }
 
 /// The c_m, those of the first group first. c of mode m and component i has number 3 m + i.
@@ -109,13 +109,13 @@ constexpr std::array<std::size_t, strain_count> grouped_strains() {
 }
 
 /// value += number * other, unless the number is zero for all such elements.
-inline __attribute__((always_inline)) void add(const ElementLanes* n, int place,
+inline __attribute__((always_inline)) void add(const ElementLanes* n, int offset,
                                                const ElementLanes& other, ElementLanes& value) {
-  if (place != none) value = plus(value, n[place], other);
+  if (offset != none) value = plus(value, n[offset], other);
 }
-inline __attribute__((always_inline)) void take(const ElementLanes* n, int place,
+inline __attribute__((always_inline)) void take(const ElementLanes* n, int offset,
                                                 const ElementLanes& other, ElementLanes& value) {
-  if (place != none) value = less(value, n[place], other);
+  if (offset != none) value = less(value, n[offset], other);
 }
 
 constexpr double tolerance = 1e-13;  // of the element's extent
@@ -150,7 +150,7 @@ std::array<std::size_t, 8> corners_along(std::size_t third) {
 
 template <bool extruded>
 void HexahedronStrains<extruded>::product(const ElementLanes* n, ElementLanes* values) {
-  constexpr Places places = number_places<extruded>();
+  constexpr Offsets offsets = number_offsets<extruded>();
   constexpr auto order = grouped_strains<extruded>();
   ElementLanes c[strain_count];
   ElementLanes g[3][3];  // of component i along j
@@ -161,17 +161,17 @@ void HexahedronStrains<extruded>::product(const ElementLanes* n, ElementLanes* v
 #pragma GCC unroll 4
     for (std::size_t m = 0; m < mode_count; ++m) {
 #pragma GCC unroll 4
-      for (std::size_t k = 0; k < 3; ++k) take(n, places.skew[m][k], sums[k], sums[3 + m]);
+      for (std::size_t k = 0; k < 3; ++k) take(n, offsets.skew[m][k], sums[k], sums[3 + m]);
       c[3 * m + i] = sums[3 + m];
     }
 #pragma GCC unroll 4
     for (std::size_t j = 0; j < 3; ++j) {
       g[i][j] = ElementLanes{};
 #pragma GCC unroll 4
-      for (std::size_t k = 0; k < 3; ++k) add(n, places.inverse[j][k], sums[k], g[i][j]);
+      for (std::size_t k = 0; k < 3; ++k) add(n, offsets.inverse[j][k], sums[k], g[i][j]);
 #pragma GCC unroll 4
       for (std::size_t m = 0; m < mode_count; ++m) {
-        add(n, places.mean[m][j], sums[3 + m], g[i][j]);
+        add(n, offsets.mean[m][j], sums[3 + m], g[i][j]);
       }
     }
   }
@@ -192,15 +192,15 @@ void HexahedronStrains<extruded>::product(const ElementLanes* n, ElementLanes* v
 #pragma GCC unroll 4
     for (std::size_t j = 0; j < 3; ++j) {
 #pragma GCC unroll 4
-      for (std::size_t k = 0; k < 3; ++k) add(n, places.inverse[j][k], stress[i][j], s[k]);
+      for (std::size_t k = 0; k < 3; ++k) add(n, offsets.inverse[j][k], stress[i][j], s[k]);
     }
 #pragma GCC unroll 4
     for (std::size_t m = 0; m < mode_count; ++m) {
       s[3 + m] = c[3 * m + i];
 #pragma GCC unroll 4
-      for (std::size_t j = 0; j < 3; ++j) add(n, places.mean[m][j], stress[i][j], s[3 + m]);
+      for (std::size_t j = 0; j < 3; ++j) add(n, offsets.mean[m][j], stress[i][j], s[3 + m]);
 #pragma GCC unroll 4
-      for (std::size_t k = 0; k < 3; ++k) take(n, places.skew[m][k], s[3 + m], s[k]);
+      for (std::size_t k = 0; k < 3; ++k) take(n, offsets.skew[m][k], s[3 + m], s[k]);
     }
     corners_of(s, values + i);
   }
@@ -240,7 +240,7 @@ template <bool extruded>
 std::array<double, HexahedronStrains<extruded>::number_count> HexahedronStrains<extruded>::numbers(
     std::span<const double> coordinates, std::span<const double> stiffness) {
   constexpr auto sign = signs();
-  constexpr Places places = number_places<extruded>();
+  constexpr Offsets offsets = number_offsets<extruded>();
   std::array<Vector3, node_count> x{};  // relative to the first node, to keep digits far away
   Matrix3 natural{};                    // X_kj
   std::array<Vector3, mode_count> of_modes{};
@@ -252,15 +252,15 @@ std::array<double, HexahedronStrains<extruded>::number_count> HexahedronStrains<
     }
   }
   std::array<double, number_count> n{};
-  const auto put = [&n](int place, double value) {
-    if (place != none) n[static_cast<std::size_t>(place)] += value;
+  const auto put = [&n](int offset, double value) {
+    if (offset != none) n[static_cast<std::size_t>(offset)] += value;
   };
   const Matrix3 to_space = pounding::inverse(natural);
   for (std::size_t j = 0; j < 3; ++j) {
     for (std::size_t k = 0; k < 3; ++k) {
-      put(places.inverse[j][k], to_space[j][k]);
+      put(offsets.inverse[j][k], to_space[j][k]);
       for (std::size_t m = 0; m < mode_count; ++m) {
-        put(places.skew[m][k], of_modes[m][j] * to_space[j][k]);
+        put(offsets.skew[m][k], of_modes[m][j] * to_space[j][k]);
       }
     }
   }
@@ -272,11 +272,11 @@ std::array<double, HexahedronStrains<extruded>::number_count> HexahedronStrains<
     const Field force = multiplied(stiffness, sheared);
     n[lame + 1] = product_of(force, sheared) / 4;
     for (std::size_t m = 0; m < mode_count; ++m) {
-      if (places.mean[m][j] == none) continue;
+      if (offsets.mean[m][j] == none) continue;
       for (std::size_t a = 0; a < node_count; ++a) {
         mean_of[m][j] += sign[4 + m][a] / 8 * force[3 * a + i] / (2 * n[lame + 1]);
       }
-      put(places.mean[m][j], mean_of[m][j]);
+      put(offsets.mean[m][j], mean_of[m][j]);
     }
   }
   Field stretched{};
@@ -285,7 +285,7 @@ std::array<double, HexahedronStrains<extruded>::number_count> HexahedronStrains<
   // Fields of one c, without mean gradient.
   constexpr auto order = grouped_strains<extruded>();
   std::array<Field, strain_count> fields{};
-  std::size_t place = modes;
+  std::size_t offset = modes;
   for (std::size_t s = 0; s < strain_count; ++s) {
     const std::size_t m = order[s] / 3;
     for (std::size_t a = 0; a < node_count; ++a) {
@@ -293,7 +293,7 @@ std::array<double, HexahedronStrains<extruded>::number_count> HexahedronStrains<
     }
     const Field force = multiplied(stiffness, fields[s]);
     for (std::size_t other = s < even_count ? 0 : even_count; other <= s; ++other) {
-      n[place++] = product_of(fields[other], force);
+      n[offset++] = product_of(fields[other], force);
     }
   }
   return n;

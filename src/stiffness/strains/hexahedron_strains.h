@@ -32,7 +32,7 @@ struct HexahedronStrains {
   static constexpr std::size_t strain_count = mode_count * components;
   static constexpr std::size_t even_count = extruded ? 5 : strain_count;  ///< of the first group
 
-  // Places of the numbers.
+  // Offsets of the numbers.
   static constexpr std::size_t lame = 0;                             ///< lambda, mu; times V
   static constexpr std::size_t inverse = lame + 2;                   ///< X^-1, row by row
   static constexpr std::size_t skew = inverse + (extruded ? 5 : 9);  ///< T, row by row

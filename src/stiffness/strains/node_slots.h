@@ -25,24 +25,24 @@ class NodeSlots {
   /// Starts of the slots of one node of each of the elements of a batch.
   using Starts = std::array<std::uint32_t, element_lane_count>;
 
-  /// `owned_dofs` as in DofPlaces.
+  /// `owned_dofs` as in DofSlots.
   NodeSlots(LocalIndex owned_dofs, std::size_t nodes)
       : owned_dofs_(owned_dofs), slot_of_node_(nodes, 0), start_(1, -1) {}
 
-  /// Start of a node's slot; `places` as in DofPlaces.
-  std::uint32_t start_of(std::size_t node, const std::array<LocalIndex, 6>& places) {
+  /// Start of a node's slot; `dofs` as in DofSlots.
+  std::uint32_t start_of(std::size_t node, const std::array<LocalIndex, 6>& dofs) {
     bool moves = false;
     bool whole = true;
     for (std::size_t c = 0; c < components; ++c) {
-      moves = moves || places[c] >= 0;
-      whole = whole && places[c] >= 0 && places[c] == places[0] + static_cast<LocalIndex>(c);
+      moves = moves || dofs[c] >= 0;
+      whole = whole && dofs[c] >= 0 && dofs[c] == dofs[0] + static_cast<LocalIndex>(c);
     }
     std::uint32_t& slot = slot_of_node_[node];
     if (moves && slot == 0) {
       slot = static_cast<std::uint32_t>(start_.size());
-      start_.push_back(whole ? places[0] : -1);
+      start_.push_back(whole ? dofs[0] : -1);
       for (std::size_t c = 0; !whole && c < components; ++c) {
-        if (places[c] >= 0) single_.push_back({places[c], slot * stride + c});
+        if (dofs[c] >= 0) single_.push_back({dofs[c], slot * stride + c});
       }
     }
     return slot * static_cast<std::uint32_t>(stride);
@@ -55,7 +55,7 @@ class NodeSlots {
     forces_ = values_;
   }
 
-  /// Takes w; three values beyond its last place are read.
+  /// Takes w; three values beyond its last dof are read.
   void read(const double* w) const {
     double* to = values_.data();
     for (const LocalIndex start : start_) {
@@ -71,7 +71,7 @@ class NodeSlots {
       }
       to += stride;
     }
-    for (const auto& [place, at] : single_) values_[at] = w[place];
+    for (const auto& [dof, at] : single_) values_[at] = w[dof];
   }
 
   /// Adds the forces of owned dofs to q and starts anew.
@@ -84,8 +84,8 @@ class NodeSlots {
       }
       from += stride;
     }
-    for (const auto& [place, at] : single_) {
-      if (place < owned_dofs_) q[place] += forces_[at];
+    for (const auto& [dof, at] : single_) {
+      if (dof < owned_dofs_) q[dof] += forces_[at];
     }
     std::fill(forces_.begin(), forces_.end(), 0.0);
   }
@@ -134,8 +134,8 @@ class NodeSlots {
 
   LocalIndex owned_dofs_;
   std::vector<std::uint32_t> slot_of_node_;  ///< while slots are given out
-  std::vector<LocalIndex> start_;            ///< per slot: place of the first dof if all follow it
-  std::vector<std::pair<LocalIndex, std::size_t>> single_;  ///< place and copy of other dofs
+  std::vector<LocalIndex> start_;            ///< per slot: first dof if all follow it
+  std::vector<std::pair<LocalIndex, std::size_t>> single_;  ///< other dofs and their copies
   mutable LaneArray values_;
   mutable LaneArray forces_;  ///< zero between products
 };

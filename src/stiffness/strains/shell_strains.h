@@ -25,7 +25,7 @@ struct QuadrangleStrains {
   static constexpr std::size_t components = 6;
   static constexpr std::size_t size = node_count * components;
 
-  // Places of the numbers.
+  // Offsets of the numbers.
   static constexpr std::size_t axes = 0;           ///< rows x, y, z
   static constexpr std::size_t height = axes + 9;  ///< nodes 2 and 4 above, 1 and 3 below the plane
   static constexpr std::size_t edges = height + 1;   ///< x, y from node 1 to 2, 2 to 3, 3 to 4
@@ -55,7 +55,7 @@ struct TriangleStrains {
   static constexpr std::size_t components = 6;
   static constexpr std::size_t size = node_count * components;
 
-  // Places of the numbers.
+  // Offsets of the numbers.
   static constexpr std::size_t axes = 0;              ///< rows x, y, z
   static constexpr std::size_t edges = axes + 9;      ///< x_p, x_r, y_r
   static constexpr std::size_t spin = edges + 3;      ///< 1 / (2 J)

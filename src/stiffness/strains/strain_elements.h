@@ -35,11 +35,11 @@ class StrainElements {
   };
 
   /// Elements that are close to each other should follow each other. `owned_dofs`, `of_node` as in
-  /// DofPlaces.
+  /// DofSlots.
   StrainElements(const std::vector<Numbers>& shapes, const std::vector<Element>& elements,
                  LocalIndex owned_dofs, const std::vector<std::array<LocalIndex, 6>>& of_node);
 
-  /// q += K w on owned dofs; both arrays hold all places, w three values beyond them. Allocates
+  /// q += K w on owned dofs; both arrays hold all slots, w three values beyond them. Allocates
   /// nothing.
   void apply(const double* w, double* q) const;
 
