@@ -106,7 +106,7 @@ void read_meshes(MPI_Comm comm, Scene& scene, Profile& profile, const ContactsKn
 void build_meshes(MPI_Comm comm, Scene& scene, std::span<const double> stiffness_factors,
                   Profile& profile, const ContactsKnown& contacts_known, Model& model) {
   const std::size_t count = scene.structures.size();
-  WholeMeshes whole{std::vector<GlobalMesh>(count), std::vector<MatPlace>(count)};
+  WholeMeshes whole{std::vector<GlobalMesh>(count), std::vector<MatOutline>(count)};
   (scene.mesh_pieces.empty() ? share_meshes : read_meshes)(comm, scene, profile, contacts_known,
                                                            whole, model);
   for (const Mesh& mesh : model.meshes) {

@@ -48,7 +48,7 @@ void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, MeshReader& rea
   model.buildings[s].findings.files = std::move(read.files);
   model.buildings[s].findings.divided = std::move(read.divided);
   if (structure.soil) {
-    whole.mats[s] = mat_place(structure, mesh);
+    whole.mats[s] = mat_outline(structure, mesh);
     lay_foundation(whole.mats[s], structure);
   }
   model.buildings[s].absorbing = interactions::find_absorbing_nodes(scene, structure, mesh);
@@ -61,7 +61,7 @@ void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, MeshReader& rea
 
 WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model) {
   const std::size_t count = scene.structures.size();
-  WholeMeshes whole{std::vector<GlobalMesh>(count), std::vector<MatPlace>(count)};
+  WholeMeshes whole{std::vector<GlobalMesh>(count), std::vector<MatOutline>(count)};
   std::vector<const Structure*> structures;
   for (const Structure& structure : scene.structures) structures.push_back(&structure);
   MeshReader reader(std::move(structures), scene.mesh_time_limit);

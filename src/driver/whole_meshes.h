@@ -17,7 +17,7 @@ namespace pounding {
 /// model's own part.
 struct WholeMeshes {
   std::vector<GlobalMesh> meshes;  ///< per structure
-  std::vector<MatPlace> mats;      ///< likewise, of those on soil
+  std::vector<MatOutline> mats;    ///< likewise, of those on soil
 };
 
 /// Hands all that ranks have to know of the whole meshes beside their parts to

@@ -10,7 +10,7 @@
 #include "common/integer_sets.h"
 #include "common/matrix3.h"
 #include "elements/element_traits.h"
-#include "mesh/facet_place.h"
+#include "mesh/facet_point.h"
 #include "mesh/global_mesh.h"
 
 namespace pounding {

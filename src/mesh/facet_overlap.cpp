@@ -5,12 +5,12 @@
 #include <numbers>
 
 #include "common/matrix3.h"
-#include "mesh/facet_place.h"
+#include "mesh/facet_point.h"
 
 namespace pounding {
 namespace {
 
-/// A place of a plane; the third coordinate is 0.
+/// A point of a plane; the third coordinate is 0.
 using Polygon = std::vector<Vector3>;
 
 /// Less than this part of the facet in common is nothing.
@@ -79,7 +79,7 @@ Polygon cut(const Polygon& polygon, const Vector3& a, const Vector3& b) {
   return kept;
 }
 
-/// Whether shares are no polynomials of the place.
+/// Whether shares are no polynomials of the position.
 bool is_distorted(std::span<const Vector3> corners) {
   if (corners.size() < 4) return false;
   const Vector3 across = minus(corners[2], corners[0]);
@@ -103,13 +103,13 @@ class Plane {
     y_ = cross(normal, x_);
   }
   bool has_area() const { return has_area_; }
-  Vector3 place(const Vector3& x) const {
+  Vector3 point(const Vector3& x) const {
     const Vector3 arm = minus(x, origin_);
     return {dot(arm, x_), dot(arm, y_), 0};
   }
   Polygon polygon(std::span<const Vector3> corners) const {
     Polygon polygon;
-    for (const Vector3& corner : corners) polygon.push_back(place(corner));
+    for (const Vector3& corner : corners) polygon.push_back(point(corner));
     return polygon;
   }
 
@@ -118,47 +118,47 @@ class Plane {
   bool has_area_ = false;
 };
 
-/// The place of a facet whose corners are seen as `seen` that is seen at x.
-OverlapPlace place_at(std::span<const Vector3> corners, std::span<const Vector3> seen,
+/// Point of a facet whose corners are seen as `seen` that is seen at x.
+OverlapPoint point_at(std::span<const Vector3> corners, std::span<const Vector3> seen,
                       const Vector3& x, double weight) {
-  OverlapPlace found;
-  const FacetPlace at = nearest_place(seen, x);
+  OverlapPoint found;
+  const FacetPoint at = nearest_point(seen, x);
   found.shares = at.shares;
   found.bulges = at.bulges;
   found.weight = weight;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    for (std::size_t d = 0; d < 3; ++d) found.place[d] += at.shares[i] * corners[i][d];
+    for (std::size_t d = 0; d < 3; ++d) found.x[d] += at.shares[i] * corners[i][d];
   }
   return found;
 }
 
-std::vector<OverlapPlace> of_lines(std::span<const Vector3> facet, std::span<const Vector3> other) {
-  std::vector<OverlapPlace> places;
+std::vector<OverlapPoint> of_lines(std::span<const Vector3> facet, std::span<const Vector3> other) {
+  std::vector<OverlapPoint> points;
   const Vector3 line = minus(facet[1], facet[0]);
   const double square = dot(line, line);
-  if (!(square > 0)) return places;
+  if (!(square > 0)) return points;
   const auto [low, high] = std::minmax({dot(minus(other[0], facet[0]), line) / square,
                                         dot(minus(other[1], facet[0]), line) / square});
   const double from = std::max(low, 0.0);
   const double to = std::min(high, 1.0);
-  if (to - from <= sliver) return places;
+  if (to - from <= sliver) return points;
   const GaussRule& gauss = rule(false);
   for (std::size_t q = 0; q < gauss.points.size(); ++q) {
     const Vector3 x = point_between(facet[0], facet[1], from + (to - from) * gauss.points[q]);
-    places.push_back(place_at(facet, facet, x, (to - from) * std::sqrt(square) * gauss.weights[q]));
+    points.push_back(point_at(facet, facet, x, (to - from) * std::sqrt(square) * gauss.weights[q]));
   }
-  return places;
+  return points;
 }
 
 }  // namespace
 
-std::vector<OverlapPlace> overlap_places(std::span<const Vector3> facet,
+std::vector<OverlapPoint> overlap_points(std::span<const Vector3> facet,
                                          std::span<const Vector3> other) {
-  std::vector<OverlapPlace> places;
-  if ((facet.size() == 2) != (other.size() == 2)) return places;
+  std::vector<OverlapPoint> points;
+  if ((facet.size() == 2) != (other.size() == 2)) return points;
   if (facet.size() == 2) return of_lines(facet, other);
   const Plane plane(facet);
-  if (!plane.has_area()) return places;
+  if (!plane.has_area()) return points;
   const Polygon seen = plane.polygon(facet);
   Polygon common = plane.polygon(other);
   if (area_of(common) < 0) std::ranges::reverse(common);
@@ -174,12 +174,12 @@ std::vector<OverlapPlace> overlap_places(std::span<const Vector3> facet,
       for (std::size_t b = 0; b < gauss.points.size(); ++b) {
         const Vector3 side = point_between(common[i - 1], common[i], gauss.points[b]);
         const Vector3 x = point_between(common[0], side, gauss.points[a]);
-        places.push_back(place_at(facet, seen, x,
+        points.push_back(point_at(facet, seen, x,
                                   twice * gauss.points[a] * gauss.weights[a] * gauss.weights[b]));
       }
     }
   }
-  return places;
+  return points;
 }
 
 }  // namespace pounding

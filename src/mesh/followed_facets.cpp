@@ -10,10 +10,10 @@
 namespace pounding {
 namespace {
 
-/// Parts of a facet's longest edge: offsets up to `nothing` are none; places nearer to each other
-/// than `same_place` are one.
+/// Parts of a facet's longest edge: offsets up to `nothing` are none; points nearer to each other
+/// than `same_point` are one.
 constexpr double nothing = 1e-13;
-constexpr double same_place = 1e-6;
+constexpr double same_point = 1e-6;
 
 /// Where a facet turns, arms up to this length are eccentricities of beams and slabs, however fine
 /// the mesh [m].
@@ -34,7 +34,7 @@ double box_distance(const BoundingBox& a, const BoundingBox& b) {
 }
 
 /// Turn of a face, at its place, for a displacement of corner i.
-Vector3 turn_of(const FacetPlace& at, std::size_t i, const Vector3& u) {
+Vector3 turn_of(const FacetPoint& at, std::size_t i, const Vector3& u) {
   const Vector3 tilt = cross(at.gradients[i], at.normal);
   const double out = dot(at.normal, u);
   const double drill = dot(cross(at.normal, at.gradients[i]), u) / 2;
@@ -51,9 +51,9 @@ std::vector<Vector3> corners_of(const GlobalMesh& mesh, const Facet& facet) {
   return corners;
 }
 
-BoundingBox box_of(const std::vector<Vector3>& places) {
+BoundingBox box_of(const std::vector<Vector3>& points) {
   BoundingBox box;
-  for (const Vector3& x : places) box.include(x);
+  for (const Vector3& x : points) box.include(x);
   return box;
 }
 
@@ -91,22 +91,22 @@ double FollowedFacets::reach(const Facet& facet) const {
   return turns(facet) ? std::max(edge, longest_arm) : edge;
 }
 
-std::vector<FollowedPlace> FollowedFacets::nearest(const Vector3& x) const {
-  std::vector<FollowedPlace> found;
+std::vector<FollowedPoint> FollowedFacets::nearest(const Vector3& x) const {
+  std::vector<FollowedPoint> found;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t f = 0; f < facets_.size(); ++f) {
-    const double margin = same_place * boxes_[f].diagonal();
+    const double margin = same_point * boxes_[f].diagonal();
     if (box_distance(boxes_[f], {x, x}) > least + margin) continue;
-    const FollowedPlace followed{&facets_[f], nearest_place(corners_of(mesh_, facets_[f]), x)};
+    const FollowedPoint followed{&facets_[f], nearest_point(corners_of(mesh_, facets_[f]), x)};
     if (followed.at.distance > least + margin) continue;
     found.push_back(followed);
     least = std::min(least, followed.at.distance);
   }
-  const FollowedPlace best = *std::ranges::min_element(
-      found, {}, [](const FollowedPlace& followed) { return followed.at.distance; });
-  const double margin = same_place * longest_edge(*best.facet);
-  std::erase_if(found, [&](const FollowedPlace& followed) {
-    return pounding::distance(followed.at.place, best.at.place) > margin ||
+  const FollowedPoint best = *std::ranges::min_element(
+      found, {}, [](const FollowedPoint& followed) { return followed.at.distance; });
+  const double margin = same_point * longest_edge(*best.facet);
+  std::erase_if(found, [&](const FollowedPoint& followed) {
+    return pounding::distance(followed.at.x, best.at.x) > margin ||
            turns(*followed.facet) != turns(*best.facet) ||
            followed.facet->count != best.facet->count;
   });
@@ -121,9 +121,9 @@ std::vector<const Facet*> FollowedFacets::near(const BoundingBox& box) const {
   return found;
 }
 
-void FollowedFacets::follow(const FollowedPlace& followed, const Vector3& x, double weight,
+void FollowedFacets::follow(const FollowedPoint& followed, const Vector3& x, double weight,
                             std::vector<Carrier>& carriers) const {
-  Vector3 arm = minus(x, followed.at.place);
+  Vector3 arm = minus(x, followed.at.x);
   if (followed.at.distance <= nothing * longest_edge(*followed.facet)) arm = {0, 0, 0};
   const bool facet_turns = turns(*followed.facet);
   for (std::size_t i = 0; i < followed.facet->corners().size(); ++i) {
@@ -174,7 +174,7 @@ Vector3 FollowedFacets::normal_of(const GlobalIndex* nodes, std::size_t width) c
       cross(minus(mesh_.position(nodes[1]), x), minus(mesh_.position(nodes[width - 1]), x)));
 }
 
-Vector3 FollowedFacets::bent(const FollowedPlace& followed, const Vector3& bulge) const {
+Vector3 FollowedFacets::bent(const FollowedPoint& followed, const Vector3& bulge) const {
   constexpr double parallel = 0.99;
   Vector3 normal = followed.at.normal;
   if (followed.facet->count == 2) {
@@ -193,7 +193,7 @@ Vector3 FollowedFacets::bent(const FollowedPlace& followed, const Vector3& bulge
 }
 
 /// How far the edges of a facet that turns bend beside their chords.
-void FollowedFacets::add_bulges(const FollowedPlace& followed, double weight,
+void FollowedFacets::add_bulges(const FollowedPoint& followed, double weight,
                                 std::vector<Carrier>& carriers) const {
   const auto corners = followed.facet->corners();
   const std::size_t edges = corners.size() == 2 ? 1 : corners.size();

@@ -3,21 +3,21 @@
 #include <map>
 #include <vector>
 
-#include "mesh/facet_place.h"
+#include "mesh/facet_point.h"
 #include "mesh/global_mesh.h"
 
 namespace pounding {
 
 /// A facet that may be followed, and where.
-struct FollowedPlace {
+struct FollowedPoint {
   const Facet* facet = nullptr;
-  FacetPlace at;
+  FacetPoint at;
 };
 
-/// Places of a facet's corners [m].
+/// Points of a facet's corners [m].
 std::vector<Vector3> corners_of(const GlobalMesh& mesh, const Facet& facet);
 
-/// Facets that nodes of a tie follow, and their motion at a place: see add_tied_nodes. Serial; mesh
+/// Facets that nodes of a tie follow, and their motion at a point: see add_tied_nodes. Serial; mesh
 /// and facets must outlive it.
 class FollowedFacets {
  public:
@@ -30,17 +30,17 @@ class FollowedFacets {
   /// Distance up to which a facet is followed [m].
   double reach(const Facet& facet) const;
 
-  /// The facet that is nearest to a place, and those that meet it at the place that is nearest.
-  std::vector<FollowedPlace> nearest(const Vector3& x) const;
+  /// The facet that is nearest to a point, and those that meet it at the point that is nearest.
+  std::vector<FollowedPoint> nearest(const Vector3& x) const;
   /// Facets whose boxes come as near to a box as they are followed at most.
   std::vector<const Facet*> near(const BoundingBox& box) const;
 
   /// Adds `weight` times the motion of a facet at x to the blocks of a node's carriers, rows of
   /// rotations as well.
-  void follow(const FollowedPlace& followed, const Vector3& x, double weight,
+  void follow(const FollowedPoint& followed, const Vector3& x, double weight,
               std::vector<Carrier>& carriers) const;
   /// Part of a bulge that is followed: beams bend in every direction, shells out of their planes.
-  Vector3 bent(const FollowedPlace& followed, const Vector3& bulge) const;
+  Vector3 bent(const FollowedPoint& followed, const Vector3& bulge) const;
 
  private:
   /// Elements that bend along a line.
@@ -50,7 +50,7 @@ class FollowedFacets {
   };
   void find_bending();
   Vector3 normal_of(const GlobalIndex* nodes, std::size_t width) const;
-  void add_bulges(const FollowedPlace& followed, double weight,
+  void add_bulges(const FollowedPoint& followed, double weight,
                   std::vector<Carrier>& carriers) const;
 
   const GlobalMesh& mesh_;
@@ -63,7 +63,7 @@ class FollowedFacets {
 /// The carrier of a node among those of a tied one, made if there is none.
 Carrier& carrier_of(GlobalIndex node, std::vector<Carrier>& carriers);
 
-/// Box of some places.
-BoundingBox box_of(const std::vector<Vector3>& places);
+/// Box of some points.
+BoundingBox box_of(const std::vector<Vector3>& points);
 
 }  // namespace pounding

@@ -12,7 +12,7 @@
 #include "common/integer_sets.h"
 #include "elements/element_traits.h"
 #include "mesh/element_checks.h"
-#include "mesh/facet_place.h"
+#include "mesh/facet_point.h"
 #include "mesh/probe_set.h"
 #include "mesh/rigid_nodes.h"
 #include "mesh/soil_node.h"

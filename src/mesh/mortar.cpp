@@ -23,21 +23,21 @@ constexpr double mostly = 0.5;
 /// Parts of a node's largest entry that are round-off.
 constexpr double relative_round_off = 1e-12;
 
-double size_of(const std::vector<OverlapPlace>& places) {
+double size_of(const std::vector<OverlapPoint>& points) {
   double sum = 0;
-  for (const OverlapPlace& place : places) sum += place.weight;
+  for (const OverlapPoint& point : points) sum += point.weight;
   return sum;
 }
 
 /// Part that a facet has in common with one that it follows.
 struct Piece {
   const Facet* followed = nullptr;
-  std::vector<OverlapPlace> places;
+  std::vector<OverlapPoint> points;
   Vector3 middle() const {
-    const double whole = size_of(places);
+    const double whole = size_of(points);
     Vector3 mean{0, 0, 0};
-    for (const OverlapPlace& place : places) {
-      for (std::size_t d = 0; d < 3; ++d) mean[d] += place.weight / whole * place.place[d];
+    for (const OverlapPoint& point : points) {
+      for (std::size_t d = 0; d < 3; ++d) mean[d] += point.weight / whole * point.x[d];
     }
     return mean;
   }
@@ -45,15 +45,15 @@ struct Piece {
 
 double size_of(const std::vector<Piece>& pieces) {
   double sum = 0;
-  for (const Piece& piece : pieces) sum += size_of(piece.places);
+  for (const Piece& piece : pieces) sum += size_of(piece.points);
   return sum;
 }
 
 /// Sums of w phi_i of a facet.
-std::array<double, 4> sums_of(const std::vector<OverlapPlace>& places) {
+std::array<double, 4> sums_of(const std::vector<OverlapPoint>& points) {
   std::array<double, 4> sums{};
-  for (const OverlapPlace& place : places) {
-    for (std::size_t i = 0; i < 4; ++i) sums[i] += place.weight * place.shares[i];
+  for (const OverlapPoint& point : points) {
+    for (std::size_t i = 0; i < 4; ++i) sums[i] += point.weight * point.shares[i];
   }
   return sums;
 }
@@ -63,7 +63,7 @@ std::vector<double> dual_factors(const std::vector<Piece>& pieces, std::size_t n
   std::vector<double> factors(n * n, 0.0);
   std::array<double, 4> sums{};
   for (const Piece& piece : pieces) {
-    for (const auto& [x, phi, bulges, weight] : piece.places) {
+    for (const auto& [x, phi, bulges, weight] : piece.points) {
       for (std::size_t i = 0; i < n; ++i) {
         sums[i] += weight * phi[i];
         for (std::size_t k = 0; k < n; ++k) factors[n * i + k] += weight * phi[i] * phi[k];
@@ -85,7 +85,7 @@ class Mortar {
 
   void add(const Facet& facet) {
     const std::vector<Vector3> corners = corners_of(mesh_, facet);
-    const std::vector<OverlapPlace> whole = overlap_places(corners, corners);
+    const std::vector<OverlapPoint> whole = overlap_points(corners, corners);
     const std::array<double, 4> sums = sums_of(whole);
     for (std::size_t i = 0; i < corners.size(); ++i) rows_[facet.nodes[i]].whole += sums[i];
     const std::vector<Piece> pieces = pieces_of(corners, size_of(whole));
@@ -122,15 +122,15 @@ class Mortar {
     std::vector<Piece> pieces;
     for (const Facet* facet : followed_.near(box_of(corners))) {
       const std::vector<Vector3> other = corners_of(mesh_, *facet);
-      Piece piece{facet, overlap_places(corners, other)};
-      if (piece.places.empty()) continue;
-      const double distance = nearest_place(other, piece.middle()).distance;
+      Piece piece{facet, overlap_points(corners, other)};
+      if (piece.points.empty()) continue;
+      const double distance = nearest_point(other, piece.middle()).distance;
       if (distance <= followed_.reach(*facet)) pieces.push_back(std::move(piece));
     }
     if (size_of(pieces) > (1 + twice) * size) {  // one behind the other
       std::erase_if(pieces, [&](const Piece& piece) {
         return std::ranges::count(followed_.nearest(piece.middle()), piece.followed,
-                                  &FollowedPlace::facet) == 0;
+                                  &FollowedPoint::facet) == 0;
       });
     }
     const double covered = size_of(pieces);
@@ -143,20 +143,20 @@ class Mortar {
     const std::size_t n = facet.corners().size();
     const bool turns = followed_.turns(*piece.followed);
     std::array<std::array<double, 4>, 4> bulges{};  // of edges, per corner
-    for (const OverlapPlace& place : piece.places) {
-      const FollowedPlace at{piece.followed, nearest_place(followed, place.place)};
+    for (const OverlapPoint& point : piece.points) {
+      const FollowedPoint at{piece.followed, nearest_point(followed, point.x)};
       for (std::size_t i = 0; i < n; ++i) {
         double weight = 0;
-        for (std::size_t k = 0; k < n; ++k) weight += factors[n * i + k] * place.shares[k];
-        weight *= place.weight;
+        for (std::size_t k = 0; k < n; ++k) weight += factors[n * i + k] * point.shares[k];
+        weight *= point.weight;
         Row& row = rows_[facet.nodes[i]];
         row.covered += weight;
-        followed_.follow(at, place.place, weight, row.carriers);
-        for (std::size_t e = 0; e < n; ++e) bulges[i][e] += weight * place.bulges[e];
+        followed_.follow(at, point.x, weight, row.carriers);
+        for (std::size_t e = 0; e < n; ++e) bulges[i][e] += weight * point.bulges[e];
       }
     }
     if (!turns) return;
-    const FollowedPlace middle{piece.followed, nearest_place(followed, piece.middle())};
+    const FollowedPoint middle{piece.followed, nearest_point(followed, piece.middle())};
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t e = 0; e < (n == 2 ? 1 : n); ++e) {
         take_off(middle, bulges[i][e] / 8, {facet.nodes[e], facet.nodes[(e + 1) % n]},
@@ -166,7 +166,7 @@ class Mortar {
   }
 
   /// Takes off the bending of an edge of the nodes' facet, by the turns of its ends.
-  void take_off(const FollowedPlace& middle, double bulge, const std::array<GlobalIndex, 2>& ends,
+  void take_off(const FollowedPoint& middle, double bulge, const std::array<GlobalIndex, 2>& ends,
                 std::vector<Carrier>& carriers) const {
     const Vector3 edge = minus(mesh_.position(ends[1]), mesh_.position(ends[0]));
     for (std::size_t end = 0; end < 2; ++end) {

@@ -81,24 +81,24 @@ void add_soil(const Structure& structure, GlobalMesh& mesh) {
   set.connectivity = {carrying_node(structure, mesh, found->second.nodes)};
   mesh.regions.push_back(std::move(set));
   if (!structure.soil->table.empty()) return;
-  const MatPlace place = mat_place(structure, mesh);
-  const std::array<double, 2> sides = sides_of(*structure.soil, place);
+  const MatOutline outline = mat_outline(structure, mesh);
+  const std::array<double, 2> sides = sides_of(*structure.soil, outline);
   if (!(sides[0] > 0) || !(sides[1] > 0)) {
     refuse_mat(structure,
                "the nodes of the group span no area; give -" + structure.name + "_soil_size");
   }
 }
 
-MatPlace mat_place(const Structure& structure, const GlobalMesh& mesh) {
+MatOutline mat_outline(const Structure& structure, const GlobalMesh& mesh) {
   const BoundingBox box = box_around(mesh, mesh.groups.at(structure.soil->mat).nodes);
-  MatPlace place;
-  place.node = mesh.position(soil_set(mesh).connectivity[0]);
+  MatOutline outline;
+  outline.node = mesh.position(soil_set(mesh).connectivity[0]);
   for (std::size_t d = 0; d < 2; ++d) {
-    place.centre[d] = (box.low[d] + box.high[d]) / 2;
-    place.sides[d] = box.high[d] - box.low[d];
+    outline.centre[d] = (box.low[d] + box.high[d]) / 2;
+    outline.sides[d] = box.high[d] - box.low[d];
   }
-  place.centre[2] = box.low[2];
-  return place;
+  outline.centre[2] = box.low[2];
+  return outline;
 }
 
 }  // namespace pounding

@@ -11,8 +11,8 @@ namespace pounding {
 /// extents whose size is not given. Serial.
 void add_soil(const Structure& structure, GlobalMesh& mesh);
 
-/// Place of the mat of a structure with soil. The middle of its underside is that of the box around
+/// Outline of the mat under a structure. The middle of its underside is that of the box around
 /// its nodes, at the level of the lowest of them. Serial.
-MatPlace mat_place(const Structure& structure, const GlobalMesh& mesh);
+MatOutline mat_outline(const Structure& structure, const GlobalMesh& mesh);
 
 }  // namespace pounding

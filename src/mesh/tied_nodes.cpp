@@ -62,12 +62,12 @@ class Tie {
   /// The row of a node that follows at its place.
   TiedNode at_place(GlobalIndex node) {
     const Vector3 x = mesh_.position(node);
-    const std::vector<FollowedPlace> facets = facets_.nearest(x);
+    const std::vector<FollowedPoint> facets = facets_.nearest(x);
     check_distance(node, facets.front());
     TiedNode tied{node, number_, {}};
     double size = 0;
-    for (const FollowedPlace& followed : facets) size += followed.at.size;
-    for (const FollowedPlace& followed : facets) {
+    for (const FollowedPoint& followed : facets) size += followed.at.size;
+    for (const FollowedPoint& followed : facets) {
       facets_.follow(followed, x, followed.at.size / size, tied.carriers);
       longest_followed_ = std::max(longest_followed_, facets_.longest_edge(*followed.facet));
     }
@@ -90,7 +90,7 @@ class Tie {
     return mean;
   }
 
-  void check_distance(GlobalIndex node, const FollowedPlace& facet) const {
+  void check_distance(GlobalIndex node, const FollowedPoint& facet) const {
     const double edge = facets_.longest_edge(*facet.facet);
     const double reach = facets_.reach(*facet.facet);
     const std::string whose = "the nearest facet of '" + rigid_.other + "'";
@@ -143,9 +143,9 @@ class Tie {
     }
   }
 
-  void watch_overhang(const FollowedPlace& facet, const Vector3& x) {
+  void watch_overhang(const FollowedPoint& facet, const Vector3& x) {
     if (facet.facet->count == 2) return;
-    const Vector3 arm = minus(x, facet.at.place);
+    const Vector3 arm = minus(x, facet.at.x);
     const double up = dot(arm, facet.at.normal);
     const double out = std::sqrt(std::max(0.0, dot(arm, arm) - up * up));
     if (out > beside * facets_.longest_edge(*facet.facet)) {

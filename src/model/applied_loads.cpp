@@ -12,7 +12,7 @@
 #include "elements/element_traits.h"
 #include "interactions/pairing/facet_backing.h"
 #include "mesh/element_properties.h"
-#include "mesh/facet_place.h"
+#include "mesh/facet_point.h"
 
 namespace pounding {
 namespace {

@@ -33,22 +33,22 @@ std::array<double, 6> over_arm(const std::array<double, 6>& motion, const Vector
 
 }  // namespace
 
-std::array<double, 2> sides_of(const Soil& soil, const MatPlace& place) {
+std::array<double, 2> sides_of(const Soil& soil, const MatOutline& outline) {
   if (soil.sides) return *soil.sides;
-  if (!soil.disk) return place.sides;
-  const double diameter = std::min(place.sides[0], place.sides[1]);
+  if (!soil.disk) return outline.sides;
+  const double diameter = std::min(outline.sides[0], outline.sides[1]);
   return {diameter, diameter};
 }
 
-Foundation foundation_of(const Soil& soil, const MatPlace& place) {
+Foundation foundation_of(const Soil& soil, const MatOutline& outline) {
   Foundation foundation;
-  foundation.centre = place.centre;
+  foundation.centre = outline.centre;
   Vector3 arm{};
-  for (std::size_t d = 0; d < 3; ++d) arm[d] = place.centre[d] - place.node[d];
+  for (std::size_t d = 0; d < 3; ++d) arm[d] = outline.centre[d] - outline.node[d];
   if (soil.fitted) {
     foundation.impedances = soil.fitted->parts;
   } else {
-    foundation.footprint = {soil.disk, sides_of(soil, place), soil.embedment};
+    foundation.footprint = {soil.disk, sides_of(soil, outline), soil.embedment};
     foundation.impedances = along_axes(soil, foundation.footprint);
   }
   for (const DirectedImpedance& part : foundation.impedances) {

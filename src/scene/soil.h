@@ -61,8 +61,8 @@ struct Soil {
   }
 };
 
-/// Place of a mat in its mesh.
-struct MatPlace {
+/// Outline of a mat in its mesh.
+struct MatOutline {
   Vector3 node{0, 0, 0};          ///< position of the node that carries the soil [m]
   Vector3 centre{0, 0, 0};        ///< of the underside [m]
   std::array<double, 2> sides{};  ///< of the box around the group along x and y [m]
@@ -78,9 +78,9 @@ struct Foundation {
 
 /// Sides of a mat's underside along x and y [m]: as given, or the group's own; of a disk both are
 /// the shorter one.
-std::array<double, 2> sides_of(const Soil& soil, const MatPlace& place);
+std::array<double, 2> sides_of(const Soil& soil, const MatOutline& outline);
 
 /// Foundation of a mat on its soil.
-Foundation foundation_of(const Soil& soil, const MatPlace& place);
+Foundation foundation_of(const Soil& soil, const MatOutline& outline);
 
 }  // namespace pounding

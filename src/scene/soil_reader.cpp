@@ -60,9 +60,9 @@ Region soil_region(const Soil& soil) {
   return region;
 }
 
-void lay_foundation(const MatPlace& place, Structure& structure) {
+void lay_foundation(const MatOutline& outline, Structure& structure) {
   const auto region = std::ranges::find(structure.regions, ElementType::soil, &Region::element);
-  region->foundation = foundation_of(*structure.soil, place);
+  region->foundation = foundation_of(*structure.soil, outline);
   region->stiffness = {};
   region->dashpot = {};
   for (const DirectedImpedance& part : region->foundation->impedances) {

@@ -15,6 +15,6 @@ std::optional<Soil> read_soil(OptionReader& options, const Structure& structure)
 Region soil_region(const Soil& soil);
 
 /// Gives the soil of a structure its foundation: springs, dashpots, arm.
-void lay_foundation(const MatPlace& place, Structure& structure);
+void lay_foundation(const MatOutline& outline, Structure& structure);
 
 }  // namespace pounding

@@ -11,33 +11,33 @@
 namespace pounding {
 namespace {
 
-int place_in_field(const CoupledMass& mass, int node, LocalIndex dof) {
+int slot_in_field(const CoupledMass& mass, int node, LocalIndex dof) {
   const std::size_t n = node;
   return static_cast<int>(mass.place(n)) + dof - mass.nodes()[n].begin;
 }
 
 }  // namespace
 
-Trace::Trace(const LinearSystem& system, const Mesh& mesh, std::span<const TracePoint> places,
+Trace::Trace(const LinearSystem& system, const Mesh& mesh, std::span<const TracePoint> points,
              bool impulses)
     : dense_(system.generalised != nullptr) {
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (mesh.owned_node(places[i].node) >= 0) known_.push_back(static_cast<int>(i));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (mesh.owned_node(points[i].node) >= 0) known_.push_back(static_cast<int>(i));
   }
   if (dense_) {
-    take_dense_rows(system, mesh, places);
+    take_dense_rows(system, mesh, points);
   } else {
-    take_unit_rows(mesh, places);
+    take_unit_rows(mesh, points);
     if (impulses && system.coupled_mass) take_coupled_dofs(*system.coupled_mass);
   }
-  if (system.supports) take_supports(system, mesh, places);
+  if (system.supports) take_supports(system, mesh, points);
   for (const LocalIndex dof : dofs_) inverse_mass_.push_back(system.inverse_mass[dof]);
   force_.assign(dofs_.size(), 0.0);
 }
 
-void Trace::take_unit_rows(const Mesh& mesh, std::span<const TracePoint> places) {
-  for (const int place : known_) {
-    const TracePoint& point = places[place];
+void Trace::take_unit_rows(const Mesh& mesh, std::span<const TracePoint> points) {
+  for (const int i : known_) {
+    const TracePoint& point = points[i];
     const LocalIndex dof = mesh.dof(mesh.owned_node(point.node), point.component);
     own_dof_.push_back(dof < 0 ? -1 : static_cast<int>(dofs_.size()));
     if (dof >= 0) {
@@ -50,7 +50,7 @@ void Trace::take_coupled_dofs(const CoupledMass& mass) {
   std::set<int> parts;  // rigid bodies and ties, and -1 for S
   for (const LocalIndex dof : dofs_) {
     const int node = mass.node_of(dof);
-    field_place_.push_back(node < 0 ? -1 : place_in_field(mass, node, dof));
+    field_slot_.push_back(node < 0 ? -1 : slot_in_field(mass, node, dof));
     if (node < 0) continue;
     coupled_mass_ = &mass;
     parts.insert(mass.part_of(static_cast<std::size_t>(node)));
@@ -70,7 +70,7 @@ void Trace::take_coupled_dofs(const CoupledMass& mass) {
     for (LocalIndex dof = node.begin; dof < node.begin + node.count; ++dof) {
       if (!own.contains(dof)) {
         dofs_.push_back(dof);
-        field_place_.push_back(place_in_field(mass, static_cast<int>(n), dof));
+        field_slot_.push_back(slot_in_field(mass, static_cast<int>(n), dof));
       }
     }
   }
@@ -78,14 +78,14 @@ void Trace::take_coupled_dofs(const CoupledMass& mass) {
 }
 
 void Trace::take_dense_rows(const LinearSystem& system, const Mesh& mesh,
-                            std::span<const TracePoint> places) {
+                            std::span<const TracePoint> points) {
   if (known_.empty()) return;
   const GeneralisedCoordinates& coordinates = *system.generalised;
   const std::size_t width = system.owned_dofs();
   dofs_.resize(width);
   std::iota(dofs_.begin(), dofs_.end(), LocalIndex{0});
-  for (const int place : known_) {
-    const TracePoint& point = places[place];
+  for (const int i : known_) {
+    const TracePoint& point = points[i];
     if (mesh.dof(mesh.owned_node(point.node), point.component) < 0) {
       rows_.resize(rows_.size() + width, 0.0);
       continue;
@@ -102,11 +102,11 @@ void Trace::take_dense_rows(const LinearSystem& system, const Mesh& mesh,
 }
 
 void Trace::take_supports(const LinearSystem& system, const Mesh& mesh,
-                          std::span<const TracePoint> places) {
+                          std::span<const TracePoint> points) {
   const SupportShapes& supports = *system.supports;
   columns_ = supports.columns.size();
-  for (const int place : known_) {
-    const TracePoint& point = places[place];
+  for (const int i : known_) {
+    const TracePoint& point = points[i];
     const LocalIndex node = mesh.owned_node(point.node);
     const LocalIndex dof = mesh.dof(node, point.component);
     for (std::size_t c = 0; c < columns_; ++c) {
@@ -181,11 +181,11 @@ void Trace::add_solution(double* x) {
   }
   std::fill(field_.begin(), field_.end(), 0.0);
   for (std::size_t i = 0; i < force_.size(); ++i) {
-    if (field_place_[i] >= 0) field_[field_place_[i]] = force_[i];
+    if (field_slot_[i] >= 0) field_[field_slot_[i]] = force_[i];
   }
   coupled_mass_->solve(field_.data(), coupled_parts_);
   for (std::size_t i = 0; i < force_.size(); ++i) {
-    x[i] += field_place_[i] < 0 ? inverse_mass_[i] * force_[i] : field_[field_place_[i]];
+    x[i] += field_slot_[i] < 0 ? inverse_mass_[i] * force_[i] : field_[field_slot_[i]];
   }
 }
 
@@ -193,9 +193,9 @@ double Trace::compliance(std::size_t a, std::size_t b) {
   if (!dense_) {
     if (own_dof_[a] < 0 || own_dof_[b] < 0) return 0;
     if (coupled_mass_ == nullptr) return a == b ? inverse_mass_[own_dof_[a]] : 0;
-    if (response_.empty() || response_place_ != a) {
+    if (response_.empty() || response_point_ != a) {
       response_.assign(dofs_.size(), 0.0);
-      response_place_ = a;
+      response_point_ = a;
       std::fill(force_.begin(), force_.end(), 0.0);
       force_[own_dof_[a]] = 1;
       add_solution(response_.data());

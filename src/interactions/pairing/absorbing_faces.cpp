@@ -11,7 +11,7 @@
 #include "interactions/pairing/facet_backing.h"
 #include "interactions/pairing/wave_shapes.h"
 #include "mesh/connectivity.h"
-#include "mesh/facet_place.h"
+#include "mesh/facet_point.h"
 
 namespace pounding::interactions {
 namespace {

@@ -36,12 +36,12 @@ struct Sums {
   std::array<double, 4> shares{};
 };
 
-Sums sums_of(const std::vector<OverlapPlace>& places) {
+Sums sums_of(const std::vector<OverlapPoint>& points) {
   Sums sums;
-  for (const OverlapPlace& place : places) {
-    sums.area += place.weight;
-    for (std::size_t d = 0; d < 3; ++d) sums.middle[d] += place.weight * place.place[d];
-    for (std::size_t a = 0; a < 4; ++a) sums.shares[a] += place.weight * place.shares[a];
+  for (const OverlapPoint& point : points) {
+    sums.area += point.weight;
+    for (std::size_t d = 0; d < 3; ++d) sums.middle[d] += point.weight * point.x[d];
+    for (std::size_t a = 0; a < 4; ++a) sums.shares[a] += point.weight * point.shares[a];
   }
   if (sums.area > 0) {
     for (double& x : sums.middle) x /= sums.area;
@@ -61,7 +61,7 @@ std::array<double, 4> shares_of(const FaceSide& side, std::size_t f, const FaceS
   Sums all;
   for (const std::size_t g : finder.within(centre, normal, radius)) {
     const Facet& faced = other.face.facets[g];
-    const Sums sums = sums_of(overlap_places(corners, corners_of(*other.mesh, faced)));
+    const Sums sums = sums_of(overlap_points(corners, corners_of(*other.mesh, faced)));
     if (!(sums.area > 0)) continue;
     const auto met = meet_facet(*other.mesh, faced, sums.middle, normal, facet_tolerance);
     const double depth = side.face.facet_depth[f] + facet_tolerance * radius;
@@ -70,7 +70,7 @@ std::array<double, 4> shares_of(const FaceSide& side, std::size_t f, const FaceS
     all.area += sums.area;
     for (std::size_t a = 0; a < 4; ++a) all.shares[a] += sums.shares[a];
   }
-  const double whole = sums_of(overlap_places(corners, corners)).area;
+  const double whole = sums_of(overlap_points(corners, corners)).area;
   for (double& share : all.shares) share *= all.area > whole ? whole / all.area : 1;
   return all.shares;
 }

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mesh/facet_place.h"
+#include "mesh/facet_point.h"
 #include "support/box_mesh.h"
 
 namespace pounding {

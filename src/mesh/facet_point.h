@@ -9,9 +9,9 @@
 
 namespace pounding {
 
-/// The place of a facet that is nearest to a point.
-struct FacetPlace {
-  Vector3 place{0, 0, 0};          ///< [m]
+/// Point of a facet that is nearest to a point.
+struct FacetPoint {
+  Vector3 x{0, 0, 0};              ///< [m]
   double distance = 0;             ///< of the point [m]
   std::array<double, 4> shares{};  ///< N_i of the corners there; their sum is 1
   /// Bulge of edge i, from corner i to the next one: quadratic, 1 in its middle, 0 on other edges.
@@ -21,9 +21,9 @@ struct FacetPlace {
   double size = 0;                     ///< area [m2], or length of a line [m]
 };
 
-/// The nearest place of a facet to `x`: of a line (2 corners), a triangle (3), or a quadrangle (4)
+/// Nearest point of a facet to `x`: of a line (2 corners), a triangle (3), or a quadrangle (4)
 /// between whose corners coordinates are bilinear. Pure.
-FacetPlace nearest_place(std::span<const Vector3> corners, const Vector3& x);
+FacetPoint nearest_point(std::span<const Vector3> corners, const Vector3& x);
 
 /// Share of each corner in the area of a facet [m2], or of an end in the length of an edge [m]: the
 /// integrals of the shape functions.

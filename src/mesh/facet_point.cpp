@@ -1,4 +1,4 @@
-#include "mesh/facet_place.h"
+#include "mesh/facet_point.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ Local corner_at(std::size_t corners, std::size_t i) {
   return corners == 3 ? triangle[i] : quadrangle[i];
 }
 
-/// See FacetPlace::bulges.
+/// See FacetPoint::bulges.
 std::array<double, 4> bulges_at(std::size_t corners, const Local& s) {
   const Shape shape = shape_at(corners, s);
   std::array<double, 4> bulges{};
@@ -63,7 +63,7 @@ Vector3 combine(std::span<const Vector3> corners, const Weight& weight) {
   return sum;
 }
 
-Vector3 place_of(std::span<const Vector3> corners, const Shape& shape) {
+Vector3 point_of(std::span<const Vector3> corners, const Shape& shape) {
   return combine(corners, [&](std::size_t i) { return shape.value[i]; });
 }
 
@@ -80,7 +80,7 @@ double share_along(const Vector3& a, const Vector3& b, const Vector3& x) {
   return t > 1 - on_border ? 1 : t;
 }
 
-/// Whether coordinates are those of a place on the facet; a place nearly on a border is put there.
+/// Whether coordinates are those of a point on the facet; a point nearly on a border is put there.
 bool settle_inside(std::size_t corners, Local& s) {
   const double low = corners == 3 ? 0 : -1;
   for (double& value : s) {
@@ -95,7 +95,7 @@ bool settle_inside(std::size_t corners, Local& s) {
   return true;
 }
 
-/// Newton's iteration for the place where x - place is normal to the facet; whether there is one.
+/// Newton's iteration for the point p where x - p is normal to the facet; whether there is one.
 bool find_foot(std::span<const Vector3> corners, const Vector3& x, Local& s) {
   s = corners.size() == 3 ? Local{1.0 / 3, 1.0 / 3} : Local{0, 0};
   const Vector3 twist =
@@ -104,7 +104,7 @@ bool find_foot(std::span<const Vector3> corners, const Vector3& x, Local& s) {
           : combine(corners, [](std::size_t i) { return i % 2 == 0 ? 0.25 : -0.25; });
   for (int turn = 0; turn < 50; ++turn) {
     const Shape shape = shape_at(corners.size(), s);
-    const Vector3 left = minus(x, place_of(corners, shape));
+    const Vector3 left = minus(x, point_of(corners, shape));
     const Vector3 a = tangent(corners, shape, 0);
     const Vector3 b = tangent(corners, shape, 1);
     const double aa = dot(a, a);
@@ -121,17 +121,17 @@ bool find_foot(std::span<const Vector3> corners, const Vector3& x, Local& s) {
   return settle_inside(corners.size(), s);
 }
 
-/// Coordinates of the nearest place of the border.
+/// Coordinates of the nearest point of the border.
 Local nearest_on_border(std::span<const Vector3> corners, const Vector3& x) {
   Local best{};
   double nearest = HUGE_VAL;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const std::size_t j = (i + 1) % corners.size();
     const double t = share_along(corners[i], corners[j], x);
-    const Vector3 place{(1 - t) * corners[i][0] + t * corners[j][0],
+    const Vector3 point{(1 - t) * corners[i][0] + t * corners[j][0],
                         (1 - t) * corners[i][1] + t * corners[j][1],
                         (1 - t) * corners[i][2] + t * corners[j][2]};
-    const double distance = norm(minus(x, place));
+    const double distance = norm(minus(x, point));
     if (distance >= nearest) continue;
     nearest = distance;
     const Local from = corner_at(corners.size(), i);
@@ -141,24 +141,24 @@ Local nearest_on_border(std::span<const Vector3> corners, const Vector3& x) {
   return best;
 }
 
-FacetPlace on_line(std::span<const Vector3> corners, const Vector3& x) {
-  FacetPlace result;
+FacetPoint on_line(std::span<const Vector3> corners, const Vector3& x) {
+  FacetPoint result;
   const double t = share_along(corners[0], corners[1], x);
   result.shares = {1 - t, t};
   result.bulges = {4 * t * (1 - t)};
-  result.place = combine(corners, [&](std::size_t i) { return result.shares[i]; });
-  result.distance = norm(minus(x, result.place));
+  result.x = combine(corners, [&](std::size_t i) { return result.shares[i]; });
+  result.distance = norm(minus(x, result.x));
   result.size = norm(minus(corners[1], corners[0]));
   return result;
 }
 
-FacetPlace describe(std::span<const Vector3> corners, const Vector3& x, const Local& s) {
-  FacetPlace result;
+FacetPoint describe(std::span<const Vector3> corners, const Vector3& x, const Local& s) {
+  FacetPoint result;
   const Shape shape = shape_at(corners.size(), s);
   result.shares = shape.value;
   result.bulges = bulges_at(corners.size(), s);
-  result.place = place_of(corners, shape);
-  result.distance = norm(minus(x, result.place));
+  result.x = point_of(corners, shape);
+  result.distance = norm(minus(x, result.x));
   const Vector3 a = tangent(corners, shape, 0);
   const Vector3 b = tangent(corners, shape, 1);
   const Vector3 both = cross(a, b);
@@ -257,12 +257,12 @@ bool is_in_solid(const Vector3& point, std::span<const Vector3> corners,
 
 }  // namespace
 
-FacetPlace nearest_place(std::span<const Vector3> corners, const Vector3& x) {
+FacetPoint nearest_point(std::span<const Vector3> corners, const Vector3& x) {
   if (corners.size() == 2) return on_line(corners, x);
-  const FacetPlace border = describe(corners, x, nearest_on_border(corners, x));
+  const FacetPoint border = describe(corners, x, nearest_on_border(corners, x));
   Local foot{};
   if (!find_foot(corners, x, foot)) return border;
-  const FacetPlace inside = describe(corners, x, foot);
+  const FacetPoint inside = describe(corners, x, foot);
   return inside.distance <= border.distance ? inside : border;
 }
 
