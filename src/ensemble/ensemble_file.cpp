@@ -91,10 +91,10 @@ double sum_of(const std::vector<Quantity>& list, const MemberResult& result) {
 }
 
 /// Numbers that say that nothing is there yet.
-void fill(const PlacedFile& file, std::int64_t place, std::size_t count, double value) {
+void fill(const OffsetFile& file, std::int64_t offset, std::size_t count, double value) {
   const std::vector<double> block(std::min<std::size_t>(count, 1 << 17), value);
   for (std::size_t done = 0; done < count; done += block.size()) {
-    file.write(place + static_cast<std::int64_t>(done * sizeof(double)),
+    file.write(offset + static_cast<std::int64_t>(done * sizeof(double)),
                std::span(block).first(std::min(block.size(), count - done)));
   }
 }
@@ -104,13 +104,12 @@ void create(const std::string& path, const EnsembleLayout& layout) {
   const std::string draft = path + ".new";
   Hdf5File file(draft, Hdf5File::Kind::sealed);
   schema::write(file, schema::ensemble);
-  std::vector<OpenPlace> places;
+  std::vector<OpenBytes> open;
   const auto reserve = [&](const std::string& name, std::vector<std::size_t> shape) {
     std::size_t count = members;
     for (const std::size_t extent : shape) count *= extent;
     shape.insert(shape.begin(), members);
-    places.push_back(
-        {file.reserve(name, shape), static_cast<std::int64_t>(count * sizeof(double))});
+    open.push_back({file.reserve(name, shape), static_cast<std::int64_t>(count * sizeof(double))});
   };
   std::vector<double> numbers(members);
   std::iota(numbers.begin(), numbers.end(), 1.0);
@@ -143,14 +142,14 @@ void create(const std::string& path, const EnsembleLayout& layout) {
     file.write_attribute("pairs/place", "unit", "m");
   }
   file.let_others_write();
-  const PlacedFile filled(draft, PlacedFile::Access::write);
-  for (const OpenPlace& place : places) {
-    const bool flags = place.first == places.back().first;
-    fill(filled, place.first, static_cast<std::size_t>(place.bytes) / sizeof(double),
+  const OffsetFile filled(draft, OffsetFile::Access::write);
+  for (const OpenBytes& one : open) {
+    const bool flags = one.first == open.back().first;
+    fill(filled, one.first, static_cast<std::size_t>(one.bytes) / sizeof(double),
          flags ? 0 : std::numeric_limits<double>::quiet_NaN());
   }
   filled.sync();
-  file.close(places);
+  file.close(open);
   file.move_to(path);
 }
 
@@ -210,22 +209,22 @@ void EnsembleFile::prepare(const std::string& path, const EnsembleLayout& layout
 
 EnsembleFile::EnsembleFile(const std::string& path, const EnsembleLayout& layout)
     : layout_(layout),
-      reader_(path, PlacedFile::Access::read),
-      writer_(path, PlacedFile::Access::write) {
+      reader_(path, OffsetFile::Access::read),
+      writer_(path, OffsetFile::Access::write) {
   try {
     const Hdf5Reader file(path, Hdf5Reader::Kind::sealed);
-    const auto place_of = [&](const std::string& name, std::vector<std::size_t> shape) {
+    const auto offset_of = [&](const std::string& name, std::vector<std::size_t> shape) {
       shape.insert(shape.begin(), layout.table->members());
       if (file.extent(name) != shape) {
         throw std::runtime_error(path + ": dataset '" + name + "' has another shape");
       }
-      return file.place(name);
+      return file.offset(name);
     };
     for (const Quantity& quantity : quantities(layout)) {
-      places_.push_back(place_of(quantity.name, quantity.shape));
+      offsets_.push_back(offset_of(quantity.name, quantity.shape));
     }
-    sums_ = place_of(sums_name, {});
-    done_ = place_of("done", {});
+    sums_ = offset_of(sums_name, {});
+    done_ = offset_of("done", {});
   } catch (const std::runtime_error& error) {
     throw UserError(std::string(error.what()) + "; remove that file to begin anew");
   }
@@ -257,11 +256,11 @@ std::size_t EnsembleFile::damaged() const {
 
 void EnsembleFile::write(std::size_t member, const MemberResult& result) {
   const std::vector<Quantity> list = quantities(layout_);
-  const auto at = [member](std::int64_t place, std::size_t size) {
-    return place + static_cast<std::int64_t>(member * size * sizeof(double));
+  const auto at = [member](std::int64_t offset, std::size_t size) {
+    return offset + static_cast<std::int64_t>(member * size * sizeof(double));
   };
   for (std::size_t q = 0; q < list.size(); ++q) {
-    writer_.write(at(places_[q], list[q].size()), result.*list[q].values);
+    writer_.write(at(offsets_[q], list[q].size()), result.*list[q].values);
   }
   const double sum = sum_of(list, result);
   writer_.write(at(sums_, 1), {&sum, 1});
@@ -277,7 +276,7 @@ MemberResult EnsembleFile::read(std::size_t member) const {
   for (std::size_t q = 0; q < list.size(); ++q) {
     std::vector<double>& values = result.*list[q].values;
     values.resize(list[q].size());
-    reader_.read(places_[q] + static_cast<std::int64_t>(member * values.size() * sizeof(double)),
+    reader_.read(offsets_[q] + static_cast<std::int64_t>(member * values.size() * sizeof(double)),
                  values);
   }
   return result;

@@ -58,9 +58,9 @@ class EnsembleFile {
   enum class Member { missing, done, damaged };
   std::vector<Member> members() const;
   const EnsembleLayout& layout_;
-  PlacedFile reader_;
-  PlacedFile writer_;
-  std::vector<std::int64_t> places_;  ///< per quantity
+  OffsetFile reader_;
+  OffsetFile writer_;
+  std::vector<std::int64_t> offsets_;  ///< per quantity
   std::int64_t done_ = 0;
   std::int64_t sums_ = 0;
 };

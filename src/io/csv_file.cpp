@@ -16,20 +16,20 @@ bool is_unread(std::FILE* file) {
 }  // namespace
 
 CsvFile::CsvFile(const std::string& path, int digits)
-    : place_(path.empty() || path == "/dev/stdout"                         ? Place::standard_output
-             : path.starts_with("/dev/") && !path.starts_with("/dev/shm/") ? Place::device
-                                                                           : Place::file),
-      path_(place_ == Place::standard_output ? "standard output" : path),
+    : target_(path.empty() || path == "/dev/stdout" ? Target::standard_output
+              : path.starts_with("/dev/") && !path.starts_with("/dev/shm/") ? Target::device
+                                                                            : Target::file),
+      path_(target_ == Target::standard_output ? "standard output" : path),
       digits_(digits) {
-  if (place_ == Place::file) new_file_.emplace(path);
-  file_ = place_ == Place::standard_output ? stdout
-          : place_ == Place::device        ? std::fopen(path.c_str(), "w")
-                                           : new_file_->stream();
+  if (target_ == Target::file) new_file_.emplace(path);
+  file_ = target_ == Target::standard_output ? stdout
+          : target_ == Target::device        ? std::fopen(path.c_str(), "w")
+                                             : new_file_->stream();
   if (file_ == nullptr) throw UserError(path + ": cannot be written");
 }
 
 CsvFile::~CsvFile() {
-  if (file_ != nullptr && place_ == Place::device) std::fclose(file_);
+  if (file_ != nullptr && target_ == Target::device) std::fclose(file_);
 }
 
 std::string plain_cell(const std::string& text) {
@@ -60,7 +60,7 @@ void CsvFile::close() {
   if (new_file_) return new_file_->close();
   const bool unread = is_unread(file_);
   const bool failed = std::ferror(file_) != 0;
-  const bool lost = (place_ == Place::device ? std::fclose(file_) : std::fflush(file_)) != 0;
+  const bool lost = (target_ == Target::device ? std::fclose(file_) : std::fflush(file_)) != 0;
   file_ = nullptr;
   if ((failed || lost) && !unread) {
     throw UserError(path_ + ": could not be written completely (is the disk full?)");

@@ -36,9 +36,9 @@ class CsvFile {
   void close();
 
  private:
-  enum class Place { standard_output, device, file };
+  enum class Target { standard_output, device, file };
 
-  Place place_;
+  Target target_;
   std::string path_;
   int digits_;
   std::optional<NewFile> new_file_;

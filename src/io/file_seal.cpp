@@ -17,7 +17,7 @@ namespace pounding {
 namespace {
 
 constexpr auto first_byte = static_cast<std::int64_t>(seal_size);
-constexpr std::int64_t largest_place = 1LL << 56;  ///< that is believed
+constexpr std::int64_t largest_offset = 1LL << 56;  ///< that is believed
 
 /// Adds bytes of a file to a sum, which ends early where they cannot be read.
 void add_bytes(std::ifstream& file, std::int64_t first, std::int64_t end, uLong& sum) {
@@ -32,25 +32,25 @@ void add_bytes(std::ifstream& file, std::int64_t first, std::int64_t end, uLong&
 }
 
 /// The seal that the bytes of a file behind its first 512 ask for; nothing if they cannot be read
-/// to their end, or if the places do not lie in them one behind the other. Places that touch become
+/// to their end, or if the ranges do not lie in them one behind the other. Ranges that touch become
 /// one.
-std::string seal_of(std::ifstream& file, const std::vector<OpenPlace>& open) {
+std::string seal_of(std::ifstream& file, const std::vector<OpenBytes>& open) {
   file.seekg(0, std::ios::end);
   const std::int64_t size = file.tellg();
   uLong sum = crc32(0, nullptr, 0);
-  std::int64_t place = first_byte;
+  std::int64_t offset = first_byte;
   std::string lines;
   for (std::size_t i = 0; i < open.size(); ++i) {
-    OpenPlace one = open[i];
+    OpenBytes one = open[i];
     while (i + 1 < open.size() && open[i + 1].first == one.first + one.bytes) {
       one.bytes += open[++i].bytes;
     }
-    if (one.first < place || one.bytes < 0 || one.bytes > size - one.first) return "";
-    add_bytes(file, place, one.first, sum);
-    place = one.first + one.bytes;
+    if (one.first < offset || one.bytes < 0 || one.bytes > size - one.first) return "";
+    add_bytes(file, offset, one.first, sum);
+    offset = one.first + one.bytes;
     lines += "open " + std::to_string(one.first) + " " + std::to_string(one.bytes) + "\n";
   }
-  add_bytes(file, place, size, sum);
+  add_bytes(file, offset, size, sum);
   if (!file) return "";
   std::array<char, 80> head{};
   std::snprintf(head.data(), head.size(), "pounding seal 1\nbytes %lld\ncrc32 %08lx\n",
@@ -65,17 +65,17 @@ std::string head_of(std::ifstream& file) {
   return file ? head : "";
 }
 
-std::vector<OpenPlace> places_in(const std::string& head) {
-  std::vector<OpenPlace> places;
+std::vector<OpenBytes> ranges_in(const std::string& head) {
+  std::vector<OpenBytes> ranges;
   for (std::size_t at = head.find("\nopen "); at != std::string::npos;
        at = head.find("\nopen ", at + 1)) {
     long long first = 0;
     long long bytes = 0;
     if (std::sscanf(head.c_str() + at, "\nopen %lld %lld\n", &first, &bytes) != 2) break;
-    if (std::max(first, bytes) > largest_place || std::min(first, bytes) < 0) break;
-    places.push_back({first, bytes});
+    if (std::max(first, bytes) > largest_offset || std::min(first, bytes) < 0) break;
+    ranges.push_back({first, bytes});
   }
-  return places;
+  return ranges;
 }
 
 constexpr std::size_t block_size = 1 << 20;  // bytes
@@ -86,8 +86,8 @@ void require(int done) {
 
 }  // namespace
 
-void seal_file(const std::string& path, std::vector<OpenPlace> open) {
-  std::ranges::sort(open, {}, &OpenPlace::first);
+void seal_file(const std::string& path, std::vector<OpenBytes> open) {
+  std::ranges::sort(open, {}, &OpenBytes::first);
   std::ifstream content(path, std::ios::binary);
   std::string seal = seal_of(content, open);
   const bool readable = !seal.empty();
@@ -102,9 +102,9 @@ void seal_file(const std::string& path, std::vector<OpenPlace> open) {
   if (!written) throw UserError(path + ": could not be written completely (is the disk full?)");
 }
 
-std::vector<OpenPlace> open_places(const std::string& path) {
+std::vector<OpenBytes> open_bytes(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  return places_in(head_of(file));
+  return ranges_in(head_of(file));
 }
 
 void check_seal(const std::string& path) {
@@ -116,7 +116,7 @@ void check_seal(const std::string& path) {
         ": not a checkpoint, modal basis, piece of a mesh or ensemble: it does not begin with "
         "the seal of one; another file, of an older version, or damaged");
   }
-  std::string due = seal_of(file, places_in(written));
+  std::string due = seal_of(file, ranges_in(written));
   due.resize(seal_size, '\0');
   if (due != written) {
     throw std::runtime_error(path +

@@ -14,23 +14,23 @@
 ///     crc32 0123abcd
 ///     open 2048 800
 ///
-/// Every line `open` names a place and a number of bytes that change later and are left out of the
+/// A line `open` names an offset and a number of bytes that change later and are left out of the
 /// sum; most files have none. Whoever changes such a file seals it anew: run/seal FILE.
 namespace pounding {
 
 inline constexpr std::size_t seal_size = 512;
 
 /// Bytes of a sealed file that change after it is sealed.
-struct OpenPlace {
+struct OpenBytes {
   std::int64_t first = 0;  ///< counted from the beginning of the file
   std::int64_t bytes = 0;
 };
 
 /// Seals a file whose first 512 bytes are free, and brings it to the disk. Throws UserError.
-void seal_file(const std::string& path, std::vector<OpenPlace> open = {});
+void seal_file(const std::string& path, std::vector<OpenBytes> open = {});
 
-/// Places that the seal of a file leaves open, in their order; none where there is no seal.
-std::vector<OpenPlace> open_places(const std::string& path);
+/// Ranges that the seal of a file leaves open, in their order; none where there is no seal.
+std::vector<OpenBytes> open_bytes(const std::string& path);
 
 /// Throws std::runtime_error, one line that begins with the path: no seal, or the content is not
 /// the sealed one.

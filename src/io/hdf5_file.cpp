@@ -57,12 +57,12 @@ void Hdf5File::let_others_write() {
 }
 
 void Hdf5File::close() {
-  if (kind_ == Kind::sealed) return close(std::vector<OpenPlace>{});
+  if (kind_ == Kind::sealed) return close(std::vector<OpenBytes>{});
   let_others_write();
   sync();
 }
 
-void Hdf5File::close(const std::vector<OpenPlace>& open) {
+void Hdf5File::close(const std::vector<OpenBytes>& open) {
   let_others_write();
   seal_file(path_, open);
 }
@@ -213,10 +213,10 @@ std::int64_t Hdf5File::reserve(const std::string& name, const std::vector<std::s
   H5Pset_alloc_time(properties, H5D_ALLOC_TIME_EARLY);
   H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER);
   const hid_t dataset = create(name, H5T_NATIVE_DOUBLE, space, properties);
-  const haddr_t place = H5Dget_offset(dataset);
+  const haddr_t offset = H5Dget_offset(dataset);
   H5Dclose(dataset);
-  if (place == HADDR_UNDEF) checked(-1, "take the place of " + name);
-  return static_cast<std::int64_t>(place);
+  if (offset == HADDR_UNDEF) checked(-1, "take the place of " + name);
+  return static_cast<std::int64_t>(offset);
 }
 
 void Hdf5File::write_strings(const std::string& name, const std::vector<std::string>& values) {

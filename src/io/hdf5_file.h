@@ -82,7 +82,7 @@ class Hdf5File {
   /// Everything is on the disk, or this throws.
   void close();
   /// Everything is on the disk, sealed but for these places, or this throws.
-  void close(const std::vector<OpenPlace>& open);
+  void close(const std::vector<OpenBytes>& open);
   /// Sets an attribute of a whole closed file that is there already.
   void mark(const std::string& attribute, double value);
 

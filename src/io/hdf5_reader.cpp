@@ -100,14 +100,14 @@ std::vector<std::size_t> Hdf5Reader::extent(const std::string& dataset) const {
   return {size.begin(), size.end()};
 }
 
-std::int64_t Hdf5Reader::place(const std::string& dataset) const {
+std::int64_t Hdf5Reader::offset(const std::string& dataset) const {
   const Handle data(open_dataset(dataset));
   const Handle type(H5Dget_type(data.get()));
-  const haddr_t place = H5Dget_offset(data.get());
-  if (H5Tequal(type.get(), H5T_NATIVE_DOUBLE) <= 0 || place == HADDR_UNDEF) {
+  const haddr_t offset = H5Dget_offset(data.get());
+  if (H5Tequal(type.get(), H5T_NATIVE_DOUBLE) <= 0 || offset == HADDR_UNDEF) {
     fail("dataset '" + dataset + "' is not one piece of doubles");
   }
-  return static_cast<std::int64_t>(place);
+  return static_cast<std::int64_t>(offset);
 }
 
 std::vector<double> Hdf5Reader::rows(const std::string& dataset, std::size_t first,

@@ -32,7 +32,7 @@ class Hdf5Reader {
   /// Sizes along all dimensions of a dataset.
   std::vector<std::size_t> extent(const std::string& dataset) const;
   /// Where a dataset of doubles that lies in one piece begins in the file [bytes].
-  std::int64_t place(const std::string& dataset) const;
+  std::int64_t offset(const std::string& dataset) const;
   /// `count` rows from row `first`, shape (count, columns).
   std::vector<double> rows(const std::string& dataset, std::size_t first, std::size_t count) const;
   /// The whole of a dataset.

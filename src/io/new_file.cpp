@@ -75,7 +75,7 @@ void write_whole_file(const std::string& path, const std::string& text) {
   if (failure) throw UserError(path + ": could not be written (" + failure.message() + ")");
 }
 
-PlacedFile::PlacedFile(const std::string& path, Access access)
+OffsetFile::OffsetFile(const std::string& path, Access access)
     : path_(path),
       file_(open(path.c_str(),
                  (access == Access::write ? O_WRONLY | O_NOFOLLOW : O_RDONLY) | O_CLOEXEC)) {
@@ -83,39 +83,39 @@ PlacedFile::PlacedFile(const std::string& path, Access access)
   if (file_ < 0) fail("be opened");
 }
 
-PlacedFile::~PlacedFile() {
+OffsetFile::~OffsetFile() {
   if (file_ >= 0) close(file_);
 }
 
-void PlacedFile::fail(const std::string& what) const {
+void OffsetFile::fail(const std::string& what) const {
   throw UserError(path_ + ": could not " + what + " (" + std::strerror(errno) + ")");
 }
 
-void PlacedFile::write(std::int64_t place, std::span<const double> values) const {
+void OffsetFile::write(std::int64_t offset, std::span<const double> values) const {
   const char* from = reinterpret_cast<const char*>(values.data());
   for (std::size_t left = values.size_bytes(); left > 0;) {
-    const ssize_t done = pwrite(file_, from, left, place);
+    const ssize_t done = pwrite(file_, from, left, offset);
     if (done < 0 && errno == EINTR) continue;
     if (done <= 0) fail("be written; is the disk full?");
     from += done;
-    place += done;
+    offset += done;
     left -= static_cast<std::size_t>(done);
   }
 }
 
-void PlacedFile::read(std::int64_t place, std::span<double> values) const {
+void OffsetFile::read(std::int64_t offset, std::span<double> values) const {
   char* to = reinterpret_cast<char*>(values.data());
   for (std::size_t left = values.size_bytes(); left > 0;) {
-    const ssize_t done = pread(file_, to, left, place);
+    const ssize_t done = pread(file_, to, left, offset);
     if (done < 0 && errno == EINTR) continue;
     if (done <= 0) fail("be read as far as it must be");
     to += done;
-    place += done;
+    offset += done;
     left -= static_cast<std::size_t>(done);
   }
 }
 
-void PlacedFile::sync() const {
+void OffsetFile::sync() const {
   if (fsync(file_) != 0) fail("be written to the disk; is it full?");
 }
 

@@ -39,19 +39,19 @@ class NewFile {
 /// new one is complete. Throws UserError (no space).
 void write_whole_file(const std::string& path, const std::string& text);
 
-/// A file that is there, read and written by places in bytes, by any number of processes at once as
-/// long as their places differ; written not through a symbolic link. Errors throw UserError naming
+/// A file that is there, read and written at byte offsets, by any number of processes at once as
+/// long as their ranges differ; written not through a symbolic link. Errors throw UserError naming
 /// it.
-class PlacedFile {
+class OffsetFile {
  public:
   enum class Access { read, write };
-  PlacedFile(const std::string& path, Access access);
-  PlacedFile(const PlacedFile&) = delete;
-  PlacedFile& operator=(const PlacedFile&) = delete;
-  ~PlacedFile();
+  OffsetFile(const std::string& path, Access access);
+  OffsetFile(const OffsetFile&) = delete;
+  OffsetFile& operator=(const OffsetFile&) = delete;
+  ~OffsetFile();
 
-  void write(std::int64_t place, std::span<const double> values) const;
-  void read(std::int64_t place, std::span<double> values) const;
+  void write(std::int64_t offset, std::span<const double> values) const;
+  void read(std::int64_t offset, std::span<double> values) const;
   /// All that was written is on the disk, or this throws.
   void sync() const;
 

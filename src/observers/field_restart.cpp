@@ -11,7 +11,7 @@ namespace pounding {
 namespace {
 
 /// Copies numbers from one place to another, but for zeros, which need no writing.
-void copy_numbers(const PlacedFile& from, std::int64_t source, const PlacedFile& to,
+void copy_numbers(const OffsetFile& from, std::int64_t source, const OffsetFile& to,
                   std::int64_t target, std::int64_t count) {
   constexpr std::int64_t at_a_time = 1 << 17;
   std::vector<double> values;
@@ -88,20 +88,20 @@ void FieldWriter::start(const CdLagrange& /*stepper*/, const SavedState* continu
 
 void FieldWriter::copy_frames(const std::string& to) const try {
   const Hdf5Reader old(continued_);
-  const PlacedFile from(continued_, PlacedFile::Access::read);
-  const PlacedFile into(to, PlacedFile::Access::write);
+  const OffsetFile from(continued_, OffsetFile::Access::read);
+  const OffsetFile into(to, OffsetFile::Access::write);
   for (const StructureFields& fields : structures_) {
     for (const Quantity& quantity : fields.quantities) {
       for (std::int64_t frame = 0; frame < frames_; ++frame) {
         copy_numbers(
-            from, old.place(path_of(fields, quantity, frame)), into,
-            quantity.places[static_cast<std::size_t>(frame)],
+            from, old.offset(path_of(fields, quantity, frame)), into,
+            quantity.offsets[static_cast<std::size_t>(frame)],
             static_cast<std::int64_t>(quantity.of_cells ? fields.cells : 3 * fields.nodes));
       }
     }
   }
   const double frames = static_cast<double>(frames_);
-  into.write(frames_place_, {&frames, 1});
+  into.write(frames_offset_, {&frames, 1});
 } catch (const UserError&) {
   throw;
 } catch (const std::runtime_error& error) {

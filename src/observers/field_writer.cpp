@@ -119,7 +119,7 @@ void FieldWriter::create(const std::string& path) {
     for (std::int64_t f = 0; f < steps_.count; ++f) times.push_back(time_of(f));
     file->write_array("time", 0, times);
     file->write_attribute("time", "unit", "s");
-    frames_place_ = file->reserve("frames", {1});
+    frames_offset_ = file->reserve("frames", {1});
   });
   grids_.clear();
   cell_nodes_.clear();
@@ -133,27 +133,27 @@ void FieldWriter::create(const std::string& path) {
     on_rank0(run_.comm,
              [&] { cell_nodes_.push_back(write_vtk_cells(*file, structures_[s].name, cells)); });
   }
-  std::vector<std::int64_t> places;
+  std::vector<std::int64_t> offsets;
   on_rank0(run_.comm, [&] {
-    places = reserve(*file);
+    offsets = reserve(*file);
     file->close();
   });
-  broadcast_array(run_.comm, places);
-  auto next = places.begin();
+  broadcast_array(run_.comm, offsets);
+  auto next = offsets.begin();
   for (StructureFields& fields : structures_) {
     for (Quantity& quantity : fields.quantities) {
-      quantity.places.assign(next, next + steps_.count);
+      quantity.offsets.assign(next, next + steps_.count);
       next += steps_.count;
     }
   }
 }
 
 std::vector<std::int64_t> FieldWriter::reserve(Hdf5File& file) const {
-  std::vector<std::int64_t> places;
+  std::vector<std::int64_t> taken;
   for (const StructureFields& fields : structures_) {
     for (const Quantity& quantity : fields.quantities) {
       for (std::int64_t frame = 0; frame < steps_.count; ++frame) {
-        places.push_back(file.reserve(path_of(fields, quantity, frame), fields.shape_of(quantity)));
+        taken.push_back(file.reserve(path_of(fields, quantity, frame), fields.shape_of(quantity)));
       }
       const std::string group = fields.name + "/" + quantity.name;
       file.write_attribute(group, "unit", quantity.unit);
@@ -162,7 +162,7 @@ std::vector<std::int64_t> FieldWriter::reserve(Hdf5File& file) const {
       }
     }
   }
-  return places;
+  return taken;
 }
 
 std::string FieldWriter::path_of(const StructureFields& fields, const Quantity& quantity,
@@ -174,7 +174,7 @@ std::string FieldWriter::path_of(const StructureFields& fields, const Quantity& 
 
 void FieldWriter::open() {
   on_every_rank(run_.comm, [&] {
-    file_ = std::make_unique<PlacedFile>(run_.path(file_name), PlacedFile::Access::write);
+    file_ = std::make_unique<OffsetFile>(run_.path(file_name), OffsetFile::Access::write);
   });
 }
 
@@ -222,15 +222,15 @@ void FieldWriter::observe(const CdLagrange& stepper) {
       on_every_rank(run_.comm, [&] {  // places without a value are 0
         if (!has_value(fields.block)) return;
         constexpr std::int64_t bytes = 3 * sizeof(double);
-        const std::int64_t place = quantity.places[static_cast<std::size_t>(frames_)];
-        file_->write(place + bytes * fields.blocks.first(), fields.block);
+        const std::int64_t offset = quantity.offsets[static_cast<std::size_t>(frames_)];
+        file_->write(offset + bytes * fields.blocks.first(), fields.block);
       });
     }
   }
   std::ranges::fill(impulses_, 0.0);
   on_rank0(run_.comm, [&] {
     const double frames = static_cast<double>(frames_ + 1);
-    file_->write(frames_place_, {&frames, 1});
+    file_->write(frames_offset_, {&frames, 1});
     if (xdmf_) text_ += frame_text(frames_);
   });
   ++frames_;
@@ -252,7 +252,7 @@ void FieldWriter::write_cells(std::size_t structure) {
       }
       ++column;
       if (!has_value(values)) continue;
-      file_->write(quantity.places[static_cast<std::size_t>(frames_)], values);
+      file_->write(quantity.offsets[static_cast<std::size_t>(frames_)], values);
     }
   });
 }

@@ -71,8 +71,8 @@ class FieldWriter final : public Observer {
   struct Quantity {
     std::string name;
     const char* unit;
-    std::vector<double> owned;           ///< shape (owned_nodes, 3); of cells empty
-    std::vector<std::int64_t> places{};  ///< of its arrays in the file, per frame [bytes]
+    std::vector<double> owned;            ///< shape (owned_nodes, 3); of cells empty
+    std::vector<std::int64_t> offsets{};  ///< of its arrays in the file, per frame [bytes]
     bool of_cells = false;
   };
   struct StructureFields {
@@ -120,13 +120,13 @@ class FieldWriter final : public Observer {
   std::vector<char> yields_;  ///< per structure, whether elements of it may
   std::vector<StructureFields> structures_;
   std::vector<double> impulses_;
-  std::unique_ptr<PlacedFile> file_;
+  std::unique_ptr<OffsetFile> file_;
   std::int64_t frames_ = 0;
 
   // Rank 0
   std::vector<XdmfGrid> grids_;          ///< of the structures, without motions
   std::vector<std::size_t> cell_nodes_;  ///< of all cells of each structure together
-  std::int64_t frames_place_ = 0;        ///< of their number in the file [bytes]
+  std::int64_t frames_offset_ = 0;       ///< of their number in the file [bytes]
   std::string text_;                     ///< of the frames so far
 };
 

@@ -121,7 +121,7 @@ class CheckpointWriter {
   /// Every rank fills its places, and the file is on the disk under its final name.
   void finish() {
     on_root([&] { file_->let_others_write(); });
-    broadcast_array(comm_, places_);
+    broadcast_array(comm_, offsets_);
     fill();
     on_root([&] {
       file_->close();
@@ -140,14 +140,14 @@ class CheckpointWriter {
   void reserve(const std::string& name, const NodeTable& table) {
     on_root([&] {
       const auto nodes = static_cast<std::size_t>(table.mesh->global_nodes);
-      places_.push_back(file_->reserve(name, {nodes, table.columns}));
+      offsets_.push_back(file_->reserve(name, {nodes, table.columns}));
     });
     tables_.push_back(table);
   }
 
   void fill() {
-    std::optional<PlacedFile> file;
-    on_every_rank([&] { file.emplace(path_ + ".new", PlacedFile::Access::write); });
+    std::optional<OffsetFile> file;
+    on_every_rank([&] { file.emplace(path_ + ".new", OffsetFile::Access::write); });
     std::optional<FileBlocks> blocks;
     for (std::size_t i = 0; i < tables_.size(); ++i) {
       const auto& [mesh, columns, values] = tables_[i];
@@ -159,7 +159,7 @@ class CheckpointWriter {
         blocks->to_file(node_rows(*mesh, *values, columns), columns, block);
       }
       const auto before = static_cast<std::int64_t>(columns * sizeof(double)) * blocks->first();
-      on_every_rank([&] { file->write(places_[i] + before, block); });
+      on_every_rank([&] { file->write(offsets_[i] + before, block); });
     }
     on_every_rank([&] { file->sync(); });
   }
@@ -180,7 +180,7 @@ class CheckpointWriter {
   std::string path_;
   std::optional<Hdf5File> file_;  ///< rank 0
   std::vector<NodeTable> tables_;
-  std::vector<std::int64_t> places_;  ///< of the tables, in the file [bytes]
+  std::vector<std::int64_t> offsets_;  ///< of the tables, in the file [bytes]
 };
 
 }  // namespace

@@ -165,7 +165,7 @@ std::string ensemble_seed(const std::string& folder) {
 
 /// What a run that goes on asks of its file.
 void read_ensemble(const std::string& path, Random&) {
-  seal_file(path, open_places(path));
+  seal_file(path, open_bytes(path));
   EnsembleFile::refuse_another(path, layout());
   const EnsembleFile file(path, layout());
   file.damaged();

@@ -76,7 +76,7 @@ TEST_F(FileSeal, LeavesPlacesOpen) {
   std::ifstream written(path_, std::ios::binary);
   bytes_.assign(std::istreambuf_iterator<char>(written), {});
   EXPECT_THAT(bytes_, testing::HasSubstr("\nopen " + std::to_string(place) + " 16\n"));
-  EXPECT_EQ(open_places(path_).size(), 1U);
+  EXPECT_EQ(open_bytes(path_).size(), 1U);
   for (std::size_t at = 0; at < bytes_.size(); ++at) {
     std::string other = bytes_;
     other[at] = static_cast<char>(other[at] ^ (1 << at % 8));
