@@ -27,7 +27,7 @@ std::vector<std::int64_t> NumberSet::sort() {
   return numbers;
 }
 
-std::int64_t NumberSet::place(std::int64_t number) const {
+std::int64_t NumberSet::index(std::int64_t number) const {
   const auto found = pages_.find(page_of(number));
   if (found == pages_.end()) return -1;
   const Page& page = found->second;

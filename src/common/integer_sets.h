@@ -28,11 +28,11 @@ class NumberSet {
     return found != pages_.end() && (found->second.words[word_of(number)] & bit_of(number)) != 0;
   }
 
-  /// All numbers in increasing order. Counts them for `place`, which holds until the next insert.
+  /// All numbers in increasing order. Counts them for `index`, which holds until the next insert.
   std::vector<std::int64_t> sort();
 
   /// How many numbers of the set are smaller; -1 if this one is not in it. Call `sort` before.
-  std::int64_t place(std::int64_t number) const;
+  std::int64_t index(std::int64_t number) const;
 
  private:
   static constexpr std::size_t word_count = 8;

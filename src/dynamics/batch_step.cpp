@@ -131,18 +131,18 @@ void BatchMember::bring_state() const {
   }
 }
 
-std::span<const double> BatchMember::places(const Trace& trace) {
+std::span<const double> BatchMember::points(const Trace& trace) {
   const std::size_t count = trace.known().size();
   if (count == 0) return {};
-  places_.resize(count);
-  batch_.places_.resize(count);
-  if (batch_.places_known_ != batch_.steps_) {
+  points_.resize(count);
+  batch_.points_.resize(count);
+  if (batch_.points_known_ != batch_.steps_) {
     multiply_rows(trace.row(0).data(), count, batch_.coordinates(),
-                  batch_.state_->displacement.data(), batch_.places_.data());
-    batch_.places_known_ = batch_.steps_;
+                  batch_.state_->displacement.data(), batch_.points_.data());
+    batch_.points_known_ = batch_.steps_;
   }
-  take(batch_.places_, places_);
-  return places_;
+  take(batch_.points_, points_);
+  return points_;
 }
 
 void BatchMember::correct(std::span<const LocalIndex> dofs, const interactions::Before& before,

@@ -62,8 +62,8 @@ class BatchStep {
   std::vector<BatchValue> force_;               ///< q
   std::vector<BatchValue> stiffness_velocity_;  ///< K v-
   BatchValue extra_before_{};                   ///< v-^T D v- [W]
-  std::vector<BatchValue> places_;              ///< u_n at the places of a trace
-  std::int64_t places_known_ = -1;              ///< steps made when they were found
+  std::vector<BatchValue> points_;              ///< u_n at the points of a trace
+  std::int64_t points_known_ = -1;              ///< steps made when they were found
 };
 
 /// One run of a BatchStep, as the scheme and its interactions see it. Its state is brought to the
@@ -77,7 +77,7 @@ class BatchMember final : public SteppedRun<BatchValue> {
   const std::vector<double>& velocity() const override;
   void bring_state() const override;
   /// Found for all members at once by the first that asks: their traces are alike.
-  std::span<const double> places(const Trace& trace) override;
+  std::span<const double> points(const Trace& trace) override;
   void correct(std::span<const LocalIndex> dofs, const interactions::Before& before,
                std::span<const double> velocity) override;
   /// Sums of the last step.
@@ -93,7 +93,7 @@ class BatchMember final : public SteppedRun<BatchValue> {
   BatchStep& batch_;
   /// Steps made when displacement and velocity were brought here.
   mutable std::int64_t displacement_known_ = -1, velocity_known_ = -1;
-  std::vector<double> places_;
+  std::vector<double> points_;
 };
 
 }  // namespace pounding

@@ -12,7 +12,7 @@ namespace pounding {
 
 CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
                        const GroundMotion& motion, double time_step, Profile& profile,
-                       const SupportMotion* supports, const LoadHistories* loads, BatchPlace place)
+                       const SupportMotion* supports, const LoadHistories* loads, BatchSlot slot)
     : systems_(systems),
       motion_(motion),
       support_motion_(supports),
@@ -32,12 +32,12 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
   for (std::size_t s = 0; s < systems_.size(); ++s) {
     StructureState& state = state_.structures[s];
     start_filters(systems_[s], time_step, state);
-    if (place.structures.empty()) {
+    if (slot.structures.empty()) {
       StructureStep<double>& step =
           structure_steps_.emplace_back(std::array{&systems_[s]}, state, time_step);
       structures_.push_back(&runs_.emplace_back(step, 0, state));
     } else {
-      structures_.push_back(&members_.emplace_back(place.structures[s], place.number, state));
+      structures_.push_back(&members_.emplace_back(slot.structures[s], slot.number, state));
     }
     ledger_.push_back(&sums_[s]);
     vectors_.emplace_back(systems_[s], state);

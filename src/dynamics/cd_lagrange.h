@@ -19,8 +19,8 @@
 
 namespace pounding {
 
-/// Place of a run among those that are stepped together.
-struct BatchPlace {
+/// Slot of a run among those that are stepped together.
+struct BatchSlot {
   std::span<BatchStep> structures;  ///< empty: the run is stepped by itself
   std::size_t number = 0;
 };
@@ -56,10 +56,10 @@ class CdLagrange {
  public:
   /// All references must outlive this object. `supports`: null where the ground moves as one;
   /// `loads`: null where no load acts;
-  /// `place`: where the structures of this run are stepped. Collective.
+  /// `slot`: where the structures of this run are stepped. Collective.
   CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems, const GroundMotion& motion,
              double time_step, Profile& profile, const SupportMotion* supports = nullptr,
-             const LoadHistories* loads = nullptr, BatchPlace place = {});
+             const LoadHistories* loads = nullptr, BatchSlot slot = {});
   ~CdLagrange();
 
   /// Takes an interaction in, after those that it has; before the first step. Returns it.

@@ -28,7 +28,7 @@ template <typename Number>
 void KeptForces<Number>::take(LocalIndex begin, LocalIndex end, const Number* force,
                               std::span<const Number> inelastic, const Filters<Number>& filters,
                               std::span<const std::vector<Number>> memories) {
-  for (std::size_t k = place(begin); dofs_[k] < end; ++k) {
+  for (std::size_t k = slot(begin); dofs_[k] < end; ++k) {
     const auto dof = static_cast<std::size_t>(dofs_[k]);
     const Number q = force[dofs_[k] - begin];
     const auto memory = [&](std::size_t i) { return memories[i][dof]; };

@@ -30,13 +30,13 @@ class KeptForces {
             std::span<const Number> inelastic, const Filters<Number>& filters,
             std::span<const std::vector<Number>> memories);
   /// Forces of a watched dof in the last step in which they were kept.
-  const DofForces<Number>& at(LocalIndex dof) const { return forces_[place(dof)]; }
+  const DofForces<Number>& at(LocalIndex dof) const { return forces_[slot(dof)]; }
 
  private:
   static constexpr int block = 16;  ///< dofs that share an entry of first_
 
   /// Number of the first watched dof that is not before `dof`.
-  std::size_t place(LocalIndex dof) const {
+  std::size_t slot(LocalIndex dof) const {
     auto k = static_cast<std::size_t>(first_[static_cast<std::size_t>(dof) / block]);
     while (dofs_[k] < dof) ++k;
     return k;

@@ -290,7 +290,7 @@ void StructureStep<Number>::complete() {
     mass.solve(field_.data());
     for (std::size_t n = 0; n < mass.nodes().size(); ++n) {
       const std::size_t begin = mass.nodes()[n].begin, count = mass.nodes()[n].count;
-      const double* const change = &field_[mass.place(n)];
+      const double* const change = &field_[mass.offset(n)];
       for (std::size_t c = 0; c < count; ++c) {
         waiting_.velocity[begin + c] = state_.velocity[begin + c] + change[c];
       }

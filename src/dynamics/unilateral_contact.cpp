@@ -56,13 +56,13 @@ void UnilateralContact::detect_contact(const interactions::Step& step) {
   const ScopedTimer timer(step.profile, Phase::contact);
   ++looks_;
   for (std::size_t s = 0; s < before_.size(); ++s) {
-    std::span<const double> places;
-    if (step.look_at_gap) places = step.structures[s]->places(problem_.trace(s));
-    if (places.empty()) {
+    std::span<const double> points;
+    if (step.look_at_gap) points = step.structures[s]->points(problem_.trace(s));
+    if (points.empty()) {
       problem_.set_displacement(s, step.structures[s]->displacement().data(),
                                 step.supports.displacement);
     } else {
-      problem_.set_place_displacement(s, places, step.supports.displacement);
+      problem_.set_point_displacement(s, points, step.supports.displacement);
     }
   }
   problem_.gather_displacements();

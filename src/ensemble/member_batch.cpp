@@ -25,10 +25,10 @@ std::size_t records_of(const BatchRecorder::Times& times) {
 }
 
 ModelScheme::Parts parts_in_batch(const MemberScene& member, const EnsembleModel& shared,
-                                  const Model& model, BatchPlace place, Profile& profile) {
+                                  const Model& model, BatchSlot slot, Profile& profile) {
   ModelScheme::Parts parts =
       scheme_parts(MPI_COMM_SELF, member.scene, model, shared.model->meshes, profile);
-  parts.batch = place;
+  parts.batch = slot;
   return parts;
 }
 
@@ -92,7 +92,7 @@ MemberBatch::MemberBatch(std::span<const MemberScene* const> members, const Scen
   }
   for (std::size_t member = 0; member < members.size(); ++member) {
     runs_.push_back(std::make_unique<MemberRun>(*members[member], shared, models_[member],
-                                                BatchPlace{batches_, member}));
+                                                BatchSlot{batches_, member}));
   }
   recorder_.restart(batches_, motion_of_supports(velocity_of_supports));
 }
@@ -304,8 +304,8 @@ std::span<const double> BatchRecorder::acceleration(std::size_t channel, std::si
 }
 
 MemberRun::MemberRun(const MemberScene& member, const EnsembleModel& shared, const Model& model,
-                     BatchPlace place)
-    : scheme_(parts_in_batch(member, shared, model, place, profile_)),
+                     BatchSlot slot)
+    : scheme_(parts_in_batch(member, shared, model, slot, profile_)),
       run_{MPI_COMM_SELF, member.scene, model, scheme_},
       observers_(make_observers(run_, profile_, true)),
       pairs_(model.interface.constraints.size()) {

@@ -22,10 +22,10 @@ namespace pounding {
 /// those outputs of single runs that an ensemble keeps. Local.
 class MemberRun {
  public:
-  /// `place`: where the structures of `model`, the member's own, are stepped. The arguments
+  /// `slot`: where the structures of `model`, the member's own, are stepped. The arguments
   /// must outlive this object.
   MemberRun(const MemberScene& member, const EnsembleModel& shared, const Model& model,
-            BatchPlace place);
+            BatchSlot slot);
 
   /// Before the structures' step; returns whether that is to be made with energies, with forces.
   StepNeeds open();

@@ -131,7 +131,7 @@ void ContactProblem::find_components() {
     most_entries = std::max(most_entries, component.delassus.entries());
   }
   friction_.reserve();
-  active_places_.reserve(largest);
+  active_indices_.reserve(largest);
   active_number_.reserve(largest);
   matrix_.reserve(largest, most_entries);
   rate_.resize(largest);
@@ -145,9 +145,9 @@ void ContactProblem::set_displacement(std::size_t structure, const double* displ
   interface_.set(structure, 0, 1, displacement, supports);
 }
 
-void ContactProblem::set_place_displacement(std::size_t structure, std::span<const double> places,
+void ContactProblem::set_point_displacement(std::size_t structure, std::span<const double> points,
                                             std::span<const double> supports) {
-  interface_.set_places(structure, places, supports);
+  interface_.set_points(structure, points, supports);
 }
 
 void ContactProblem::gather_displacements() {
@@ -207,16 +207,16 @@ void ContactProblem::solve_component(const Component& component) {
   }
   const std::size_t dofs = displacement_.size();
   const std::span<const double> free_velocity(velocities_.data() + dofs, dofs);
-  active_places_.clear();
+  active_indices_.clear();
   for (std::size_t i = 0; i < component.rows.size(); ++i) {
-    if (active_[component.rows[i]] != 0) active_places_.push_back(i);
+    if (active_[component.rows[i]] != 0) active_indices_.push_back(i);
   }
-  if (active_places_.size() == 1) {
-    const int row = component.rows[active_places_[0]];
+  if (active_indices_.size() == 1) {
+    const int row = component.rows[active_indices_[0]];
     const std::size_t r = row;
     impulse_[r] = std::max(0.0, -interface_.rows().apply(row, free_velocity)) / diagonal_[r];
     interface_.rows().add_transposed(row, impulse_[r], dof_impulse_);
-  } else if (!active_places_.empty()) {
+  } else if (!active_indices_.empty()) {
     solve_coupled(component);
   }
 }
@@ -224,13 +224,13 @@ void ContactProblem::solve_component(const Component& component) {
 void ContactProblem::solve_coupled(const Component& component) {
   const std::size_t dofs = displacement_.size();
   const std::span<const double> free_velocity(velocities_.data() + dofs, dofs);
-  const std::size_t n = active_places_.size();
-  const auto row = [&](std::size_t i) { return component.rows[active_places_[i]]; };
+  const std::size_t n = active_indices_.size();
+  const auto row = [&](std::size_t i) { return component.rows[active_indices_[i]]; };
   active_number_.assign(component.rows.size(), -1);
   for (std::size_t i = 0; i < n; ++i) {
     rate_[i] = interface_.rows().apply(row(i), free_velocity);
     solution_[i] = previous_[row(i)];
-    active_number_[active_places_[i]] = static_cast<int>(i);
+    active_number_[active_indices_[i]] = static_cast<int>(i);
   }
   take_principal_part(component.delassus, active_number_, matrix_);
   const LcpResult result = lcp_->solve(matrix_, {rate_.data(), n}, {solution_.data(), n});
@@ -253,9 +253,9 @@ void ContactProblem::note_residual(double residual, double rate) {
 
 void ContactProblem::correct_component(const Component& component) {
   const std::size_t dofs = displacement_.size();
-  const std::size_t n = active_places_.size();
+  const std::size_t n = active_indices_.size();
   for (std::size_t i = 0; i < n; ++i) {
-    const int row = component.rows[active_places_[i]];
+    const int row = component.rows[active_indices_[i]];
     const auto columns = interface_.rows().row_dofs(row);
     const auto values = interface_.rows().row_coefficients(row);
     rate_[i] = 0;
@@ -267,7 +267,7 @@ void ContactProblem::correct_component(const Component& component) {
   }
   lcp_->correct({rate_.data(), n}, {solution_.data(), n}, {increment_.data(), n});
   for (std::size_t i = 0; i < n; ++i) {
-    interface_.rows().add_transposed(component.rows[active_places_[i]], increment_[i],
+    interface_.rows().add_transposed(component.rows[active_indices_[i]], increment_[i],
                                      dof_increment_);
   }
 }

@@ -47,9 +47,9 @@ class ContactProblem {
   /// u_n over the owned dofs of the structure; `supports`: that of the supports, see Trace::apply.
   void set_displacement(std::size_t structure, const double* displacement,
                         std::span<const double> supports = {});
-  /// u_n at the known places of the structure's trace, where it is at hand, in place of that over
+  /// u_n at the known points of the structure's trace, where it is at hand, in place of that over
   /// the dofs; the supports carry them along.
-  void set_place_displacement(std::size_t structure, std::span<const double> places,
+  void set_point_displacement(std::size_t structure, std::span<const double> points,
                               std::span<const double> supports);
   /// The places of dof_list() move beside their structures: displacement [m], and velocity
   /// before and in the step [m/s], which the next gathers add. Members only.
@@ -79,7 +79,7 @@ class ContactProblem {
   /// v += M^-1 T^T L^T lambda over the dofs of the structure's trace.
   void add_velocity_change(std::size_t structure, double* velocity);
   /// Work of the impulses, friction's included, on a structure's supports that move with `velocity`
-  /// [J]: that of the places that this rank knows.
+  /// [J]: that of the points that this rank knows.
   double support_work(std::size_t structure, std::span<const double> velocity);
 
   /// Gaps of the faces in the last gather, per row; below zero where they are crushed. Members
@@ -91,9 +91,9 @@ class ContactProblem {
   /// Contact work 1/2 lambda^T L v- of the last solve, that of friction apart [J].
   double total_work() const;
   const FrictionalContact& friction() const { return friction_; }
-  /// Places that contacts move, the same on every rank.
+  /// Points that contacts move, the same on every rank.
   const std::vector<InterfaceDof>& dof_list() const { return interface_.rows().dof_list(); }
-  /// Adds the impulses L^T lambda of the last solve, friction's included, to `sum` [N s], per place
+  /// Adds the impulses L^T lambda of the last solve, friction's included, to `sum` [N s], per point
   /// of dof_list(). Members only.
   void add_dof_impulses(std::span<double> sum) const;
   double largest_residual() const { return largest_residual_; }
@@ -155,9 +155,9 @@ class ContactProblem {
   double largest_residual_ = 0;
   double largest_rate_ = 0;  ///< of the free gap rates so far [m/s]
   std::unique_ptr<CoupledLcp> lcp_;
-  std::vector<std::size_t> active_places_;  ///< of the component's active rows in it
-  std::vector<int> active_number_;          ///< per row of the component; -1: not active
-  SparseRows matrix_;                       ///< H of the active rows
+  std::vector<std::size_t> active_indices_;  ///< of the component's active rows in it
+  std::vector<int> active_number_;           ///< per row of the component; -1: not active
+  SparseRows matrix_;                        ///< H of the active rows
   std::vector<double> rate_;
   std::vector<double> solution_;
   std::vector<double> increment_;

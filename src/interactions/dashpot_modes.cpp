@@ -33,9 +33,9 @@ std::optional<DashpotRows> dashpot_rows(const LinearSystem& system) {
       return {};
     }
     dashpots.strengths.push_back(law->rate());
-    for (std::size_t k = 0; k < link.place.size(); ++k) {
-      if (link.place[k] < 0) continue;
-      trace.add_force(static_cast<std::size_t>(link.place[k]), link.weight[k],
+    for (std::size_t k = 0; k < link.point.size(); ++k) {
+      if (link.point[k] < 0) continue;
+      trace.add_force(static_cast<std::size_t>(link.point[k]), link.weight[k],
                       {&dashpots.rows[b * size], size});
     }
   }

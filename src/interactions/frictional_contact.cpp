@@ -23,7 +23,7 @@ FrictionalContact::FrictionalContact(const ContactOperator& contact,
                                      std::span<const Constraint> constraints)
     : operator_(contact),
       compliance_(compliance),
-      place_(contact.rows(), -1),
+      index_(contact.rows(), -1),
       impulse_(constraints.size()),
       previous_(constraints.size()),
       across_(constraints.size()),
@@ -51,7 +51,7 @@ std::size_t FrictionalContact::add(std::vector<int> rows, DelassusPattern& patte
   for (std::size_t i = 0; i < component.rows.size(); ++i) {
     for (std::size_t d = 0; d < 3; ++d) {
       const int at = operator_row(component.rows[i], d);
-      if (at >= 0) place_[at] = static_cast<int>(i);
+      if (at >= 0) index_[at] = static_cast<int>(i);
     }
   }
   for (const int row : component.rows) {
@@ -60,7 +60,7 @@ std::size_t FrictionalContact::add(std::vector<int> rows, DelassusPattern& patte
       if (operator_row(row, d) >= 0) own.push_back(operator_row(row, d));
     }
     std::vector<int> neighbours;
-    for (const int coupled : pattern.coupled_with(own)) neighbours.push_back(place_[coupled]);
+    for (const int coupled : pattern.coupled_with(own)) neighbours.push_back(index_[coupled]);
     std::ranges::sort(neighbours);
     neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
     for (std::size_t d = 0; d < 3; ++d) {
@@ -87,7 +87,7 @@ void FrictionalContact::reserve() {
   }
   if (largest == 0) return;
   solver_.emplace(largest);
-  places_.reserve(largest);
+  indices_.reserve(largest);
   numbers_.reserve(3 * largest);
   matrix_.reserve(3 * largest, most_entries);
   rate_.resize(3 * largest);
@@ -109,16 +109,16 @@ FrictionalContact::Solution FrictionalContact::solve(
     std::span<const double> free, std::span<double> impulse, std::span<double> work,
     std::span<double> dof_impulse) {
   const Component& component = components_[number];
-  places_.clear();
+  indices_.clear();
   for (std::size_t i = 0; i < component.rows.size(); ++i) {
-    if (active[component.rows[i]] != 0) places_.push_back(i);
+    if (active[component.rows[i]] != 0) indices_.push_back(i);
   }
-  if (places_.empty()) return {};
-  const std::size_t n = 3 * places_.size();
+  if (indices_.empty()) return {};
+  const std::size_t n = 3 * indices_.size();
   numbers_.assign(3 * component.rows.size(), -1);
   for (std::size_t i = 0; i < n; ++i) {
-    numbers_[3 * places_[i / 3] + i % 3] = static_cast<int>(i);
-    const int row = component.rows[places_[i / 3]];
+    numbers_[3 * indices_[i / 3] + i % 3] = static_cast<int>(i);
+    const int row = component.rows[indices_[i / 3]];
     const int at = operator_row(row, i % 3);
     rate_[i] = at < 0 ? 0 : operator_.apply(at, free);
     solution_[i] = previous_[row][i % 3];
@@ -128,7 +128,7 @@ FrictionalContact::Solution FrictionalContact::solve(
   const FrictionProblem problem{matrix_, {rate_.data(), n}, coefficient_};
   const FrictionResult result = solver_->solve(problem, {solution_.data(), n});
   for (std::size_t i = 0; i < n; i += 3) {
-    const int row = component.rows[places_[i / 3]];
+    const int row = component.rows[indices_[i / 3]];
     std::array<double, 3> after{};
     double twice = 0;  // work of friction
     for (std::size_t d = 0; d < 3; ++d) {

@@ -79,9 +79,9 @@ class FrictionalContact {
   std::vector<Point> points_;  ///< per row
   bool has_any_ = false;
   std::vector<Component> components_;
-  std::vector<int> place_;  ///< per row of the operator: its constraint's within its component
+  std::vector<int> index_;  ///< per row of the operator: its constraint's within its component
   std::optional<FrictionSolver> solver_;  ///< once there is room
-  std::vector<std::size_t> places_;       ///< active rows within the component
+  std::vector<std::size_t> indices_;      ///< active rows within the component
   std::vector<int> numbers_;              ///< of the active ones' directions; -1: not active
   SparseRows matrix_;                     ///< H of the active rows
   std::vector<double> rate_;

@@ -37,7 +37,7 @@ InelasticElements::InelasticElements(std::size_t structure, const Mesh& mesh,
       group.layout = element_layout(block.type);
       group.law = entry.law.get();
       group.memory.assign(block.count() * entry.law->memory_size(), 0.0);
-      find_places(group);
+      find_slots(group);
       for (std::size_t e = 0; e < block.count(); ++e) {
         for (std::size_t p = 0; group.counted[e] != 0 && p < entry.law->parts().size(); ++p) {
           parts_.push_back({groups_.size() - 1, e, p});
@@ -59,7 +59,7 @@ InelasticElements::InelasticElements(std::size_t structure, const Mesh& mesh,
 
 InelasticElements::~InelasticElements() = default;
 
-void InelasticElements::find_places(Group& group) {
+void InelasticElements::find_slots(Group& group) {
   const ElementBlock& block = mesh_.blocks[group.block];
   const auto acts = [&](std::size_t e, std::size_t i) {
     return group.law->acts_on(group.first + e, i);
@@ -76,41 +76,41 @@ void InelasticElements::find_places(Group& group) {
     for (const auto& [i, ground] : group.acting) {
       const LocalIndex node = block.connectivity[e * nodes + i / components];
       const auto component = static_cast<int>(i % components);
-      group.places.push_back(acts(e, i) ? place_of(node, component, ground) : -1);
+      group.slots.push_back(acts(e, i) ? slot_of(node, component, ground) : -1);
     }
   }
   group.counted = block.counted;
   for (std::size_t e = 0; trace_ && e < block.count(); ++e) {
-    const auto first = group.places.begin() + static_cast<std::ptrdiff_t>(e * group.acting.size());
+    const auto first = group.slots.begin() + static_cast<std::ptrdiff_t>(e * group.acting.size());
     group.counted[e] =
         std::any_of(first, first + static_cast<std::ptrdiff_t>(group.acting.size()),
-                    [&](LocalIndex place) { return place >= 0 && place < mesh_.owned_dofs; });
+                    [&](LocalIndex slot) { return slot >= 0 && slot < mesh_.owned_dofs; });
   }
 }
 
-double InelasticElements::carried_by(const SupportColumn& column, const HeldPlace& held) const {
+double InelasticElements::carried_by(const SupportColumn& column, const HeldDof& held) const {
   return held.ground ? ground_displacement(column, mesh_, held.node, held.component)
                      : support_displacement(column, mesh_, held.node, held.component);
 }
 
-LocalIndex InelasticElements::place_of(LocalIndex node, int component, bool ground) {
+LocalIndex InelasticElements::slot_of(LocalIndex node, int component, bool ground) {
   const LocalIndex dof = ground ? -1 : mesh_.dof(node, component);
   if (dof >= 0 || !system_.supports) return dof;
-  const HeldPlace held{node, component, ground};
+  const HeldDof held{node, component, ground};
   const auto moves = [&](const SupportColumn& column) { return carried_by(column, held) != 0; };
   if (std::ranges::none_of(system_.supports->columns, moves)) return -1;
   const auto found = std::ranges::find(held_, held);
-  const auto place = static_cast<LocalIndex>(found - held_.begin());
+  const auto slot = static_cast<LocalIndex>(found - held_.begin());
   if (found == held_.end()) held_.push_back(held);
-  return static_cast<LocalIndex>(mesh_.dof_count) + place;
+  return static_cast<LocalIndex>(mesh_.dof_count) + slot;
 }
 
 void InelasticElements::find_ghosts() {
   for (const Group& group : groups_) {
-    for (const LocalIndex place : group.places) {
+    for (const LocalIndex slot : group.slots) {
       const bool is_ghost =
-          place >= mesh_.owned_dofs && place < static_cast<LocalIndex>(mesh_.dof_count);
-      if (is_ghost) ghosts_.push_back(place);
+          slot >= mesh_.owned_dofs && slot < static_cast<LocalIndex>(mesh_.dof_count);
+      if (is_ghost) ghosts_.push_back(slot);
     }
   }
   std::ranges::sort(ghosts_);
@@ -183,10 +183,10 @@ double InelasticElements::respond() {
     const std::size_t acting = group.acting.size();
     const std::size_t numbers = group.law->memory_size();
     for (std::size_t e = 0; e < group.counted.size(); ++e) {
-      const LocalIndex* const place = group.places.data() + e * acting;
+      const LocalIndex* const slot = group.slots.data() + e * acting;
       for (std::size_t k = 0; k < acting; ++k) {
         const auto& [dof, ground] = group.acting[k];
-        const double own = place[k] < 0 ? 0 : displacement_[place[k]];
+        const double own = slot[k] < 0 ? 0 : displacement_[slot[k]];
         u[dof] = ground ? u[dof] - own : own;
       }
       const ElementLaw::Response response =
@@ -196,10 +196,10 @@ double InelasticElements::respond() {
       const bool counted = group.counted[e] != 0;
       if (counted) offset += response.offset;
       for (std::size_t k = 0; k < acting; ++k) {
-        const bool held = place[k] >= static_cast<LocalIndex>(mesh_.dof_count);
-        const bool own = held ? counted : place[k] >= 0 && place[k] < mesh_.owned_dofs;
+        const bool held = slot[k] >= static_cast<LocalIndex>(mesh_.dof_count);
+        const bool own = held ? counted : slot[k] >= 0 && slot[k] < mesh_.owned_dofs;
         const auto& [dof, ground] = group.acting[k];
-        if (own) force_[place[k]] += ground ? -g[dof] : g[dof];
+        if (own) force_[slot[k]] += ground ? -g[dof] : g[dof];
       }
       std::fill_n(g.begin(), size, 0.0);
     }
@@ -261,10 +261,10 @@ void InelasticElements::push(const Step& step) {
   structure.correct(trace_->dofs(), stepped_, velocity_);
 }
 
-InelasticElements::Carried InelasticElements::carried(const Step& step, std::size_t place) const {
+InelasticElements::Carried InelasticElements::carried(const Step& step, std::size_t slot) const {
   Carried sum;
   for (std::size_t c = 0; c < carried_.size(); ++c) {
-    const double shape = carried_[c][place];
+    const double shape = carried_[c][slot];
     sum.now += shape * step.supports.displacement[c];
     sum.next += shape * (step.supports.displacement[c] + time_step_ * step.supports.velocity[c]);
     sum.way += shape * time_step_ * step.supports.velocity_mean[c];
@@ -274,8 +274,8 @@ InelasticElements::Carried InelasticElements::carried(const Step& step, std::siz
 
 double InelasticElements::held_by_supports(const Step& step) const {
   double energy = 0;
-  for (std::size_t place = mesh_.dof_count; place < force_.size(); ++place) {
-    energy += force_[place] * carried(step, place).next / 2;
+  for (std::size_t slot = mesh_.dof_count; slot < force_.size(); ++slot) {
+    energy += force_[slot] * carried(step, slot).next / 2;
   }
   return energy;
 }
@@ -297,8 +297,8 @@ void InelasticElements::finish(const Step& step) {
     damped += (acting_[k] - now_[k]) * way;
     held += now_[k] * (state_.displacement[k] + moved + next) / 2;
   }
-  for (std::size_t place = mesh_.dof_count; place < force_.size(); ++place) {
-    input += force_[place] * carried(step, place).way;
+  for (std::size_t slot = mesh_.dof_count; slot < force_.size(); ++slot) {
+    input += force_[slot] * carried(step, slot).way;
   }
   LedgerPart& ledger = *step.ledger[structure_];
   ledger.link_energy_before += held_energy_;
@@ -373,14 +373,14 @@ void InelasticElements::load(const SavedState& saved) {
     const std::size_t numbers = group.law->memory_size();
     const std::string name = name_of(group, "history");
     const std::vector<double>& rows = saved.table(name, numbers + 1);
-    std::vector<std::pair<double, std::size_t>> place;  // of the row of each element in the file
-    for (std::size_t r = 0; r < rows.size(); r += numbers + 1) place.emplace_back(rows[r], r + 1);
-    std::ranges::sort(place);
+    std::vector<std::pair<double, std::size_t>> lines;  // of the row of each element in the file
+    for (std::size_t r = 0; r < rows.size(); r += numbers + 1) lines.emplace_back(rows[r], r + 1);
+    std::ranges::sort(lines);
     for (std::size_t e = 0; e < block.count(); ++e) {
       if (trace_ && group.counted[e] == 0) continue;
       const auto tag = static_cast<double>(block.tags[e]);
-      const auto found = std::ranges::lower_bound(place, std::pair(tag, std::size_t{0}));
-      if (found == place.end() || found->first != tag) saved.refuse_values(name);
+      const auto found = std::ranges::lower_bound(lines, std::pair(tag, std::size_t{0}));
+      if (found == lines.end() || found->first != tag) saved.refuse_values(name);
       std::copy_n(rows.begin() + static_cast<std::ptrdiff_t>(found->second), numbers,
                   group.memory.begin() + static_cast<std::ptrdiff_t>(e * numbers));
     }

@@ -85,47 +85,47 @@ class InelasticElements final : public Interaction {
     };
     std::vector<Acting> acting;
     /// Places of these in displacement_, -1 where none counts; shape (elements, acting).
-    std::vector<LocalIndex> places;
+    std::vector<LocalIndex> slots;
     std::vector<unsigned char> counted;  ///< per element, whether this rank counts it
     std::vector<double> memory;          ///< shape (elements, numbers of the law)
   };
 
   /// A held component, or the ground under a component of a node.
-  struct HeldPlace {
+  struct HeldDof {
     LocalIndex node = 0;
     int component = 0;
     bool ground = false;  ///< that under the node
-    bool operator==(const HeldPlace&) const = default;
+    bool operator==(const HeldDof&) const = default;
   };
 
-  /// g over the places out of `displacement_`, histories brought there; returns W of the elements
+  /// g over the slots out of `displacement_`, histories brought there; returns W of the elements
   /// that this rank counts.
   double respond();
   /// History of the element of a part.
   std::span<const double> memory_of(const Part& part) const;
-  /// Prepares `halo_` once the places are known. Collective.
+  /// Prepares `halo_` once the slots are known. Collective.
   void find_ghosts();
-  /// Sets the ghosts among the places to values that `halo_` brought.
+  /// Sets the ghosts among the slots to values that `halo_` brought.
   void take_ghosts(std::vector<double>& values) const;
   /// Brings `displacement_` to u_n less so much time times its rate.
   void exchange(const Step& step, double back);
-  /// Finds how far a unit of each column of the supports' motion carries every place.
+  /// Finds how far a unit of each column of the supports' motion carries every slot.
   void find_carried();
-  /// Finds `acting` and `places` of a group.
-  void find_places(Group& group);
-  /// Place of a component: its local dof, one beyond these where supports move it, -1 if held;
+  /// Finds `acting` and `slots` of a group.
+  void find_slots(Group& group);
+  /// Slot of a component: its local dof, one beyond these where supports move it, -1 if held;
   /// `ground`: of the ground under the node.
-  LocalIndex place_of(LocalIndex node, int component, bool ground);
+  LocalIndex slot_of(LocalIndex node, int component, bool ground);
   /// Values over `dofs_` out of those of the structure's dofs, where elements are apart.
   void measure(const std::vector<double>& owned, std::vector<double>& values) {
     trace_->apply(owned.data(), values.data(), 1);
   }
-  /// How far the supports carry a place: at t_n and t_{n+1}, and in the mean of the ways to both.
+  /// How far the supports carry a slot: at t_n and t_{n+1}, and in the mean of the ways to both.
   struct Carried {
     double now = 0, next = 0, way = 0;
   };
-  Carried carried(const Step& step, std::size_t place) const;
-  double carried_by(const SupportColumn& column, const HeldPlace& held) const;
+  Carried carried(const Step& step, std::size_t slot) const;
+  double carried_by(const SupportColumn& column, const HeldDof& held) const;
   /// 1/2 g_n . u_{n+1} of held components, which is kept with W_n.
   double held_by_supports(const Step& step) const;
   std::string name_of(const Group& group, const char* numbers) const;
@@ -140,13 +140,13 @@ class InelasticElements final : public Interaction {
   double time_step_;
   std::vector<RegionLaw> laws_;
   std::vector<Group> groups_;
-  std::unique_ptr<Halo> halo_;      ///< of the ghosts among the places
+  std::unique_ptr<Halo> halo_;      ///< of the ghosts among the slots
   std::vector<LocalIndex> ghosts_;  ///< their local dofs, in the order that halo_ was given
   std::vector<LocalIndex> dofs_;    ///< owned dofs that these elements act on, increasing
-  std::vector<HeldPlace> held_;     ///< that supports move; their places are behind the local dofs
-  std::vector<std::vector<double>> carried_;  ///< per column of the supports, over the places
-  std::vector<double> displacement_;  ///< over the places, set at dofs_, ghosts, held_ [m, rad]
-  std::vector<double> force_;         ///< g over the places likewise; of held_ of counted elements
+  std::vector<HeldDof> held_;       ///< that supports move; their slots are behind the local dofs
+  std::vector<std::vector<double>> carried_;  ///< per column of the supports, over the slots
+  std::vector<double> displacement_;  ///< over the slots, set at dofs_, ghosts, held_ [m, rad]
+  std::vector<double> force_;         ///< g over the slots likewise; of held_ of counted elements
   std::vector<double> now_;           ///< g_n over dofs_
   std::vector<double> before_;        ///< g_{n-1} likewise
   std::vector<double> acting_;        ///< the force of the step

@@ -93,8 +93,8 @@ class SteppedStructure {
   virtual const std::vector<double>& velocity() const = 0;
   /// Brings the state of its run up to date where the step keeps it in a batch.
   virtual void bring_state() const {}
-  /// u_n at the known places of a trace [m, rad], where members of a batch ask for it; else empty.
-  virtual std::span<const double> places(const Trace& /*trace*/) { return {}; }
+  /// u_n at the known points of a trace [m, rad], where members of a batch ask for it; else empty.
+  virtual std::span<const double> points(const Trace& /*trace*/) { return {}; }
   /// Dofs that `correct` may change. Allocates; before the first step. `always`: in any step; else
   /// in steps whose interaction says `corrects` alone.
   virtual void watch(std::span<const LocalIndex> dofs, bool always) = 0;

@@ -110,13 +110,13 @@ std::vector<std::vector<int>> dofs_by_structure(const ContactOperator& contact,
 std::vector<Trace> make_traces(const ContactOperator& contact,
                                std::span<const LinearSystem> systems, std::span<const Mesh> meshes,
                                bool impulses) {
-  std::vector<std::vector<TracePoint>> places(systems.size());
+  std::vector<std::vector<TracePoint>> points(systems.size());
   for (const InterfaceDof& dof : contact.dof_list()) {
-    places[dof.structure].push_back({dof.node, dof.component});
+    points[dof.structure].push_back({dof.node, dof.component});
   }
   std::vector<Trace> traces;
   for (std::size_t s = 0; s < systems.size(); ++s) {
-    traces.emplace_back(systems[s], meshes[s], places[s], impulses);
+    traces.emplace_back(systems[s], meshes[s], points[s], impulses);
   }
   return traces;
 }
@@ -125,7 +125,7 @@ std::vector<int> known_dofs(std::span<const std::vector<int>> structure_dofs,
                             std::span<const Trace> traces) {
   std::vector<int> known;
   for (std::size_t s = 0; s < traces.size(); ++s) {
-    for (const int place : traces[s].known()) known.push_back(structure_dofs[s][place]);
+    for (const int point : traces[s].known()) known.push_back(structure_dofs[s][point]);
   }
   return known;
 }
@@ -136,20 +136,20 @@ InterfaceRows::InterfaceRows(MPI_Comm comm, const std::vector<Constraint>& const
     : operator_(comm, constraints, meshes, more),
       structure_dofs_(dofs_by_structure(operator_, systems.size())),
       traces_(make_traces(operator_, systems, meshes, true)),
-      known_place_(dofs(), -1),
+      known_point_(dofs(), -1),
       gather_(comm, known_dofs(structure_dofs_, traces_)),
       compliance_(comm, operator_.dof_list(), traces_) {
   std::size_t known = 0;
   for (std::size_t s = 0; s < traces_.size(); ++s) {
-    const std::vector<int>& places = traces_[s].known();
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      known_place_[structure_dofs_[s][places[k]]] = static_cast<int>(k);
+    const std::vector<int>& points = traces_[s].known();
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      known_point_[structure_dofs_[s][points[k]]] = static_cast<int>(k);
     }
     first_known_.push_back(known);
-    known += places.size();
+    known += points.size();
   }
   mine_.assign(InterfaceGather::max_fields * known, 0.0);
-  place_impulse_.assign(known, 0.0);
+  point_impulse_.assign(known, 0.0);
 }
 
 void InterfaceRows::set(std::size_t structure, std::size_t field, std::size_t fields,
@@ -158,10 +158,10 @@ void InterfaceRows::set(std::size_t structure, std::size_t field, std::size_t fi
   traces_[structure].apply(owned, values, fields, supports);
 }
 
-void InterfaceRows::set_places(std::size_t structure, std::span<const double> places,
+void InterfaceRows::set_points(std::size_t structure, std::span<const double> points,
                                std::span<const double> supports) {
   double* const values = mine_.data() + first_known_[structure];
-  std::copy(places.begin(), places.end(), values);
+  std::copy(points.begin(), points.end(), values);
   traces_[structure].carry(supports, values, 1);
 }
 
@@ -175,8 +175,8 @@ void InterfaceRows::add_force(int row, double f, std::size_t structure,
   const auto dofs = operator_.row_dofs(row);
   for (std::size_t a = 0; a < dofs.size(); ++a) {
     const std::size_t dof = dofs[a];
-    if (structure_of(dof) != structure || known_place_[dof] < 0) continue;
-    traces_[structure].add_force(static_cast<std::size_t>(known_place_[dof]),
+    if (structure_of(dof) != structure || known_point_[dof] < 0) continue;
+    traces_[structure].add_force(static_cast<std::size_t>(known_point_[dof]),
                                  f * operator_.row_coefficients(row)[a], owned);
   }
 }
@@ -184,20 +184,20 @@ void InterfaceRows::add_force(int row, double f, std::size_t structure,
 void InterfaceRows::pick(std::size_t structure, std::span<const double> impulses) {
   const std::vector<int>& known = traces_[structure].known();
   for (std::size_t k = 0; k < known.size(); ++k) {
-    place_impulse_[k] = impulses[structure_dofs_[structure][known[k]]];
+    point_impulse_[k] = impulses[structure_dofs_[structure][known[k]]];
   }
 }
 
 void InterfaceRows::add_velocity_change(std::size_t structure, std::span<const double> impulses,
                                         double* velocity) {
   pick(structure, impulses);
-  traces_[structure].add_impulse(place_impulse_.data(), velocity);
+  traces_[structure].add_impulse(point_impulse_.data(), velocity);
 }
 
 double InterfaceRows::support_work(std::size_t structure, std::span<const double> impulses,
                                    std::span<const double> velocity) {
   pick(structure, impulses);
-  return traces_[structure].support_work(place_impulse_, velocity);
+  return traces_[structure].support_work(point_impulse_, velocity);
 }
 
 }  // namespace pounding::interactions

@@ -71,8 +71,8 @@ std::vector<Trace> make_traces(const ContactOperator& contact,
 std::vector<int> known_dofs(std::span<const std::vector<int>> structure_dofs,
                             std::span<const Trace> traces);
 
-/// Rows of L over places of structures that several ranks own, held alike by every rank that knows
-/// one of these places: fields gathered at them, L M^-1 L^T, and impulses on the structures.
+/// Rows of L over points of structures that several ranks own, held alike by every rank that knows
+/// one of these points: fields gathered at them, L M^-1 L^T, and impulses on the structures.
 /// Allocates nothing after construction.
 class InterfaceRows {
  public:
@@ -98,9 +98,9 @@ class InterfaceRows {
   /// of a structure; `supports`: motion of the supports that carries it along, see Trace::apply.
   void set(std::size_t structure, std::size_t field, std::size_t fields, const double* owned,
            std::span<const double> supports);
-  /// A single field from its values at the known places of the structure's trace, which `supports`
+  /// A single field from its values at the known points of the structure's trace, which `supports`
   /// carry along.
-  void set_places(std::size_t structure, std::span<const double> places,
+  void set_points(std::size_t structure, std::span<const double> points,
                   std::span<const double> supports);
   /// Gathers the fields that were set: shape (fields, dofs). Members only, collective over them.
   void gather(std::size_t fields, std::span<double> values);
@@ -112,24 +112,24 @@ class InterfaceRows {
   /// v += M^-1 T^T f over the dofs of the structure's trace, f [N s] over the dofs of the rows.
   void add_velocity_change(std::size_t structure, std::span<const double> impulses,
                            double* velocity);
-  /// Work of impulses f on a structure's supports that move with `velocity` [J]: that of the places
+  /// Work of impulses f on a structure's supports that move with `velocity` [J]: that of the points
   /// that this rank knows.
   double support_work(std::size_t structure, std::span<const double> impulses,
                       std::span<const double> velocity);
 
  private:
-  /// f at the known places of a structure.
+  /// f at the known points of a structure.
   void pick(std::size_t structure, std::span<const double> impulses);
 
   ContactOperator operator_;
   std::vector<std::vector<int>> structure_dofs_;  ///< per structure: its dofs of the operator
   std::vector<Trace> traces_;                     ///< per structure
   std::vector<std::size_t> first_known_;          ///< per structure, into the values of this rank
-  std::vector<int> known_place_;  ///< per dof: place in its structure's trace; -1: not known here
+  std::vector<int> known_point_;  ///< per dof: point in its structure's trace; -1: not known here
   InterfaceGather gather_;
   InterfaceCompliance compliance_;
   std::vector<double> mine_;           ///< shape (known, fields)
-  std::vector<double> place_impulse_;  ///< of the known places of a structure
+  std::vector<double> point_impulse_;  ///< of the known points of a structure
 };
 
 }  // namespace pounding::interactions

@@ -59,9 +59,9 @@ class ModalDashpots final : public StructureLinks {
   }
   double force(std::size_t link) const override {
     double rate = 0;  // b . (v- + v+)
-    for (std::size_t k = 0; k < links_[link].place.size(); ++k) {
-      if (links_[link].place[k] < 0) continue;
-      const auto row = trace_.row(static_cast<std::size_t>(links_[link].place[k]));
+    for (std::size_t k = 0; k < links_[link].point.size(); ++k) {
+      if (links_[link].point[k] < 0) continue;
+      const auto row = trace_.row(static_cast<std::size_t>(links_[link].point[k]));
       for (std::size_t i = 0; i < row.size(); ++i) {
         rate += links_[link].weight[k] * row[i] * brake_.sums()[i];
       }
@@ -136,10 +136,10 @@ class LinkRows final : public StructureLinks {
     solver_.solve(step.share(), elongations_, driven_, memory_, force_);
     std::fill(field_.begin(), field_.end(), 0.0);
     for (std::size_t b = 0; b < links_.size(); ++b) {
-      const auto places = weights_.columns(b);
+      const auto points = weights_.columns(b);
       const auto weights = weights_.values(b);
-      for (std::size_t i = 0; i < places.size(); ++i) {
-        field_[places[i]] -= weights[i] * step.share() * time_step_ * force_[b];
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        field_[points[i]] -= weights[i] * step.share() * time_step_ * force_[b];
       }
     }
     trace_.restrict_to_dofs(structure.velocity().data(), velocity_.data());
@@ -214,9 +214,9 @@ class LinkRows final : public StructureLinks {
       int body = -1;
       bool alone = true;  // it moves one body and nothing else
       OnBody::Motion motion{};
-      for (std::size_t i = 0; i < links_[b].place.size(); ++i) {
-        if (links_[b].place[i] < 0) continue;
-        const auto found = rows.find(trace_.dofs()[static_cast<std::size_t>(links_[b].place[i])]);
+      for (std::size_t i = 0; i < links_[b].point.size(); ++i) {
+        if (links_[b].point[i] < 0) continue;
+        const auto found = rows.find(trace_.dofs()[static_cast<std::size_t>(links_[b].point[i])]);
         alone = alone && found != rows.end() && (body < 0 || body == found->second.first);
         if (!alone) break;
         body = found->second.first;
@@ -230,10 +230,10 @@ class LinkRows final : public StructureLinks {
   }
   std::vector<std::vector<Coupling>> find_couplings(const std::vector<OnBody>& on_body,
                                                     std::size_t owned_dofs) {
-    std::vector<std::vector<std::size_t>> at_place(field_.size());
+    std::vector<std::vector<std::size_t>> at_point(field_.size());
     for (std::size_t b = 0; b < links_.size(); ++b) {
-      for (const int place : links_[b].place) {
-        if (place >= 0) at_place[place].push_back(b);
+      for (const int point : links_[b].point) {
+        if (point >= 0) at_point[point].push_back(b);
       }
     }
     std::vector<std::vector<Coupling>> couplings(links_.size());
@@ -247,18 +247,18 @@ class LinkRows final : public StructureLinks {
     for (std::size_t b = 0; b < links_.size(); ++b) {
       if (on_body[b].body >= 0) continue;
       std::map<std::size_t, double> response;  // [1/kg]
-      if (std::ranges::any_of(links_[b].place,
+      if (std::ranges::any_of(links_[b].point,
                               [&](int k) { return k >= 0 && trace_.moves_others(k); })) {
         respond(links_[b], moved, all);
         for (std::size_t other = 0; other < links_.size(); ++other) response[other] = all[other];
       } else {
-        for (std::size_t i = 0; i < links_[b].place.size(); ++i) {
-          const int place = links_[b].place[i];
-          if (place < 0) continue;
-          const double own = trace_.compliance(place, place) * links_[b].weight[i];
-          for (const std::size_t other : at_place[place]) {
-            const auto& places = links_[other].place;
-            const auto there = std::ranges::find(places, place) - places.begin();
+        for (std::size_t i = 0; i < links_[b].point.size(); ++i) {
+          const int point = links_[b].point[i];
+          if (point < 0) continue;
+          const double own = trace_.compliance(point, point) * links_[b].weight[i];
+          for (const std::size_t other : at_point[point]) {
+            const auto& points = links_[other].point;
+            const auto there = std::ranges::find(points, point) - points.begin();
             response[other] += links_[other].weight[there] * own;
           }
         }
@@ -275,8 +275,8 @@ class LinkRows final : public StructureLinks {
   /// b . v of all links for impulses [N s] of one of them in a second [1/kg].
   void respond(const Link& link, std::vector<double>& all, std::vector<double>& response) {
     std::fill(field_.begin(), field_.end(), 0.0);
-    for (std::size_t i = 0; i < link.place.size(); ++i) {
-      if (link.place[i] >= 0) field_[link.place[i]] += link.weight[i];
+    for (std::size_t i = 0; i < link.point.size(); ++i) {
+      if (link.point[i] >= 0) field_[link.point[i]] += link.weight[i];
     }
     std::fill(velocity_.begin(), velocity_.end(), 0.0);
     trace_.add_impulse(field_.data(), velocity_.data());

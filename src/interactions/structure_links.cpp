@@ -37,8 +37,8 @@ std::vector<std::string> record_names(std::size_t structure, const std::vector<L
 SparseRows weights_of(const std::vector<Link>& links) {
   SparseRows weights;
   for (const Link& link : links) {
-    for (std::size_t i = 0; i < link.place.size(); ++i) {
-      if (link.place[i] >= 0) weights.add(link.place[i], link.weight[i]);
+    for (std::size_t i = 0; i < link.point.size(); ++i) {
+      if (link.point[i] >= 0) weights.add(link.point[i], link.weight[i]);
     }
     weights.end_row();
   }
@@ -64,10 +64,10 @@ std::vector<std::vector<double>> carried_by_supports(const LinearSystem& system)
   for (const Link& link : system.links->links()) {
     std::vector<double>& row = carried.emplace_back(link.supports);
     row.resize(columns, 0.0);
-    for (std::size_t i = 0; i < link.place.size(); ++i) {
-      if (link.place[i] < 0) continue;
-      const auto of_place = trace.carried(static_cast<std::size_t>(link.place[i]));
-      for (std::size_t c = 0; c < columns; ++c) row[c] += link.weight[i] * of_place[c];
+    for (std::size_t i = 0; i < link.point.size(); ++i) {
+      if (link.point[i] < 0) continue;
+      const auto of_point = trace.carried(static_cast<std::size_t>(link.point[i]));
+      for (std::size_t c = 0; c < columns; ++c) row[c] += link.weight[i] * of_point[c];
     }
   }
   const auto is_stretched = [](const std::vector<double>& row) {

@@ -49,12 +49,12 @@ class StructureLinks : public Interaction {
   std::size_t structure_;
   double time_step_;
   const std::vector<Link>& links_;
-  SparseRows weights_;  ///< b of each link over the places of the trace, shape (links, places)
+  SparseRows weights_;  ///< b of each link over the points of the trace, shape (links, points)
   Trace trace_;
   std::vector<std::unique_ptr<LinkLaw>> laws_;  ///< per link
   LawMemory memory_;
   Before held_;
-  std::vector<double> field_;     ///< per place of the trace
+  std::vector<double> field_;     ///< per point of the trace
   std::vector<double> velocity_;  ///< per dof of the trace
   LinkRecords records_;
   std::vector<double> recorded_;  ///< e_n of all links; empty if none is recorded

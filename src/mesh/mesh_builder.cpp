@@ -216,7 +216,7 @@ class MeshBuilder {
           GlobalIndex& node = facet.nodes[static_cast<std::size_t>(a)];
           const auto found = std::ranges::lower_bound(set.tags, node);
           places[static_cast<std::size_t>(a)] = static_cast<std::size_t>(found - set.tags.begin());
-          node = used_.place(node);
+          node = used_.index(node);
         }
         const std::array<double, 4> shares = facet_shares(mesh_, facet);
         for (std::size_t a = 0; a < static_cast<std::size_t>(facet.count); ++a) {
@@ -249,11 +249,11 @@ class MeshBuilder {
     }
     mesh_.node_tags = used_.sort();
     for (ElementSet& set : mesh_.regions) {
-      for (GlobalIndex& node : set.connectivity) node = used_.place(node);
+      for (GlobalIndex& node : set.connectivity) node = used_.index(node);
     }
     mesh_.coordinates.resize(3 * mesh_.node_tags.size());
     for (std::size_t i = 0; i < raw_.node_tags.size(); ++i) {
-      const GlobalIndex node = used_.place(raw_.node_tags[i]);
+      const GlobalIndex node = used_.index(raw_.node_tags[i]);
       if (node >= 0) std::copy_n(&raw_.coordinates[3 * i], 3, &mesh_.coordinates[3 * node]);
     }
   }
@@ -280,7 +280,7 @@ class MeshBuilder {
       Facet facet;
       bool whole = (dimension == 1 || dimension == 2) && width <= 4;
       for (std::size_t a = 0; a < width; ++a) {
-        const GlobalIndex node = used_.place(elements.nodes[e * width + a]);
+        const GlobalIndex node = used_.index(elements.nodes[e * width + a]);
         if (node < 0) {
           whole = false;
           continue;

@@ -105,7 +105,7 @@ std::shared_ptr<SupportShapes> take_supports(const ModalBasis& basis, bool owner
   }
   for (std::size_t i = 0; owner && i < basis.points.size(); ++i) {
     const auto row = basis.support_rows.begin() + static_cast<std::ptrdiff_t>(i * columns.size());
-    supports->at_places[basis.points[i]].assign(row,
+    supports->at_points[basis.points[i]].assign(row,
                                                 row + static_cast<std::ptrdiff_t>(columns.size()));
   }
   return supports;

@@ -40,7 +40,7 @@ class ModelScheme {
     std::span<const Contact> contacts;        ///< of the scene, needed where joints have fillers
     const SupportMotion* supports = nullptr;  ///< null where the ground moves as one
     const LoadHistories* loads = nullptr;     ///< null where no load acts
-    BatchPlace batch{};                       ///< of a member of an ensemble
+    BatchSlot batch{};                        ///< of a member of an ensemble
     /// The places of the interface are carried (see ContactProblem::carry): no energy bounds the
     /// gap rates, and gaps are looked at in every step.
     bool carried = false;

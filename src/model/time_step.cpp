@@ -58,9 +58,9 @@ double added_by_series(const LinearSystem& system, MPI_Comm comm) {
     const auto component = static_cast<std::size_t>(origin.component);
     const double k = origin.share * origin.region->nonlinear.dashpot_stiffness[component];
     const Trace& trace = system.links->trace();
-    for (std::size_t i = 0; i < link.place.size(); ++i) {
-      if (link.place[i] < 0) continue;
-      trace.add_force(static_cast<std::size_t>(link.place[i]), link.weight[i], field);
+    for (std::size_t i = 0; i < link.point.size(); ++i) {
+      if (link.point[i] < 0) continue;
+      trace.add_force(static_cast<std::size_t>(link.point[i]), link.weight[i], field);
     }
     double whole = 0;
     for (const LocalIndex dof : trace.dofs()) whole += std::abs(field[dof]);

@@ -352,10 +352,10 @@ TotalForce::TotalForce(const ForceItem& item, const LinearSystem& system, const 
   for (std::size_t b = 0; system.links && b < system.links->links().size(); ++b) {
     const Link& link = system.links->links()[b];
     Wrench& unit = links_.emplace_back();
-    for (std::size_t i = 0; i < link.place.size(); ++i) {
-      if (link.place[i] < 0) continue;
+    for (std::size_t i = 0; i < link.point.size(); ++i) {
+      if (link.point[i] < 0) continue;
       const Counted& counted =
-          of_dof[system.links->dofs()[static_cast<std::size_t>(link.place[i])]];
+          of_dof[system.links->dofs()[static_cast<std::size_t>(link.point[i])]];
       if (counted.dof >= 0) add_force(counted, link.weight[i], unit);
     }
   }

@@ -58,17 +58,17 @@ std::vector<interactions::Constraint> UnilateralRows::all_constraints(
 void UnilateralRows::add_links(std::size_t structure, const LinearSystem& system,
                                std::vector<interactions::Constraint>& constraints) {
   if (!system.links) return;
-  const std::size_t places = Link{}.place.size();
-  std::vector<double> mine;  // per link c, slack, and of each place node, component, coefficient
+  const std::size_t points = Link{}.point.size();
+  std::vector<double> mine;  // per link c, slack, and of each point node, component, coefficient
   for (const LinkTerms& bar : link_terms(system)) {
     if (!bar.one_way) continue;
     mine.insert(mine.end(), {1 / bar.stiffness, bar.link->origin.region->nonlinear.slack});
-    for (std::size_t i = 0; i < places; ++i) {
-      const int place = bar.link->place[i];
-      const TracePoint point = place < 0 ? TracePoint{} : system.links->points()[place];
+    for (std::size_t i = 0; i < points; ++i) {
+      const int number = bar.link->point[i];
+      const TracePoint point = number < 0 ? TracePoint{} : system.links->points()[number];
       mine.insert(mine.end(),
                   {static_cast<double>(point.node), static_cast<double>(point.component),
-                   place < 0 ? 0.0 : -bar.link->weight[i]});
+                   number < 0 ? 0.0 : -bar.link->weight[i]});
     }
   }
   const std::vector<double> all = gather_rows(comm_, mine);
@@ -76,7 +76,7 @@ void UnilateralRows::add_links(std::size_t structure, const LinearSystem& system
     compliance_.push_back(*value++);
     interactions::Constraint& constraint = constraints.emplace_back();
     constraint.initial_gap = *value++;
-    for (std::size_t i = 0; i < places; ++i, value += 3) {
+    for (std::size_t i = 0; i < points; ++i, value += 3) {
       if (value[2] == 0) continue;
       constraint.terms.push_back({static_cast<int>(structure), static_cast<GlobalIndex>(value[0]),
                                   static_cast<int>(value[1]), value[2]});
@@ -118,9 +118,9 @@ std::vector<LinkTerms> link_terms(const LinearSystem& system, bool all) {
     const double stiffness = law_at_rest(link)->tangent();
     if (!all && !(stiffness > 0)) continue;
     LinkTerms& bar = bars.emplace_back(LinkTerms{&link, stiffness, is_one_way_link(link)});
-    for (std::size_t i = 0; i < link.place.size(); ++i) {
-      if (link.place[i] >= 0) {
-        trace.add_force(static_cast<std::size_t>(link.place[i]), link.weight[i], field);
+    for (std::size_t i = 0; i < link.point.size(); ++i) {
+      if (link.point[i] >= 0) {
+        trace.add_force(static_cast<std::size_t>(link.point[i]), link.weight[i], field);
       }
     }
     for (const LocalIndex dof : trace.dofs()) {

@@ -12,10 +12,10 @@ CoupledMass::CoupledMass(std::span<const double> lumped_mass, NodeBlocks added,
       factor_(lumped_mass, added_),
       bodies_(std::move(bodies)),
       ties_(std::move(ties)) {
-  place_nodes();
+  number_nodes();
 }
 
-void CoupledMass::place_nodes() {
+void CoupledMass::number_nodes() {
   std::map<LocalIndex, std::pair<NodeDofs, std::size_t>> places;  // by first dof
   for (std::size_t n = 0; n < added_.nodes.size(); ++n) {
     places[added_.nodes[n].begin] = {added_.nodes[n], factor_.order(n)};
@@ -29,12 +29,12 @@ void CoupledMass::place_nodes() {
   for (const TiedPart& tie : ties_) place_part(tie.nodes());
   for (const auto& [begin, entry] : places) {
     nodes_.push_back(entry.first);
-    place_.push_back(entry.second);
+    number_.push_back(entry.second);
   }
 }
 
 int CoupledMass::part_of(std::size_t node) const {
-  const auto after = std::ranges::upper_bound(first_node_, place_[node]);
+  const auto after = std::ranges::upper_bound(first_node_, number_[node]);
   return static_cast<int>(after - first_node_.begin()) - 1;
 }
 
@@ -83,13 +83,13 @@ void CoupledMass::solve_transposed_half(double* x) const {
 void CoupledMass::take(const double* owned, double* x) const {
   for (std::size_t n = 0; n < nodes().size(); ++n) {
     const std::size_t begin = nodes()[n].begin, count = nodes()[n].count;
-    for (std::size_t c = 0; c < width; ++c) x[place(n) + c] = c < count ? owned[begin + c] : 0;
+    for (std::size_t c = 0; c < width; ++c) x[offset(n) + c] = c < count ? owned[begin + c] : 0;
   }
 }
 
 void CoupledMass::put(const double* x, double* owned) const {
   for (std::size_t n = 0; n < nodes().size(); ++n) {
-    std::copy_n(x + place(n), nodes()[n].count, owned + nodes()[n].begin);
+    std::copy_n(x + offset(n), nodes()[n].count, owned + nodes()[n].begin);
   }
 }
 

@@ -26,7 +26,7 @@ class CoupledMass {
 
   /// Nodes in the order of their dofs, and where in a field each of them is.
   const std::vector<NodeDofs>& nodes() const { return nodes_; }
-  std::size_t place(std::size_t node) const { return place_[node] * width; }
+  std::size_t offset(std::size_t node) const { return number_[node] * width; }
   std::size_t field_size() const { return width * nodes_.size(); }
   /// Which node holds an owned dof; -1: the dof is not coupled.
   int node_of(LocalIndex dof) const;
@@ -56,7 +56,7 @@ class CoupledMass {
   double added_product(const double* v) const;
 
  private:
-  void place_nodes();
+  void number_nodes();
   /// Calls `function(part, its part of the field)` for bodies and tied parts.
   template <typename Function>
   void for_each_part(double* x, Function&& function) const;
@@ -67,7 +67,7 @@ class CoupledMass {
   std::vector<TiedPart> ties_;
   std::vector<std::size_t> first_node_;  ///< per body and tied part, in a field
   std::vector<NodeDofs> nodes_;          ///< of all
-  std::vector<std::size_t> place_;       ///< per node: its number in a field
+  std::vector<std::size_t> number_;      ///< per node: its number in a field
 };
 
 }  // namespace pounding

@@ -44,7 +44,7 @@ std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh
   std::sort(dofs.begin(), dofs.end());
   dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
   for (Link& link : found->links_) {
-    for (int& place : link.place) place = place < 0 ? -1 : place_of(dofs, place);
+    for (int& point : link.point) point = point < 0 ? -1 : place_of(dofs, point);
   }
   return found;
 }
@@ -82,9 +82,9 @@ void Links::add_bar(const Structure& structure, const Mesh& mesh, const ElementB
   const double beta = reduced ? 0 : structure.damping_of(region).beta;
   for (std::size_t d = 0; d < 3; ++d) {
     for (std::size_t end = 0; end < 2; ++end) {
-      link.place[3 * end + d] = mesh.dof(nodes[end], static_cast<int>(d));
+      link.point[3 * end + d] = mesh.dof(nodes[end], static_cast<int>(d));
       link.weight[3 * end + d] = (end == 0 ? -sign : sign) * (b[d] - a[d]) / length;
-      if (link.place[3 * end + d] < 0) {
+      if (link.point[3 * end + d] < 0) {
         link.held.push_back({nodes[end], static_cast<int>(d), link.weight[3 * end + d]});
       }
     }
@@ -112,14 +112,14 @@ void Links::add_springs(const Structure& structure, const Mesh& mesh, const Elem
     if (pressed) link.origin.beta = reduced ? 0 : structure.damping.beta;
     link.origin.in_stiffness = reduced && part == interactions::SpringPart::stiffness;
     for (std::size_t end = 0; end < ends; ++end) {
-      link.place[end] = mesh.dof(nodes[end], component);
+      link.point[end] = mesh.dof(nodes[end], component);
       link.weight[end] = end + 1 == ends && !pressed ? 1 : -1;
     }
     if (part == interactions::SpringPart::gauge && structure.gravity[c] > 0) {
       for (double& weight : link.weight) weight = -weight;  // weight presses it towards greater c
     }
     for (std::size_t end = 0; end < ends; ++end) {
-      if (link.place[end] < 0) {
+      if (link.point[end] < 0) {
         link.held.push_back({nodes[end], component, link.weight[end]});
       }
       if (ends == 1) {
@@ -144,9 +144,9 @@ void Links::add_soil(const Structure& structure, const Mesh& mesh, const Element
       if (motion[i] == 0) continue;
       const LocalIndex node = block.connectivity[element];
       const auto component = static_cast<int>(i);
-      link.place[i] = mesh.dof(node, component);
+      link.point[i] = mesh.dof(node, component);
       link.weight[i] = motion[i];
-      if (link.place[i] >= 0) link.held.push_back({node, component, -motion[i], true});
+      if (link.point[i] >= 0) link.held.push_back({node, component, -motion[i], true});
     }
     keep(mesh, block, element, link);
   }
@@ -167,26 +167,26 @@ void Links::add_absorbing(const Mesh& mesh, const AbsorbingNode& absorbing) {
     for (std::size_t c = 0; c < 3; ++c) {
       const LocalIndex dof = mesh.dof(node, static_cast<int>(c));
       if (dof < 0 || absorbing.axis[k][c] == 0) continue;
-      link.place[c] = dof;
+      link.point[c] = dof;
       link.weight[c] = absorbing.axis[k][c];
       dofs_.push_back(dof);
     }
-    if (std::ranges::any_of(link.place, [](int dof) { return dof >= 0; })) links_.push_back(link);
+    if (std::ranges::any_of(link.point, [](int dof) { return dof >= 0; })) links_.push_back(link);
   }
 }
 
 void Links::keep(const Mesh& mesh, const ElementBlock& block, std::size_t element,
                  const Link& link) {
   const bool here =
-      std::ranges::any_of(link.place, [&](int dof) { return dof >= 0 && dof < mesh.owned_dofs; });
+      std::ranges::any_of(link.point, [&](int dof) { return dof >= 0 && dof < mesh.owned_dofs; });
   const bool elsewhere =
-      std::ranges::any_of(link.place, [&](int dof) { return dof >= mesh.owned_dofs; });
+      std::ranges::any_of(link.point, [&](int dof) { return dof >= mesh.owned_dofs; });
   if (here && elsewhere) {
     throw std::logic_error(describe_element(mesh, block, element) +
                            " is a link and lives on several ranks");
   }
   if (here) {
-    std::ranges::copy_if(link.place, std::back_inserter(dofs_), [](int dof) { return dof >= 0; });
+    std::ranges::copy_if(link.point, std::back_inserter(dofs_), [](int dof) { return dof >= 0; });
     links_.push_back(link);
   }
 }

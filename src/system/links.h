@@ -25,12 +25,12 @@ struct HeldEnd {
 
 /// A link between two nodes, or from one to the ground. This rank owns those that can move.
 struct Link {
-  static constexpr std::size_t most_places = 6;
-  /// Places in the trace of all links, -1 where the end is held: a bar has three of each end, soil
+  static constexpr std::size_t most_points = 6;
+  /// Points in the trace of all links, -1 where the end is held: a bar has three of each end, soil
   /// up to six of its node.
-  std::array<int, most_places> place;
-  /// b: of each place in the elongation, that of the second end less that of the first [m, rad].
-  std::array<double, most_places> weight{};
+  std::array<int, most_points> point;
+  /// b: of each point in the elongation, that of the second end less that of the first [m, rad].
+  std::array<double, most_points> weight{};
   std::vector<HeldEnd> held{};     ///< ends that may be on a support
   std::vector<double> supports{};  ///< elongation by them, per column of SupportShapes; or empty
   /// Force along it of a wave from below, per velocity of Step::incident [N s/m]; or empty.
@@ -38,7 +38,7 @@ struct Link {
   interactions::LinkOrigin origin;
   std::int64_t number = 0;  ///< among the elements of its structure's file; its name in checkpoints
 
-  Link() { place.fill(-1); }
+  Link() { point.fill(-1); }
 };
 
 /// Links of a structure: devices between two nodes, or from one to the ground, with a law that is
@@ -60,7 +60,7 @@ class Links {
 
   const std::vector<Link>& links() const { return links_; }  ///< of this rank
   const Trace& trace() const { return *trace_; }
-  const std::vector<LocalIndex>& dofs() const { return dofs_; }  ///< of the mesh, per place of it
+  const std::vector<LocalIndex>& dofs() const { return dofs_; }  ///< of the mesh, per point of it
   const std::vector<TracePoint>& points() const { return points_; }  ///< likewise, in file order
   /// A wave enters through some link of some rank.
   bool driven() const { return driven_; }
@@ -76,13 +76,13 @@ class Links {
   void add_soil(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
                 std::size_t element);
   void add_absorbing(const Mesh& mesh, const AbsorbingNode& absorbing);
-  /// Keeps a link whose places are local dofs as yet, if this rank owns those that can move.
+  /// Keeps a link whose points are local dofs as yet, if this rank owns those that can move.
   void keep(const Mesh& mesh, const ElementBlock& block, std::size_t element, const Link& link);
 
   bool driven_ = false;
   std::vector<Link> links_;
-  std::vector<LocalIndex> dofs_;    ///< per place of the trace, increasing
-  std::vector<TracePoint> points_;  ///< per place of the trace
+  std::vector<LocalIndex> dofs_;    ///< per point of the trace, increasing
+  std::vector<TracePoint> points_;  ///< per point of the trace
   std::unique_ptr<Trace> trace_;
 };
 

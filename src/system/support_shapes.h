@@ -24,7 +24,7 @@ struct SupportShapes {
   /// M iota_c. Empty for columns of supports under which the structure has no node.
   std::vector<std::vector<double>> shape;
   /// Shapes at the places whose displacement is known, per column; in generalised coordinates only.
-  std::map<TracePoint, std::vector<double>> at_places;
+  std::map<TracePoint, std::vector<double>> at_points;
 };
 
 /// Displacement or rotation of a component of a clamped node under a unit of a column: 0 where the

@@ -13,7 +13,7 @@ namespace {
 
 int slot_in_field(const CoupledMass& mass, int node, LocalIndex dof) {
   const std::size_t n = node;
-  return static_cast<int>(mass.place(n)) + dof - mass.nodes()[n].begin;
+  return static_cast<int>(mass.offset(n)) + dof - mass.nodes()[n].begin;
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ void Trace::take_supports(const LinearSystem& system, const Mesh& mesh,
       if (dof < 0) {
         value = support_displacement(supports.columns[c], mesh, node, point.component);
       } else if (dense_) {
-        value = supports.at_places.at(point)[c];
+        value = supports.at_points.at(point)[c];
       } else if (!supports.shape[c].empty()) {
         value = supports.shape[c][dof];
       }

@@ -68,8 +68,8 @@ TEST(Links, MeasureElongationsAlongTheirAxes) {
   for (std::size_t b = 0; b < bars.links().size(); ++b) {
     const Link& bar = bars.links()[b];
     double elongation = 0;
-    for (std::size_t i = 0; i < bar.place.size(); ++i) {
-      if (bar.place[i] >= 0) elongation += bar.weight[i] * field[bar.place[i]];
+    for (std::size_t i = 0; i < bar.point.size(); ++i) {
+      if (bar.point[i] >= 0) elongation += bar.weight[i] * field[bar.point[i]];
     }
     EXPECT_NEAR(elongation, 0.01 * (2 * static_cast<double>(b) + 1), 1e-14);
     EXPECT_DOUBLE_EQ(bar.origin.length, 1);

@@ -27,13 +27,13 @@ TEST(NumberSet, IsAnOrderedSet) {
   const std::vector<std::int64_t> sorted = set.sort();
   EXPECT_EQ(sorted, std::vector<std::int64_t>(expected.begin(), expected.end()));
   for (std::size_t i = 0; i < sorted.size(); ++i) {
-    EXPECT_EQ(set.place(sorted[i]), static_cast<std::int64_t>(i));
+    EXPECT_EQ(set.index(sorted[i]), static_cast<std::int64_t>(i));
     EXPECT_TRUE(set.contains(sorted[i]));
   }
   for (int i = 0; i < 3000; ++i) {
     const std::int64_t number = std::rand() % 40000 - 20000;
     if (expected.contains(number)) continue;
-    EXPECT_EQ(set.place(number), -1) << number;
+    EXPECT_EQ(set.index(number), -1) << number;
     EXPECT_FALSE(set.contains(number)) << number;
   }
 }
@@ -41,7 +41,7 @@ TEST(NumberSet, IsAnOrderedSet) {
 TEST(NumberSet, EmptyHasNoNumbers) {
   NumberSet set;
   EXPECT_TRUE(set.sort().empty());
-  EXPECT_EQ(set.place(0), -1);
+  EXPECT_EQ(set.index(0), -1);
 }
 
 }  // namespace integer_sets_test

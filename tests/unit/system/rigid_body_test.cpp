@@ -104,7 +104,8 @@ TEST(RigidBody, HalfSolutionsMakeAWholeOne) {
   std::vector<double> field(body.field_size(), 0.0);
   for (std::size_t n = 0; n < 4; ++n) {
     for (int c = 0; c < body.nodes()[n].count; ++c) {
-      field[body.place(n) + static_cast<std::size_t>(c)] = std::sin(static_cast<double>(7 * n) + c);
+      field[body.offset(n) + static_cast<std::size_t>(c)] =
+          std::sin(static_cast<double>(7 * n) + c);
     }
   }
   std::vector<double> whole = field;
