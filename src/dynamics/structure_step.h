@@ -96,6 +96,8 @@ class StructureStep final : public stiffness::ReceiverOf<Number> {
   std::span<Number> waiting() { return waiting_.velocity; }
   /// After every range of the step.
   void complete();
+  /// Forces of this step at the watched dofs, where they were asked for.
+  const KeptForces<Number>& forces() const { return forces_; }
   /// Force of this step at a watched dof, damping included and that of inelastic elements apart,
   /// where it was asked for; of one run of the batch [N, N m].
   double force(std::size_t member, LocalIndex dof) const {
