@@ -32,7 +32,7 @@ class Submittal(unittest.TestCase):
                 study = self.place / "joint-review.yaml"
                 text = study.read_text()
                 for long, short in (("target: rg160.csv", "target: ground.csv"), ("duration: 22", "duration: 4"), ('envelope: "2,14"', 'envelope: "0.5,2"'), ("end_time: 22", "end_time: 4"),
-                                    ("choose: 5", "choose: 2\n  correlation: 0.5")):
+                                    ("choose: 5", "choose: 2\n  correlation: 0.5"), ("  lower: {factor: 0.6667}\n", "")):
                     self.assertIn(long, text)
                     text = text.replace(long, short)
                 study.write_text(text)
@@ -41,14 +41,20 @@ class Submittal(unittest.TestCase):
             done = self.does(line)
             self.assertEqual(done.returncode, 0, f"{line}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
         page = (self.place / "review" / "submittal.html").read_text()
-        for heading in ("The joint by elevation", "Change of the joint as surveyed", "Equipment that fails", "Not covered"):
+        for heading in ("by elevation", "Change of the joint as surveyed", "Equipment that fails", "Not covered"):
             self.assertIn(heading, page)
         self.assertIn("motions are refused by the rules", page, "four seconds are too short for them")
         with open(self.place / "review" / "joint_by_elevation.csv", newline="") as file:
-            least = {row["contact"]: float(row["gap [m]"]) for row in csv.DictReader(file)}
+            rows = list(csv.DictReader(file))
+        least = {row["contact"]: float(row["gap [m]"]) for row in rows}
         # The least of the surveys, the static closing and an error of half a millimetre.
         self.assertAlmostEqual(least["floor1"], 0.019, delta=0.002)
         self.assertAlmostEqual(least["floor2"], 0.016 - 0.002, delta=0.002)
+        # All conditions at one level: their margins apart are the widths that they lack there.
+        with open(self.place / "review" / "conditions.csv", newline="") as file:
+            for row in csv.DictReader(file):
+                margin = min(float(one["margin [m]"]) for one in rows if one["runs"] == f"apart, {row['soil']}_{row['state']}")
+                self.assertAlmostEqual(margin, -float(row["joint, 5 % [m]"]), delta=1e-3)
 
 
 if __name__ == "__main__":

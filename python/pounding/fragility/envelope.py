@@ -107,23 +107,26 @@ class Envelope:
         cell = one.of(self.gap if gap is None else gap, self.level)
         return moments(one.outcomes.spectra[cell][:, self.channel, self.damping]).high
 
-    @cached_property
-    def elevation_runs(self) -> dict:
-        """Condition -> rows of the joint by elevation, see report.elevation_runs."""
-        return {condition: report.elevation_runs(one) for condition, one in self.analyses.items()}
+    def elevation_runs(self, level: float) -> dict:
+        """Condition -> rows of the joint by elevation in the joint of the figures, see report.elevation_runs."""
+        return {condition: report.elevation_runs(one, self.gap, level) for condition, one in self.analyses.items()}
 
-    def elevation_rows(self) -> list:
-        """Of each contact and band of elevation, with pounding and apart, the soil and state in which it closes most: least
-        gap as built, closing, their ratio and margin."""
-        each = [(condition, run, row) for condition, runs in self.elevation_runs.items()
-                for run, rows in runs.items() for row in rows]
+    def governing_by_elevation(self, level: float) -> dict:
+        """Run, with pounding and apart -> of each contact and band of elevation the row of the soil and state in which it
+        closes most, with these."""
         most = {}
-        for condition, run, row in each:
-            key = run, row["contact"], row["from [m]"]
-            if key not in most or row["closing largest [m]"] > most[key][1]["closing largest [m]"]:
-                most[key] = condition, row
-        return [{"runs": run, **{name: row[name] for name in SHOWN_BY_ELEVATION}, **condition.place}
-                for (run, *_), (condition, row) in most.items()]
+        for condition, runs in self.elevation_runs(level).items():
+            for run, rows in runs.items():
+                for row in rows:
+                    key = run, row["contact"], row["from [m]"]
+                    if key not in most or row["closing largest [m]"] > most[key]["closing largest [m]"]:
+                        most[key] = {**row, **condition.place}
+        return {run: [row for key, row in most.items() if key[0] == run] for run in dict.fromkeys(key[0] for key in most)}
+
+    def elevation_rows(self, levels) -> list:
+        """Rows of governing_by_elevation at levels: least gap as built, closing, their ratio and margin."""
+        return [{"level [m/s²]": level, "runs": run, **{name: row[name] for name in (*SHOWN_BY_ELEVATION, "soil", "state")}}
+                for level in levels for run, rows in self.governing_by_elevation(level).items() for row in rows]
 
     @cached_property
     def span_rows(self) -> list:
@@ -261,7 +264,7 @@ def write(one: Envelope) -> tuple:
               "sensitivity": one.sensitivity_rows, "hclpf": one.hclpf_rows()}
     for name, rows in tables.items():
         write_csv(folder / f"{name}.csv", rows)
-    joint.write(folder, {f"{run}, {condition.folder}": rows for condition, runs in one.elevation_runs.items()
+    joint.write(folder, {f"{run}, {condition.folder}": rows for condition, runs in one.elevation_runs(one.level).items()
                          for run, rows in runs.items()})
     lines = one.told() + spans.told(one.span_rows, one.level) + one.notes
     pages = one.sensitivity_figure + one.spectra_figure + one.span_figure

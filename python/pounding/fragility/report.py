@@ -63,11 +63,9 @@ def repeats_summary(rows: list) -> list:
     return found
 
 
-def elevation_runs(analysis: Analysis) -> dict:
-    """Rows of the joint by elevation, with pounding in the joint that the study shows and of the runs apart, at its level.
-    Throws UserError."""
-    study, (gap, level, *_) = analysis.study, figures.shown(analysis)
-    members = analysis.of(gap, level)
+def elevation_runs(analysis: Analysis, gap: float, level: float) -> dict:
+    """Rows of the joint by elevation, with pounding in a joint and of the runs apart, at a level. Throws UserError."""
+    study, members = analysis.study, analysis.of(gap, level)
     try:
         return {"with pounding": joint.by_elevation(analysis.outcomes, study.elevations, members, torsion=study.torsion.factor),
                 "apart": joint.by_elevation(analysis.outcomes, study.elevations, analysis.of(None, level),
@@ -89,11 +87,11 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
     enough_rows = analysis.enough_rows()
     pages = figures.summary(analysis, folder) + figures.curves(analysis, fits, folder)
     pages += figures.joints(analysis, rules, folder)
-    by_elevation = elevation_runs(analysis)
+    gap, level, *_ = figures.shown(analysis)
+    by_elevation = elevation_runs(analysis, gap, level)
     joint.write(folder, by_elevation)
     pages = joint.draw(folder, by_elevation) + pages
     alone = {None: analysis}
-    gap, level, *_ = figures.shown(analysis)
     across = spans.write(alone, folder, gap)
     pages += spans.figure(across, alone, folder, level)
     of_mats = stability.write(alone, folder, gap)

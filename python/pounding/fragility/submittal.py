@@ -9,6 +9,7 @@ import numpy as np
 
 from pounding.finished import digest
 from pounding.fragility import binomial_interval
+from pounding.joint import draw
 from pounding.plot import design_spectra
 from pounding.plot.markup import answer_box, figure_parts, folded, html_table, paragraphs, write_page
 from pounding.tables import cells_of, write_csv
@@ -173,8 +174,10 @@ def write(one: Envelope) -> Path | None:
     missing += [f"Other {word} than the one given." for word, key in (("soils", "soil"), ("states of the concrete", "state"))
                 if len({condition.place[key] for condition in one.conditions}) == 1]
     joint = [row for row in one.joint_rows if row["pga [m/s2]"] in (told.design, told.beyond)]
-    across = spans.table(one.span_rows, list(dict.fromkeys((told.design, told.beyond))), one.first)
-    parts = [(f"The joint by elevation, at {one.level:g} m/s²{study.torsion.told}", html_table("", *cells_of(one.elevation_rows()), text=(0, 1))),
+    levels = dict.fromkeys((told.design, told.beyond))
+    across = spans.table(one.span_rows, list(levels), one.first)
+    parts = [(f"Least gap as built and largest closing by elevation{study.torsion.told}", html_table("", *cells_of(one.elevation_rows(levels)), text=(1, 2))),
+             *figure_parts(folder, draw(folder, one.governing_by_elevation(told.beyond))),
              (f"{study.width_title} that would be needed [m]".capitalize(), html_table("", *cells_of(joint), text=(0,))),
              (spans.CAPTION, across), *figure_parts(folder, one.span_figure),
              (f"Floor spectra for design: 84 % of the cases, the envelope of soils and states, widened by 15 %, "
