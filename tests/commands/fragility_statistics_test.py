@@ -216,6 +216,7 @@ class OneLevel(unittest.TestCase):
         self.study = SimpleNamespace(levels=[4.0], gaps=[0.01, 0.02], samples=4, confidence=0.95, scene=Path("none.yaml"), options={},
                                      joints={"roof": study.Joint((0.001, -0.001))}, is_surveyed=False)
         self.study.joint_named = functools.partial(study.Study.joint_named, self.study)
+        self.study.width_title = study.Study.width_title.fget(self.study)
         self.analysis = SimpleNamespace(study=self.study, gaps_of=lambda event: list(hits),
                                         hits=lambda event, gap: np.arange(4)[:, None] < hits[gap])
 

@@ -208,7 +208,7 @@ class Command(unittest.TestCase):
         told = {one["component"]: one for one in program.summary(output)["supports"]}
         self.assertEqual(len(told), 12)
         for name, expected in (("x", made["x"]), ("rz", made["rz"])):
-            one = told[f"support east, {name}"]
+            one = told[f"support ground_east, {name}"]
             self.assertIn("east.csv", one["source"])
             signal = expected.copy()
             if name == "x":
