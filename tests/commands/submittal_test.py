@@ -35,7 +35,7 @@ class Submittal(unittest.TestCase):
                                     ("choose: 5", "choose: 2\n  correlation: 0.5"), ("  lower: {factor: 0.6667}\n", "")):
                     self.assertIn(long, text)
                     text = text.replace(long, short)
-                study.write_text(text)
+                study.write_text(text + 'frequencies: "0.5,1,2,5,10,20,50,100"\ndampings: [0.05]\n')
                 rules = self.place / "rules.csv"
                 rules.write_text(rules.read_text().replace("0.1:50:271log", "0.5:50:201log").replace("0.3:24", "0.5:24"))
             done = self.does(line)
