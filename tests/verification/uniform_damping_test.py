@@ -294,7 +294,8 @@ class Pair(unittest.TestCase):
 
     def test_a_second_run_repeats_and_no_contact_is_missed_between_two_looks(self):
         for more in ([], REDUCED):
-            often, again, rarely = (Recorded(self, UNIFORM_PAIR + more + ["-gap_interval", interval])
+            # Round-off of 8964 steps: 8e-13 and 1.1e-12 were seen, by the last bits of the motion.
+            often, again, rarely = (Recorded(self, UNIFORM_PAIR + more + ["-gap_interval", interval], identity=1e-11)
                                     for interval in (2e-4, 2e-4, 0.05))
             self.check_same(often, again, 0)
             self.check_same(often, rarely, 0)
