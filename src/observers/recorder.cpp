@@ -388,7 +388,8 @@ std::vector<double> Recorder::acceleration(std::size_t channel, std::size_t firs
 
 OutputKind history_output() {
   return output<Recorder>(
-      {{history_file, "motion of the probes, and all that is recorded with it, over time", "", true}});
+      {{history_file, "motion of the probes, and all that is recorded with it, over time", "",
+        true}});
 }
 
 std::size_t first_record_from(double start, double time_step, double interval) {

@@ -347,8 +347,7 @@ void expect_member_of_batch(LinearSystem system) {
   spread(alone.force, force);
   std::array<BatchValue, 3> accelerations{};
   for (std::size_t d = 0; d < 3; ++d) {
-    for (std::size_t l = 0; l < batch_size; ++l)
-      accelerations[d][l] = l == member ? ground[d] : 9;
+    for (std::size_t l = 0; l < batch_size; ++l) accelerations[d][l] = l == member ? ground[d] : 9;
   }
   const std::vector<const LinearSystem*> systems(batch_size, &alone.system);
   StructureStep<BatchValue> step(systems, state, time_step);
