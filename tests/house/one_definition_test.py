@@ -84,6 +84,20 @@ class OneDefinition(unittest.TestCase):
                 self.assertEqual(len(places[type_name]), 1, f"{type_name}: {places[type_name]}")
             self.assertEqual({name: files for name, files in places.items() if len(files) > 1}, {})
 
+    def test_headers_of_src_share_no_name_across_namespaces(self):
+        """`using namespace`, or a file of the inner one, would take the other for it."""
+        places = collections.defaultdict(set)
+        for folder, _, names in os.walk(os.path.join(ROOT, "src")):
+            for name in names:
+                if name.endswith(".h"):
+                    with open(os.path.join(folder, name)) as file:
+                        for before, mark, scopes in heads(file.read()):
+                            kind = TYPE.search(before)
+                            if mark == "{" and kind and not NAMESPACE.search(before) and all(one and one.islower() for one in scopes):
+                                places[kind.group(1)].add(os.path.join(folder, name))
+        self.assertGreater(len(places), 300)
+        self.assertEqual({name: files for name, files in places.items() if len(files) > 1}, {})
+
     def test_files_that_are_compiled_together_hide_no_name_twice(self):
         with open(os.path.join(ROOT, "CMakeLists.txt")) as file:
             alone = re.compile(COMPILED_ALONE.search(file.read()).group(1))

@@ -76,9 +76,9 @@ void settle_nodes(const GlobalMesh& mesh, ContactFace& face) {
   if (!face.nodes.empty()) face.centroid = centroid(mesh, face.nodes);
 }
 
-std::optional<FacetPoint> meet_edge(const GlobalMesh& mesh, const Facet& facet,
-                                    const Vector3& origin, const Vector3& direction,
-                                    double tolerance, double reach) {
+std::optional<FacetIntersection> meet_edge(const GlobalMesh& mesh, const Facet& facet,
+                                           const Vector3& origin, const Vector3& direction,
+                                           double tolerance, double reach) {
   const auto across = [&](const Vector3& v) {
     const double part = dot(v, direction);
     return Vector3{v[0] - part * direction[0], v[1] - part * direction[1],
@@ -98,7 +98,7 @@ std::optional<FacetPoint> meet_edge(const GlobalMesh& mesh, const Facet& facet,
       std::sqrt(dot(miss, miss)) > reach + tolerance * length) {
     return std::nullopt;
   }
-  return FacetPoint{{1 - s, s, 0, 0}, dot(start, direction) + s * dot(edge, direction)};
+  return FacetIntersection{{1 - s, s, 0, 0}, dot(start, direction) + s * dot(edge, direction)};
 }
 
 /// The part of a vector across a facet of two nodes, of unit length; zero where it lies along it.
@@ -196,13 +196,14 @@ void turn_towards(ContactFace& face, const Vector3& point) {
   settle_normals(face);
 }
 
-std::optional<FacetPoint> meet_corners(std::span<const Vector3> corners, const Vector3& origin,
-                                       const Vector3& direction, double tolerance) {
+std::optional<FacetIntersection> meet_corners(std::span<const Vector3> corners,
+                                              const Vector3& origin, const Vector3& direction,
+                                              double tolerance) {
   // Newton on x(xi, eta) - origin - distance * direction = 0; exact in one step on a triangle.
   const bool triangle = corners.size() == 3;
   double xi = triangle ? 1.0 / 3 : 0;
   double eta = xi;
-  FacetPoint point;
+  FacetIntersection point;
   for (int iteration = 0; iteration < 20; ++iteration) {
     std::array<double, 4> along_xi{};
     std::array<double, 4> along_eta{};
@@ -245,9 +246,9 @@ std::optional<FacetPoint> meet_corners(std::span<const Vector3> corners, const V
   return point;
 }
 
-std::optional<FacetPoint> meet_facet(const GlobalMesh& mesh, const Facet& facet,
-                                     const Vector3& origin, const Vector3& direction,
-                                     double tolerance, double reach) {
+std::optional<FacetIntersection> meet_facet(const GlobalMesh& mesh, const Facet& facet,
+                                            const Vector3& origin, const Vector3& direction,
+                                            double tolerance, double reach) {
   if (facet.count == 2) return meet_edge(mesh, facet, origin, direction, tolerance, reach);
   std::array<Vector3, 4> corners{};
   const auto count = static_cast<std::size_t>(facet.count);

@@ -66,7 +66,7 @@ ContactFace build_contact_face(const GlobalMesh& mesh, std::span<const Region> r
 void turn_towards(ContactFace& face, const Vector3& point);
 
 /// Where a line meets a facet.
-struct FacetPoint {
+struct FacetIntersection {
   std::array<double, 4> weights{};  ///< shape functions of the facet's nodes there
   double distance = 0;              ///< along the line's direction from its origin [m]
 };
@@ -74,15 +74,16 @@ struct FacetPoint {
 /// The point where the line from `origin` along the unit vector `direction` meets the bilinear
 /// quadrilateral or the triangle of some corners, or nothing if it passes outside by more than a
 /// relative `tolerance`.
-std::optional<FacetPoint> meet_corners(std::span<const Vector3> corners, const Vector3& origin,
-                                       const Vector3& direction, double tolerance);
+std::optional<FacetIntersection> meet_corners(std::span<const Vector3> corners,
+                                              const Vector3& origin, const Vector3& direction,
+                                              double tolerance);
 
 /// The point where the line from `origin` along the unit vector `direction` meets a facet (bilinear
 /// quadrilateral, triangle, or edge), or nothing if it passes outside by more than a relative
 /// `tolerance`. An edge is met when the line passes it at no more than `reach` [m].
-std::optional<FacetPoint> meet_facet(const GlobalMesh& mesh, const Facet& facet,
-                                     const Vector3& origin, const Vector3& direction,
-                                     double tolerance, double reach = 0);
+std::optional<FacetIntersection> meet_facet(const GlobalMesh& mesh, const Facet& facet,
+                                            const Vector3& origin, const Vector3& direction,
+                                            double tolerance, double reach = 0);
 
 /// Nodes of a face that ties let follow none but other nodes of it: what these carry in contact
 /// holds them too, so that rows of both would share it in no unique way. `has_row`: per node of the

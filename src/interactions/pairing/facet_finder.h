@@ -28,9 +28,9 @@ std::optional<Crossing> cross_edges(const GlobalMesh& first_mesh, const Facet& f
 
 /// A facet that a node faces.
 struct FacedFacet {
-  std::size_t facet = 0;  ///< of the face
-  FacetPoint point;       ///< where the normal through the node meets it
-  double gap = 0;         ///< between the surfaces: without the parts of shells beyond both [m]
+  std::size_t facet = 0;    ///< of the face
+  FacetIntersection point;  ///< where the normal through the node meets it
+  double gap = 0;           ///< between the surfaces: without the parts of shells beyond both [m]
 };
 
 /// Finds the facets of a face that nodes face; bounding boxes of the facets across the normal let
