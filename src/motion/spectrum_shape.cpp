@@ -6,23 +6,10 @@
 #include <string>
 
 #include "common/error.h"
+#include "common/series.h"
 
 namespace pounding {
 namespace {
-
-// Linear in log-log between two points; linear where a value is zero.
-double between(double f1, double value1, double f2, double value2, double f) {
-  if (!(value1 > 0 && value2 > 0)) return value1 + (value2 - value1) * (f - f1) / (f2 - f1);
-  return value1 * std::pow(value2 / value1, std::log(f / f1) / std::log(f2 / f1));
-}
-
-double value_at(std::span<const double> frequencies, std::span<const double> values, double f) {
-  if (f <= frequencies.front()) return values.front();
-  if (f >= frequencies.back()) return values.back();
-  const auto above = std::ranges::upper_bound(frequencies, f);
-  const std::size_t i = above - frequencies.begin();
-  return between(frequencies[i - 1], values[i - 1], frequencies[i], values[i], f);
-}
 
 /// Largest value of a spectrum of a channel that counts, relative to the largest of its probe.
 constexpr double moving_part = 1e-3;
@@ -80,7 +67,8 @@ std::vector<double> broadened(std::span<const double> frequencies, std::span<con
   if (fraction == 0) return result;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double low = frequencies[i] / (1 + fraction), high = frequencies[i] / (1 - fraction);
-    result[i] = std::max(value_at(frequencies, values, low), value_at(frequencies, values, high));
+    result[i] = std::max(log_interpolated(frequencies, values, low),
+                         log_interpolated(frequencies, values, high));
     for (std::size_t k = 0; k < values.size(); ++k) {
       if (frequencies[k] >= low && frequencies[k] <= high) {
         result[i] = std::max(result[i], values[k]);

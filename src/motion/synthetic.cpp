@@ -8,6 +8,7 @@
 #include <random>
 
 #include "common/error.h"
+#include "common/series.h"
 #include "motion/fourier.h"
 #include "motion/records/record_text.h"
 #include "motion/response_spectrum.h"
@@ -177,11 +178,7 @@ double peak_of(const std::vector<double>& acceleration) {
 }  // namespace
 
 double TargetSpectrum::at(double f) const {
-  if (f <= frequency.front()) return ratio.front();
-  if (f >= frequency.back()) return ratio.back();
-  const std::size_t i = std::upper_bound(frequency.begin(), frequency.end(), f) - frequency.begin();
-  const double s = std::log(f / frequency[i - 1]) / std::log(frequency[i] / frequency[i - 1]);
-  return ratio[i - 1] * std::pow(ratio[i] / ratio[i - 1], s);
+  return log_interpolated(frequency, ratio, f);
 }
 
 TargetSpectrum read_target_spectrum(const std::string& file, const std::string& values) {
