@@ -94,6 +94,21 @@ void broadcast_values(MPI_Comm comm, int root, Values&... values) {
 /// it. Collective.
 void share_extreme(MPI_Comm comm, MPI_Op extreme, double& value, std::string& name);
 
+/// Values of all ranks on rank 0, in the order of the ranks; nothing elsewhere. Collective.
+template <typename Value>
+std::vector<Value> gathered(MPI_Comm comm, std::vector<Value> mine) {
+  if (rank_of(comm) != 0) {
+    send_array(comm, 0, mine);
+    return {};
+  }
+  for (int rank = 1; rank < size_of(comm); ++rank) {
+    std::vector<Value> others;
+    receive_array(comm, rank, others);
+    mine.insert(mine.end(), others.begin(), others.end());
+  }
+  return mine;
+}
+
 /// Rows of all ranks, one after the other, on all of them. Collective.
 std::vector<double> gather_rows(MPI_Comm comm, const std::vector<double>& rows);
 

@@ -28,21 +28,6 @@ struct Dof {
   std::size_t label = 0;  ///< among the labels
 };
 
-/// All values on rank 0, in the order of the ranks. Collective.
-template <typename Value>
-std::vector<Value> gathered(MPI_Comm comm, std::vector<Value> mine) {
-  if (rank_of(comm) != 0) {
-    send_array(comm, 0, mine);
-    return {};
-  }
-  for (int rank = 1; rank < size_of(comm); ++rank) {
-    std::vector<Value> others;
-    receive_array(comm, rank, others);
-    mine.insert(mine.end(), others.begin(), others.end());
-  }
-  return mine;
-}
-
 /// Uniform damping, which no matrix holds.
 void write_filters(const std::string& folder, const LinearSystem& system) {
   if (!system.uniform_damping) return;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "common/parallel.h"
+#include "common/series.h"
 #include "mesh/location.h"
 
 namespace pounding {
@@ -36,21 +38,10 @@ double median_of(MPI_Comm comm, const ElementBlock& block, std::span<const doubl
   for (std::size_t e = 0; e < block.count(); ++e) {
     if (block.counted[e] != 0) values.push_back(time_steps[e]);
   }
-  double median = 0;
-  if (rank_of(comm) == 0) {
-    for (int rank = 1; rank < size_of(comm); ++rank) {
-      std::vector<double> others;
-      receive_array(comm, rank, others);
-      values.insert(values.end(), others.begin(), others.end());
-    }
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    median = *middle;
-  } else {
-    send_array(comm, 0, values);
-  }
-  MPI_Bcast(&median, 1, MPI_DOUBLE, 0, comm);
-  return median;
+  values = gathered(comm, std::move(values));
+  double middle = rank_of(comm) == 0 ? median(std::move(values)) : 0;
+  MPI_Bcast(&middle, 1, MPI_DOUBLE, 0, comm);
+  return middle;
 }
 
 GlobalIndex count_below(MPI_Comm comm, const ElementBlock& block,
