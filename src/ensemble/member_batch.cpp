@@ -197,9 +197,7 @@ BatchRecorder::BatchRecorder(const Model& model, const Times& times)
     rows_.push_back(std::move(rows));
   }
   for (std::size_t p = model.probes.size(); p < recorded.size(); ++p) {
-    const std::string probe = recorded[p].name.substr(recorded[p].name.find('.') + 1);
-    const auto end = std::ranges::find(recorded, probe, &ResolvedProbe::name);
-    ends_.push_back({3 * static_cast<std::size_t>(end - recorded.begin()), 3 * p});
+    ends_.push_back({3 * static_cast<std::size_t>(recorded[p].of), 3 * p});
   }
   values_.assign(3 * recorded.size(), BatchValue{});
   products_.assign(values_.size(), BatchValue{});
@@ -308,7 +306,8 @@ MemberRun::MemberRun(const MemberScene& member, const EnsembleModel& shared, con
     : scheme_(parts_in_batch(member, shared, model, slot, profile_)),
       run_{MPI_COMM_SELF, member.scene, model, scheme_},
       observers_(make_observers(run_, profile_, true)),
-      pairs_(model.interface.constraints.size()) {
+      pairs_(model.interface.constraints.size()),
+      record_stride_(record_stride(member.scene, model)) {
   for (const auto& observer : observers_.list()) {
     const auto columns = observer->columns();
     if (columns && columns->list == "forces") forces_ = columns->values;
@@ -326,7 +325,7 @@ StepNeeds MemberRun::open() {
 void MemberRun::close() {
   scheme_.stepper().close();
   observers_.after(scheme_.stepper());
-  if ((scheme_.stepper().state().step - 1) % record_stride(run_.scene, run_.model) != 0) return;
+  if (forces_.empty() || (scheme_.stepper().state().step - 1) % record_stride_ != 0) return;
   history_.insert(history_.end(), forces_.begin(), forces_.end());
 }
 

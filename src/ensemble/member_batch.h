@@ -42,6 +42,7 @@ class MemberRun {
   ObservedRun run_;
   Observers observers_;
   std::vector<PairMotion> pairs_;   ///< per row, without displacements
+  int record_stride_;               ///< steps between two records
   std::span<const double> forces_;  ///< of the last record
   std::vector<double> history_;     ///< of these at all records
 };

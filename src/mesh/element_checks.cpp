@@ -164,17 +164,24 @@ void check_repeated_elements(const std::string& structure, const GlobalMesh& mes
   check(structure, extended);
 }
 
-double element_size_at(const GlobalMesh& mesh, GlobalIndex node) {
-  double largest = 0;
+std::vector<std::span<const GlobalIndex>> elements_at(const GlobalMesh& mesh, GlobalIndex node) {
+  std::vector<std::span<const GlobalIndex>> found;
   for (const ElementSet& set : mesh.regions) {
     const std::size_t nodes = element_layout(set.type).nodes;
     for (std::size_t e = 0; e < set.tags.size(); ++e) {
       const std::span<const GlobalIndex> corners(&set.connectivity[e * nodes], nodes);
-      if (std::ranges::find(corners, node) == corners.end()) continue;
-      for (const GlobalIndex a : corners) {
-        for (const GlobalIndex b : corners) {
-          largest = std::max(largest, distance(mesh.position(a), mesh.position(b)));
-        }
+      if (std::ranges::find(corners, node) != corners.end()) found.push_back(corners);
+    }
+  }
+  return found;
+}
+
+double element_size_at(const GlobalMesh& mesh, GlobalIndex node) {
+  double largest = 0;
+  for (const auto& corners : elements_at(mesh, node)) {
+    for (const GlobalIndex a : corners) {
+      for (const GlobalIndex b : corners) {
+        largest = std::max(largest, distance(mesh.position(a), mesh.position(b)));
       }
     }
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ void check_repeated_elements(const std::string& structure, const GlobalMesh& mes
 
 /// Leaves the first facet of those on the same nodes, in their order. Serial.
 void drop_repeated_facets(std::vector<Facet>& facets);
+
+/// Nodes of every element that holds the node. Serial.
+std::vector<std::span<const GlobalIndex>> elements_at(const GlobalMesh& mesh, GlobalIndex node);
 
 /// The largest distance between two nodes of an element that holds the node [m]; 0 where none has
 /// an extent. Serial.

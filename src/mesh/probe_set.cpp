@@ -91,13 +91,7 @@ ResolvedProbe resolved(const std::string& name, int structure, const GlobalMesh&
 /// A node and all others of the elements at it.
 std::vector<GlobalIndex> nodes_around(const GlobalMesh& mesh, GlobalIndex node) {
   std::set<GlobalIndex> found{node};
-  for (const ElementSet& set : mesh.regions) {
-    const std::size_t nodes = element_layout(set.type).nodes;
-    for (std::size_t e = 0; e < set.tags.size(); ++e) {
-      const std::span<const GlobalIndex> corners(&set.connectivity[e * nodes], nodes);
-      if (std::ranges::count(corners, node) > 0) found.insert(corners.begin(), corners.end());
-    }
-  }
+  for (const auto& corners : elements_at(mesh, node)) found.insert(corners.begin(), corners.end());
   return {found.begin(), found.end()};
 }
 
@@ -145,6 +139,7 @@ std::vector<ResolvedProbe> with_rotations(const Scene& scene, std::span<const Gl
       if (!own || end.nodes.size() > 1) end.weights = rigid_rotation(mesh, end.nodes);
       end.component = end.weights.empty() ? 3 : 0;
       if (end.component == 3 && !own) refuse("nodes at " + name + " are on a line and do not turn");
+      end.of = static_cast<int>(probe - probes.begin());
       end.name = span.name + "." + name;
       probes.push_back(std::move(end));
     }

@@ -15,6 +15,7 @@ struct ResolvedProbe {
   std::string name;
   int structure = 0;
   std::vector<GlobalIndex> nodes;  ///< file order; their mean is recorded
+  int of = -1;                     ///< of a rotation, number of its probe
   int component = 0;               ///< first of three: 0 of displacements, 3 of rotations
   std::vector<Matrix3> weights;    ///< per node, by which its three count; empty: as they are
   Vector3 position{0, 0, 0};       ///< mean of the nodes [m]
@@ -26,8 +27,8 @@ struct ResolvedProbe {
   }
 
   static void members(auto& self, auto& stream) {
-    stream(self.name, self.structure, self.nodes, self.component, self.weights, self.position,
-           self.snap_distance, self.element_size);
+    stream(self.name, self.structure, self.nodes, self.of, self.component, self.weights,
+           self.position, self.snap_distance, self.element_size);
   }
 };
 
