@@ -1,11 +1,13 @@
 #include "ensemble/ensemble_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <numeric>
 #include <set>
+#include <string_view>
 #include <zlib.h>
 
 #include "common/error.h"
@@ -288,9 +290,9 @@ void write_ensemble_table(const std::string& path, const EnsembleLayout& layout,
   const std::vector<bool> done = file.done();
   std::vector<Quantity> list = quantities(layout);
   std::erase_if(list, [](const Quantity& quantity) {  // they have no place in a line
-    const std::string_view named = quantity.name;
-    return named.starts_with("sp") || named.starts_with("pairs/") ||  // spectra, spans
-           named.starts_with("forces/");
+    constexpr std::array<std::string_view, 4> left{"spectra/", "pairs/", "spans/", "forces/"};
+    return std::ranges::any_of(
+        left, [&](auto group) { return std::string_view(quantity.name).starts_with(group); });
   });
   std::string text = "member,done";
   for (const std::string& column : table.columns) text += "," + column;

@@ -106,9 +106,10 @@ void require_ensemble_scene(const Scene& scene) {
   for (const Structure& structure : scene.structures) require_reduced(structure);
   for (const Contact& contact : scene.contacts) require_lasting_pairs(contact);
   for (const ForceItem& force : scene.forces) {
-    if (!force.of_elements()) continue;
-    refuse("forces " + force.name + " are those of elements",
-           "leave them out of -forces: members keep reactions, storeys and cuts");
+    if (force.of_elements()) {
+      refuse("forces " + force.name + " are those of elements",
+             "leave them out of -forces: members keep reactions, storeys and cuts");
+    }
   }
   if (!scene.equipment.empty()) {
     refuse("equipment is set beside its floors' spectra", "give -equipment none");

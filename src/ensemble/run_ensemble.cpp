@@ -239,11 +239,13 @@ class Ensemble {
     if (root()) print(warning_facts(doubts_.told(table_)));
   }
 
+  /// Memory of the histories of eight members [bytes]: of probes, and of forces at all records.
+  double memory() const {
+    return BatchRecorder::memory(layout_.channels.size() + layout_.forces.size(), times_);
+  }
+
   void check_memory() const {
-    const auto forces = static_cast<double>(layout_.forces.size() * layout_.force_times.size());
-    const double wanted = (BatchRecorder::memory(layout_.channels.size(), times_) +
-                           forces * batch_size * sizeof(double)) *
-                          size_of(comm_);
+    const double wanted = memory() * size_of(comm_);
     double available = available_memory();
     MPI_Bcast(&available, 1, MPI_DOUBLE, 0, comm_);
     if (wanted <= available) return;
@@ -258,8 +260,7 @@ class Ensemble {
         "ensemble {}: {} members, {} at a time on each rank; time step {:.6g} s, {} steps\n  {}\n"
         "  histories in memory: {:.0f MB} per rank\n",
         {table_.file, members_.size(), batch_size, shared_.time_step, shared_.steps,
-         step_source_text(scene_, shared_),
-         BatchRecorder::memory(layout_.channels.size(), times_)}));
+         step_source_text(scene_, shared_), memory()}));
   }
 
   void open_file() {
