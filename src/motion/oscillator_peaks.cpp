@@ -232,7 +232,8 @@ class Block {
     const bool coarsely = std::ranges::all_of(
         some, [](const Oscillator& o) { return BetweenSamples(o, coarse_stride).left > 0.8; });
     if (coarsely) stride_ = coarse_stride;
-    is_fast_ = some.back().theta >= series_limit || some.front().theta >= series_limit;
+    is_fast_ =
+        std::ranges::any_of(some, [](const Oscillator& o) { return o.theta >= series_limit; });
   }
 
   /// Largest |u| of each under samples of h^2 a.
