@@ -218,6 +218,13 @@ LinearField::Value LinearField::at(const Place& place) const {
   return nearest;
 }
 
+double LinearField::off_line(const Place& place) const {
+  if (!triangles_.empty()) return 0;
+  const Place& first = places_[static_cast<std::size_t>(edges_.front()[0])];
+  const Place along = side(first, places_[static_cast<std::size_t>(edges_.back()[1])]);
+  return std::abs(doubled_area(side(first, place), along)) / std::sqrt(squared(along));
+}
+
 std::array<double, 2> in_plane(const Vector3& x, const Vector3& normal,
                                const std::array<int, 2>& axes) {
   const auto [a, b] = axes;
@@ -256,12 +263,8 @@ void lay_survey(const Contact& contact, std::span<Constraint> rows, std::span<Co
     }
   }
   const LinearField field(places, survey.gaps);
-  if (field.triangles().empty() && std::ranges::any_of(rows, [&](const Constraint& row) {
-        const Place from = side(places.front(), scaled(row.level));
-        const Place along = side(places[static_cast<std::size_t>(field.edges().front()[0])],
-                                 places[static_cast<std::size_t>(field.edges().back()[1])]);
-        return std::abs(doubled_area(from, along)) > off_face * std::sqrt(squared(along));
-      })) {
+  if (std::ranges::any_of(
+          rows, [&](const auto& row) { return field.off_line(scaled(row.level)) > off_face; })) {
     file.refuse("its points lie on one line of the face; give some beside it");
   }
   report.survey.points = static_cast<int>(places.size());

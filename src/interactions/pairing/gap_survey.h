@@ -25,9 +25,8 @@ class LinearField {
     double beyond = 0;  ///< distance from the hull
   };
   Value at(const Place& place) const;
-  const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
-  /// Sides of the triangles or, of points on one line, the pieces of it in their order.
-  const std::vector<std::array<int, 2>>& edges() const { return edges_; }
+  /// Distance of a place from the line on which all points lie; 0 where they lie on none.
+  double off_line(const Place& place) const;
 
  private:
   void join_line();
@@ -35,6 +34,7 @@ class LinearField {
   std::vector<Place> places_;
   std::vector<double> values_;
   std::vector<std::array<int, 3>> triangles_;  ///< counter-clockwise; none of points on one line
+  /// Sides of the triangles or, of points on one line, the pieces of it in their order.
   std::vector<std::array<int, 2>> edges_;
 };
 
