@@ -93,11 +93,9 @@ void add_short_record(const Scene& scene, const Model& model, int direction, Dou
 /// at three quarters of the integral of the squared acceleration (Arias intensity).
 void add_late_motion(const Scene& scene, const Accelerogram& component, int direction,
                      Doubts doubts) {
-  constexpr double whole = 0.99;
-  constexpr double strong = 0.75;
+  constexpr double whole = 0.99, strong = 0.75;
   double felt = std::abs(component.at(scene.end_time));  // linear between samples, 0 beyond
-  double squares = 0;
-  double all = 0;
+  double squares = 0, all = 0;
   for (std::size_t i = 0; i < component.acceleration.size(); ++i) {
     const double a = component.acceleration[i];
     all += a * a;
