@@ -34,6 +34,7 @@ class Analysis:
     inputs: dict = field(default_factory=dict)  # files that the members read, with their hashes
     runner: object = None  # of the members
     mats: list = field(default_factory=list)  # pounding.stability.Mat of each whose stability is asked for
+    stability: dict = field(default_factory=dict)  # member -> what was found of these in it
 
     def __post_init__(self):
         self.fitted = {}

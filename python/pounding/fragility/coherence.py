@@ -65,9 +65,7 @@ def make(study, made, step: float) -> None:
         own = {mat.name: (made.folder / f"{file_name(mat.name)}-{key}.csv").absolute() for mat in found.mats}
         files.append(own)
         if not all(path.is_file() for path in own.values()):
-            signals = {axis: study.axes[axis].ratio_of(number) * made.signal(*pair) for axis, pair in zip(motion, motion.items())}
-            for one in signals.values():
-                one[0] *= 2  # the program's first step is half a one
+            signals = {axis: made.record(axis, one, study.axes[axis].ratio_of(number)) for axis, one in motion.items()}
             length = max(len(one) for one in signals.values())
             signals = {axis: np.pad(one, (0, length - len(one))) for axis, one in signals.items()}
             try:

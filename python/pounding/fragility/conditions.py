@@ -5,9 +5,8 @@ import re
 from dataclasses import dataclass, replace
 
 from pounding import UserError
-from .spans import ALONE
 from .study import Study, read_motions
-from .study_file import Reader, given_options
+from .study_file import ALONE, Reader, given_options
 
 NAME = re.compile(r"\w[\w-]*")
 

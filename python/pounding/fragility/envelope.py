@@ -34,6 +34,7 @@ class Envelope:
         self.first: Analysis = self.analyses[self.conditions[0]]
         self.gap, self.level, self.channel, self.damping = figures.shown(self.first)
         self.notes: list[str] = []  # of histories of spans, a line each
+        self.by_elevation: dict = {}  # level -> rows of each condition
 
     @property
     def frequencies(self) -> list:
@@ -108,8 +109,10 @@ class Envelope:
         return moments(one.outcomes.spectra[cell][:, self.channel, self.damping]).high
 
     def elevation_runs(self, level: float) -> dict:
-        """Condition -> rows of the joint by elevation in the joint of the figures, see report.elevation_runs."""
-        return {condition: report.elevation_runs(one, self.gap, level) for condition, one in self.analyses.items()}
+        """Condition -> rows of the joint by elevation in the joint of the figures, see report.elevation_runs; made once."""
+        if level not in self.by_elevation:
+            self.by_elevation[level] = {condition: report.elevation_runs(one, self.gap, level) for condition, one in self.analyses.items()}
+        return self.by_elevation[level]
 
     def governing_by_elevation(self, level: float) -> dict:
         """Run, with pounding and apart -> of each contact and band of elevation the row of the soil and state in which it

@@ -79,11 +79,8 @@ def _matched(study, made, step: float, number: int) -> dict:
     key = hashlib.sha256(str(told).encode()).hexdigest()[:12]
     kept = made.folder / f"matched-{key}.json"
     if not kept.is_file():
-        components = {}
-        for axis, one in motion.items():
-            values = level * study.axes[axis].ratio * made.signal(axis, one)
-            values[0] *= 2  # the program's first step is half a one
-            components[axis] = Signal(f"{axis} {Path(str(one)).name}", step, values)
+        components = {axis: Signal(f"{axis} {Path(str(one)).name}", step, made.record(axis, one, level * study.axes[axis].ratio))
+                      for axis, one in motion.items()}
         rules = read_rules(study.rules)
         try:
             found = match_motion(Motion(f"sample {number}", components), rules, level, matching.limits, None, matching.aim, matching.turns)

@@ -101,6 +101,13 @@ class Motions:
             raise UserError(f"{path} holds no motion; remove it")
         return found
 
+    def record(self, axis: str, motion, factor: float) -> np.ndarray:
+        """The accelerogram of a motion times a factor: the program's first step is half a one, so that its signal begins with
+        half of the first sample. Throws UserError as signal."""
+        found = factor * self.signal(axis, motion)
+        found[0] *= 2
+        return found
+
 
 def choose_seeds(study: Study, made: Motions) -> None:
     """Gives the study's targets the first seeds whose motions along the axes are independent of each other and, where

@@ -135,7 +135,8 @@ def collect(files: list, members: list, columns: list) -> tuple:
             if labels["channels"] != shared["channels"] or not np.allclose(labels["frequency"], shared["frequency"]):
                 raise UserError(f"{path}: other probes or frequencies than in the other parts")
             for dataset, name in ARRAYS.items():
-                values = file[dataset][()][rows] if dataset in file else np.empty((len(rows), 0, len(MOTIONS)))
+                lacks = name.startswith("span_") and dataset not in file  # of members without spans
+                values = np.empty((len(rows), 0, len(MOTIONS))) if lacks else file[dataset][()][rows]
                 target = found.setdefault(name, np.empty((len(order), *values.shape[1:])))
                 target[[order.index(index) for index in mine]] = values
     if shared and "force_names" in shared:

@@ -13,14 +13,14 @@ from pounding.results import DIRECTIONS
 from pounding.spans import MOTIONS, unit_of
 from pounding.tables import write_csv
 
-from .study_file import Reader, given_options
+from .study_file import ALONE, Reader, given_options, place_of
 
 ENDS = {"from": "a", "to": "b"}  # end of a span -> last letter of the probe that the study puts there
 ROUND_OFF = 1e-6  # of the largest motion of its kind: below it nothing moves
 SAME = 1e-6  # of a largest value: as near as that of a single run is to a member's
 MOST_DRAWN = 6
+LENGTHS = {"u": "|u|", "r": "|r|"}  # of vectors, on pages
 VALUES = ("mean", "84 %", "largest", "apart 84 %", "apart largest")
-ALONE = "as given"  # soil or state of a study that names none
 CAPTION = "What spans the joint: motion of the second end against the first since the start, with pounding and apart"
 
 
@@ -118,8 +118,7 @@ def told(rows: list, level: float) -> list:
 def table(rows: list, levels: list, one) -> str:
     """Rows of some levels for a page, a column per motion: values in mm and mrad, times, and where the largest is governed: soil,
     state and sample. Nothing of a study without spans."""
-    named = {"u": "|u|", "r": "|r|"}
-    head = ["span", "m/s²", "", *(f"{named.get(motion, motion)} [m{unit_of(motion)}]" if motion in ("ux", "rx") else named.get(motion, motion)
+    head = ["span", "m/s²", "", *(f"{motion} [m{unit_of(motion)}]" if motion in ("ux", "rx") else LENGTHS.get(motion, motion)
                                   for motion in MOTIONS)]
     lines = []
     for span in dict.fromkeys(row["span"] for row in rows):
@@ -133,15 +132,10 @@ def table(rows: list, levels: list, one) -> str:
                       head, lines, text=(0, 2)) if rows else ""
 
 
-def place_of(condition) -> dict:
-    return condition.place if condition else {}
-
-
 def motions_of(one, sample: int) -> str:
     """Records or seeds of a sample, by axis."""
     motion = one.design.motions[sample]
-    return ", ".join(f"{name}: {Path(axis.motions[motion]).stem if axis.records else f'seed {axis.motions[motion]}'}"
-                     for name, axis in one.study.axes.items())
+    return ", ".join(f"{name}: {'' if axis.records else 'seed '}{axis.name_of(motion)}" for name, axis in one.study.axes.items())
 
 
 def spectra(analyses: dict, probes: tuple, level: float) -> np.ndarray:
@@ -219,7 +213,7 @@ def figure(rows: list, analyses: dict, folder: Path, level: float) -> list:
             for shift, key, colour, label in ((-0.19, "", WITH, "with pounding"), (0.19, "apart ", WITHOUT, "apart")):
                 axes.barh(place + shift, [1e3 * row[f"{key}84 %"] for row in some], height, color=colour, label=f"{label}, 84 %")
                 axes.plot([1e3 * row[f"{key}largest"] for row in some], place + shift, "|", color="black", ms=9, mew=1.6)
-            axes.set_yticks(place, [{"u": "|u|", "r": "|r|"}.get(row["motion"].split(" ")[0], row["motion"].split(" ")[0]) for row in some])
+            axes.set_yticks(place, [LENGTHS.get(motion, motion) for motion in (row["motion"].split(" ")[0] for row in some)])
             axes.invert_yaxis()
             axes.grid(axis="y", visible=False)
             axes.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.17), ncol=2, title=unit, title_fontsize=9)

@@ -10,7 +10,7 @@ from pounding import UserError
 from pounding.stability import CRITERIA, FORCES, WORST, Found, found, instant_rows, read as read_mats, resolve, safe_name
 from pounding.tables import write_csv
 
-from .study_file import Reader
+from .study_file import Reader, place_of
 
 KEYS = ("asked", "level", "gravity", "mats")
 CAPTION = "Mats: least factor over time of sliding, of overturning about the worst edge and of flotation"
@@ -66,16 +66,12 @@ def read(reader: Reader, levels: list, structures: str) -> Stability | None:
 
 def of_member(analysis, member: int) -> list:
     """Found of each mat in a member, made once."""
-    kept = analysis.__dict__.setdefault("stability_found", {})
-    if member not in kept:
-        outcomes, forces = analysis.outcomes, None
-        made = []
-        for mat in analysis.mats:
-            columns = [outcomes.force_names.index(f"{safe_name(mat.name)}.{part}") for part in FORCES]
-            forces = outcomes.forces[member] if forces is None else forces
-            made.append(found(outcomes.force_time, forces[:, columns], mat))
-        kept[member] = made
-    return kept[member]
+    if member not in analysis.stability:
+        names, forces = analysis.outcomes.force_names, analysis.outcomes.forces[member]
+        analysis.stability[member] = [
+            found(analysis.outcomes.force_time, forces[:, [names.index(f"{safe_name(mat.name)}.{part}") for part in FORCES]], mat)
+            for mat in analysis.mats]
+    return analysis.stability[member]
 
 
 def of_cell(analysis, gap: float | None, level: float, number: int) -> list[Found]:
@@ -86,7 +82,7 @@ def of_cell(analysis, gap: float | None, level: float, number: int) -> list[Foun
 def motions_of(analysis, sample: int) -> str:
     """Records or seeds of a sample, axis by axis."""
     motion = analysis.design.motions[sample]
-    return " ".join(Path(axis.motions[motion]).stem if axis.records else f"{axis.motions[motion]}" for axis in analysis.study.axes.values())
+    return " ".join(axis.name_of(motion) for axis in analysis.study.axes.values())
 
 
 def shown(rows: list) -> list:
@@ -120,7 +116,7 @@ def rows_of(analyses: dict, gap: float) -> tuple:
                                  "mean": float(min(values.mean() for values in least.values())),
                                  "16 %": float(min(np.quantile(values, 0.16) for values in least.values())),
                                  "least": float(least[at][sample]), "time [s]": float(each[at][sample].time[c, 0]), "sample": sample,
-                                 "motions": motions_of(analyses[at], sample), **(at.place if at else {}),
+                                 "motions": motions_of(analyses[at], sample), **place_of(at),
                                  **({"would slide 84 % [m]": float(max(np.quantile(some, 0.84) for some in slid)),
                                      "would slide at most [m]": float(max(map(max, slid)))} if slid else {})})
                     instants += _worst_of(analyses, each, number, c, {"pga [m/s2]": level, "runs": words})
@@ -133,7 +129,7 @@ def _worst_of(analyses: dict, each: dict, number: int, c: int, place: dict) -> l
     for condition, some in each.items():
         mat = analyses[condition].mats[number]
         for sample, one in enumerate(some):
-            more = place | {"sample": sample, "motions": motions_of(analyses[condition], sample), **(condition.place if condition else {})}
+            more = place | {"sample": sample, "motions": motions_of(analyses[condition], sample), **place_of(condition)}
             all_rows += [row for row in instant_rows(mat, one, more) if row["criterion"] == CRITERIA[c]]
     all_rows.sort(key=lambda row: row["factor"])
     return [{**row, "rank": rank} for rank, row in enumerate(all_rows[:WORST], 1)]

@@ -51,6 +51,10 @@ class Axis:
         """Peak of a motion over that of the level."""
         return self.matched[motion]["peak"] if self.matched else self.ratio
 
+    def name_of(self, motion: int) -> str:
+        """Of a record its file without folder and ending, of a synthetic motion its seed."""
+        return Path(self.records[motion]).stem if self.records else str(self.seeds[motion])
+
     @property
     def kind(self) -> str:
         """Its motions in words."""

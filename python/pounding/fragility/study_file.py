@@ -9,6 +9,14 @@ from pounding import UserError
 from pounding.scenes import SceneError, flatten
 
 
+ALONE = "as given"  # soil or state of a study that names none
+
+
+def place_of(condition) -> dict:
+    """Soil and state of a condition; nothing of None, which stands for the only one of a study."""
+    return condition.place if condition else {}
+
+
 class Reader:
     """A mapping of the file whose keys are taken one by one; what is wrong is told with its place."""
 
