@@ -1,5 +1,6 @@
 """Runs the program as a user does and reads what it leaves; shared by the tests in Python."""
 import atexit
+import csv
 import functools
 import json
 import os
@@ -155,6 +156,12 @@ def must_refuse(test, arguments, *parts, ranks=RANKS, timeout=900):
     for part in parts:
         test.assertIn(part, lines[0])
     return lines[0]
+
+
+def rows_of(path):
+    """Lines of a CSV file as dictionaries of text."""
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
 
 
 def read_csv(path):

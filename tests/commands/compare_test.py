@@ -1,5 +1,4 @@
 """run/compare on runs of two small buildings: tables that are those of the runs' own files, and refusals."""
-import csv
 import re
 import shutil
 import tempfile
@@ -10,11 +9,6 @@ import numpy as np
 
 import program
 import two_buildings
-
-
-def rows_of(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
 
 
 PROBES = "left_floor,left_roof"
@@ -43,7 +37,7 @@ class Compare(unittest.TestCase):
 
     def test_spectra_and_ratios_are_those_of_the_runs(self):
         self.assertEqual(self.done.returncode, 0, self.done.stderr)
-        rows = rows_of(self.out / "spectra.csv")
+        rows = program.rows_of(self.out / "spectra.csv")
         self.assertEqual(list(rows[0]), ["probe", "direction", "damping", "frequency", "PSA wide [m/s2]",
                                          "PSA narrow [m/s2]", "narrow / wide"])
         for probe in ("left_floor", "left_roof"):
@@ -57,7 +51,7 @@ class Compare(unittest.TestCase):
         self.assertGreater(max(float(row["narrow / wide"] or 0) for row in rows), 3)
 
     def test_impacts_are_those_of_the_catalogues(self):
-        rows = {(row["contact"], row["run"]): row for row in rows_of(self.out / "impacts.csv")}
+        rows = {(row["contact"], row["run"]): row for row in program.rows_of(self.out / "impacts.csv")}
         own = self.narrow.impacts
         self.assertGreater(len(own["impulse"]), 0)
         for contact in ("floor1", "floor2", "all contacts"):
@@ -69,7 +63,7 @@ class Compare(unittest.TestCase):
             self.assertEqual(int(rows[contact, "wide"]["impacts"]), 0)
 
     def test_no_ratio_where_there_is_no_motion(self):
-        peaks = {(row["probe"], row["direction"], row["peak"]): row for row in rows_of(self.out / "peaks.csv")}
+        peaks = {(row["probe"], row["direction"], row["peak"]): row for row in program.rows_of(self.out / "peaks.csv")}
         across = peaks["left_roof", "z", "acceleration [m/s2]"]
         self.assertEqual((float(across["wide"]), across["narrow / wide"]), (0.0, ""))
         along = peaks["left_roof", "x", "acceleration [m/s2]"]
@@ -77,7 +71,7 @@ class Compare(unittest.TestCase):
         self.assertAlmostEqual(float(along["narrow / wide"]), found[1] / found[0], delta=1e-6)
 
     def test_only_the_options_that_differ(self):
-        rows = rows_of(self.out / "options.csv")
+        rows = program.rows_of(self.out / "options.csv")
         self.assertEqual({row["option"]: (row["wide"], row["narrow"]) for row in rows},
                          {"floor1_gap": ("0.06", "0.01"), "floor2_gap": ("0.06", "0.01")})
 
@@ -97,7 +91,7 @@ class Compare(unittest.TestCase):
         self.assertLess(page.index(opening), page.index(second))
         self.assertLess(page.index(second), page.index("<nav>"))
         self.assertLess(page.index("<nav>"), page.index("<table"))
-        rows = rows_of(self.out / "floor_spectra.csv")
+        rows = program.rows_of(self.out / "floor_spectra.csv")
         self.assertTrue(rows)
         for row in rows:
             self.assertEqual(float(row["PSA envelope [m/s2]"]), max(float(row[f"PSA {run} [m/s2]"]) for run in ("wide", "narrow")))
@@ -107,10 +101,10 @@ class Compare(unittest.TestCase):
         result = self.compare("narrow", "alone", "wide")
         self.assertEqual(result.returncode, 0, result.stderr)
         folder = self.place / "narrow-alone-wide"
-        rows = rows_of(folder / "spectra.csv")
+        rows = program.rows_of(folder / "spectra.csv")
         ratios = [float(row["alone / narrow"]) for row in rows if row["alone / narrow"]]
         self.assertLess(max(abs(ratio - 1) for ratio in ratios), 1e-4)
-        self.assertEqual([row["alone"] for row in rows_of(folder / "options.csv")
+        self.assertEqual([row["alone"] for row in program.rows_of(folder / "options.csv")
                           if row["option"] == "(number of ranks)"], ["2"])
 
     def test_probes_that_are_not_common_are_told(self):

@@ -1,5 +1,4 @@
 """run/fragility over two small buildings: members, tables, parts, going on, repeats at full order, mistakes."""
-import csv
 import os
 import re
 import signal
@@ -37,11 +36,6 @@ STUDY = {
     "dampings": [0.02, 0.05],
 }
 MEMBERS = 3 * 2 * 2 + 1
-
-
-def rows_of(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
 
 
 class Study(unittest.TestCase):
@@ -120,8 +114,8 @@ class Study(unittest.TestCase):
     def check_ensemble(self):
         """Members of an ensemble are what the single runs were."""
         self.fragility("--runner", "ensemble", out="many", full_order={"share": 0})
-        single = [row for row in rows_of(self.place / "out" / "members.csv") if row["disturbed"] == "0"]
-        many = rows_of(self.place / "many" / "members.csv")
+        single = [row for row in program.rows_of(self.place / "out" / "members.csv") if row["disturbed"] == "0"]
+        many = program.rows_of(self.place / "many" / "members.csv")
         self.assertEqual(len(many), len(single))
         for own, other in zip(many, single):
             self.assertEqual(own["impacts"], other["impacts"])
@@ -134,9 +128,9 @@ class Study(unittest.TestCase):
 
     def check_tables(self):
         out = self.place / "out"
-        members = [row for row in rows_of(out / "members.csv") if row["disturbed"] == "0"]
+        members = [row for row in program.rows_of(out / "members.csv") if row["disturbed"] == "0"]
         self.assertEqual(len(members), MEMBERS - 1)
-        for row in rows_of(out / "probability.csv"):
+        for row in program.rows_of(out / "probability.csv"):
             if row["event"] != "contact":
                 continue
             hits = sum(int(one["impacts"]) > 0 for one in members
@@ -149,8 +143,8 @@ class Study(unittest.TestCase):
         self.assertTrue(any(touched))
         self.assertFalse(any(int(row["impacts"]) for row in members if row["gap [m]"] == "apart"))
         # Spectra: against single runs of the three samples, made here.
-        found = rows_of(out / "spectra" / "gap-0.01_pga-5.csv")
-        design = rows_of(out / "design.csv")
+        found = program.rows_of(out / "spectra" / "gap-0.01_pga-5.csv")
+        design = program.rows_of(out / "design.csv")
         spectra = []
         for sample, row in enumerate(design):
             off = float(row["floor1_gap deviation [m]"])
@@ -168,7 +162,7 @@ class Study(unittest.TestCase):
                             ("cov", np.std(spectra, 0, ddof=1) / np.mean(spectra, 0))):
             np.testing.assert_allclose([float(row[key]) for row in mine], values, rtol=2e-5, err_msg=key)
         # The joint that a run apart asks for is what its roofs moved towards each other.
-        joint = [row for row in rows_of(out / "joint.csv") if row["joint"] == "floor2"]
+        joint = [row for row in program.rows_of(out / "joint.csv") if row["joint"] == "floor2"]
         self.assertGreater(float(joint[1]["50 % [m]"]), 0.01)
         self.assertAlmostEqual(float(joint[1]["50 % [m]"]) / float(joint[0]["50 % [m]"]), 2.5, delta=1e-3)
         self.assertGreater(float(joint[1]["ABS [m]"]), float(joint[1]["SRSS [m]"]))
@@ -181,14 +175,14 @@ class Study(unittest.TestCase):
         self.assertLess(page.index("So that no joint closes"), page.index("<nav>"))
         caption = re.search(r"<caption>84 % of the members in a joint of (\S+) mm at (\S+) m/s², 5 % damping, widened by 15 %.*?</table>",
                             page, re.DOTALL)
-        cell = rows_of(out / "spectra" / f"gap-{float(caption[1]) / 1e3:g}_pga-{caption[2]}.csv")
+        cell = program.rows_of(out / "spectra" / f"gap-{float(caption[1]) / 1e3:g}_pga-{caption[2]}.csv")
         widened = {f"{float(row['frequency']):g}": float(row["p84_widened"]) for row in cell
                    if row["channel"] == "left_roof x" and row["damping"] == "0.05"}
         head = re.findall("<th[^>]*>(.*?)</th>", caption[0])[1:]
         shown = re.search("<td>left_roof x, with pounding</td>(.*?)</tr>", caption[0])[1]
         shown = dict(zip(head, re.findall("<td>(.*?)</td>", shown)))
         self.assertEqual({f: shown[f] for f in widened}, {f: f"{value:.3g}" for f, value in widened.items()})
-        rows = [row for row in rows_of(out / "joint.csv") if row["joint"] == "any"]
+        rows = [row for row in program.rows_of(out / "joint.csv") if row["joint"] == "any"]
         widths = " mm at 2 m/s2 .*; ".join(f"{1e3 * float(row['5 % [m]']):.3g}" for row in rows)
         self.assertRegex(page, f"So that no joint closes in 95 % of the cases it must be as wide as {widths} mm at 5 m/s2")
 
@@ -201,7 +195,7 @@ class Study(unittest.TestCase):
                  "joints": {"floor1": {"field": field}, "floor2": {"field": field}}, "exchange": True,
                  "field_factors": [[3, 1], [1, 0.5]]}
         said = self.fragility("--runner", "ensemble", "--ranks", "2", **study).stdout
-        rows = [row for row in rows_of(self.place / "out" / "probability.csv") if row["event"].startswith("relay fails")]
+        rows = [row for row in program.rows_of(self.place / "out" / "probability.csv") if row["event"].startswith("relay fails")]
         found = {row["gap [m]"]: int(row["hits"]) for row in rows}
 
         def joint_of(owner, deviation):
@@ -209,7 +203,7 @@ class Study(unittest.TestCase):
                 ("gap", 0.01), ("gap_deviation", deviation), ("gap_length", 1.5), ("gap_seed", 100000 + owner))}
 
         failed, gaps, spectra, wider = 0, set(), {}, []
-        for sample, row in enumerate(rows_of(self.place / "out" / "design.csv")):
+        for sample, row in enumerate(program.rows_of(self.place / "out" / "design.csv")):
             motion = {**study["options"], "motion_x_seed": row["motion x"], "motion_x_duration": 6, "motion_x_pga": 5,
                        "motion_x_envelope": "0.3,4", "spectra_frequencies": STUDY["frequencies"],
                        "spectra_damping": STUDY["dampings"],
@@ -231,7 +225,7 @@ class Study(unittest.TestCase):
         self.assertGreater(failed, found["apart"])
         self.assertEqual(len(gaps), 3)
         # The scatter that joints and motions make alone is that of the single runs.
-        rows = [row for row in rows_of(self.place / "out" / "scatter.csv")
+        rows = [row for row in program.rows_of(self.place / "out" / "scatter.csv")
                 if row["channel"] == "left_roof x" and row["damping"] == "0.05"]
         ring = [(sample, (sample + 1) % 3) for sample in range(3)]
         joint = sum((spectra[a, a] - spectra[a, b]) ** 2 for a, b in ring) / 6
@@ -240,10 +234,10 @@ class Study(unittest.TestCase):
             np.testing.assert_allclose([float(row[name]) for row in rows], expected**0.5, rtol=2e-3, atol=1e-6, err_msg=name)
         self.assertGreater(max(joint), 1e-4)
         self.assertIn("the joint's own width makes", said)
-        members = rows_of(self.place / "out" / "members.csv")
+        members = program.rows_of(self.place / "out" / "members.csv")
         self.assertEqual([row["exchanged"] for row in members], 3 * ["0", "0", "1"] + 6 * ["0", "1"])
         # Other fields: the 84 % spectra of single runs in fields of thrice the deviation.
-        rows = [row for row in rows_of(self.place / "out" / "fields.csv") if row["channel"] == "left_roof x"]
+        rows = [row for row in program.rows_of(self.place / "out" / "fields.csv") if row["channel"] == "left_roof x"]
         self.assertEqual([(row["deviation times"], row["length times"]) for row in rows[::len(rows) // 3]],
                          [("1.0", "1.0"), ("3.0", "1.0"), ("1.0", "0.5")])
         own = np.quantile([np.exp(spectra[a, a]) for a in range(3)], 0.84, 0)
@@ -260,7 +254,7 @@ class Study(unittest.TestCase):
         self.refuse("relay.csv", options={**study["options"], "relay_capacity": "other/relay.csv"})
 
     def check_full_order(self):
-        rows = rows_of(self.place / "out" / "full_order.csv")
+        rows = program.rows_of(self.place / "out" / "full_order.csv")
         error = {row["channel"]: float(row["rms"]) for row in rows}
         self.assertEqual(set(error), {"left_roof x", "left_roof z"})  # y only trembles
         self.assertGreater(error["left_roof x"], 1e-4)  # 12 modes are not the model
@@ -294,7 +288,7 @@ class Study(unittest.TestCase):
             table.write_text(("# source: the test\n" if least > 1 else "") + f"name,kind,least\nlong,length,{least}\n")
             said = self.fragility("--dry-run", motions=one, motion_rules="rules.csv").stdout
             self.assertIn(words[:90], said)
-        row = rows_of(self.place / "out" / "motion_rules.csv")[0]
+        row = program.rows_of(self.place / "out" / "motion_rules.csv")[0]
         self.assertEqual((row["verdict"], row["looked_at"], row["refused"]), ("refused", "2", "2"))
         table.write_text("name,kind\nlong,width\n")
         self.refuse("motion_rules: rules.csv, line 2: kind 'width' is none of", motions=one, motion_rules="rules.csv")
@@ -312,7 +306,7 @@ class Study(unittest.TestCase):
             self.assertEqual(said.count(" matched, accepted"), 2 if turn == 0 else 0)
             self.assertIn("The motions are matched to the targets of rules.csv, match.csv.", said)
             self.assertIn("The motions are accepted by the rules of rules.csv", said)
-        rows = rows_of(self.place / "out" / "match.csv")
+        rows = program.rows_of(self.place / "out" / "match.csv")
         self.assertEqual([row["motion"] for row in rows], ["1", "2"])
         for row in rows:
             self.assertLess(abs(float(row["change of peak displacement [%]"])), 5)

@@ -1,6 +1,5 @@
 """run/benchmark and run/scaling on tiny models: every row is there and every figure positive, the
 model adds up. How long a step takes is not tested."""
-import csv
 import json
 import math
 import os
@@ -33,11 +32,6 @@ def script(name, *words):
                           capture_output=True, text=True, timeout=1200)
 
 
-def rows_of(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
-
-
 def measured_once(test, kind, value, ranks):
     """Rows of what run/benchmark --KIND VALUE leaves after one round; its table is printed as well."""
     folder = tempfile.mkdtemp(prefix="pounding-")
@@ -45,7 +39,7 @@ def measured_once(test, kind, value, ranks):
     test.assertEqual(result.returncode, 0, result.stderr[-3000:])
     with open(os.path.join(folder, f"{kind}.md")) as file:
         test.assertIn(file.read(), result.stdout)
-    return rows_of(os.path.join(folder, f"{kind}.csv"))
+    return program.rows_of(os.path.join(folder, f"{kind}.csv"))
 
 
 class Measured(unittest.TestCase):
@@ -56,7 +50,7 @@ class Measured(unittest.TestCase):
         with open(os.path.join(self.folder, "table.md")) as file:
             self.assertIn(file.read(), result.stdout)
         with open(os.path.join(self.folder, f"{name}.json")) as file:
-            return rows_of(os.path.join(self.folder, "table.csv")), json.load(file)
+            return program.rows_of(os.path.join(self.folder, "table.csv")), json.load(file)
 
     def assert_positive(self, row, *columns):
         for column in columns:
@@ -184,7 +178,7 @@ class Shapes(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr[-3000:])
         with open(os.path.join(folder, "shapes.md")) as file:
             self.assertIn(file.read(), result.stdout)
-        rows = rows_of(os.path.join(folder, "shapes.csv"))
+        rows = program.rows_of(os.path.join(folder, "shapes.csv"))
         self.assertEqual([(row["shape"], row["way"]) for row in rows],
                          [(shape, way) for shape in ("rectangles", "triangles", "skewed")
                           for way in ("element", "aij", "sbaij")])

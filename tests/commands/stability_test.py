@@ -1,7 +1,6 @@
 """Stability of mats: the five worst instants and Newmark's block on histories made by hand; a rigid block under a known pulse, with
 water and vertical motion, at full order and reduced, on one rank to three; slip of a block with friction and settlement of soil that
 yields in closed form; rows of a study beside single runs; what is refused."""
-import csv
 import tempfile
 import unittest
 from pathlib import Path
@@ -20,11 +19,6 @@ from pounding import stability
 PROCESSORS = 2  # it starts runs
 G = 9.81
 MAT = stability.Mat("block", 0.5, 0.0, 0.0, (0.0, 2.0, 0.0, 1.0), 0.0, 1000.0, (1.0, 0.5), 1000.0 / G, 0.0)
-
-
-def rows_of(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
 
 
 class ByHand(unittest.TestCase):
@@ -105,8 +99,8 @@ class Block(unittest.TestCase):
         done = program.command("stability", folder, place / "mats.yaml", "--out", place)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         self.said = done.stdout + done.stderr
-        self.instants = rows_of(place / "stability_instants.csv") if status in (0, 3) else []
-        return {row["criterion"]: row for row in rows_of(place / "stability.csv")} if status in (0, 3) else {}
+        self.instants = program.rows_of(place / "stability_instants.csv") if status in (0, 3) else []
+        return {row["criterion"]: row for row in program.rows_of(place / "stability.csv")} if status in (0, 3) else {}
 
     def check(self, rows, buoyancy=0.0, tolerance=1e-6):
         normal = self.MASS * (G + self.LIFT)
@@ -216,8 +210,8 @@ class InAStudy(StudyCommand):
         asked = {"asked": 1.1, "gravity": G, "mats": self.MATS}
         said = self.fragility(stability=asked, states=None, submittal={"question": "Do they stand?"}).stdout
         self.assertIn("Doubt: mat left is below the factor of 1.1 that is asked: sliding", said)
-        found = {(row["mat"], row["criterion"], row["runs"]): row for row in rows_of(self.place / "out" / "stability.csv")}
-        instants = rows_of(self.place / "out" / "stability_instants.csv")
+        found = {(row["mat"], row["criterion"], row["runs"]): row for row in program.rows_of(self.place / "out" / "stability.csv")}
+        instants = program.rows_of(self.place / "out" / "stability_instants.csv")
         singles = {}
         for soil, speed in (("best", 150), ("upper", 225)):
             for seed in (1, 2):

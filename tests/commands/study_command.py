@@ -42,3 +42,9 @@ class StudyCommand(unittest.TestCase):
                               env={**os.environ, "POUNDING_BUILD": os.path.abspath(program.BUILD)})
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done
+
+    def must_be_refused(self, words, **changes):
+        """A dry run of the study with changes ends with one line that has the words."""
+        said = self.fragility("--dry-run", status=1, **changes).stderr
+        self.assertEqual(len(said.splitlines()), 1, said)
+        self.assertIn(words, said)

@@ -1,5 +1,4 @@
 """docs/manual/submittal.md: the study that run/new writes goes from two meshes to the submittal, on a shorter motion."""
-import csv
 import re
 import tempfile
 import unittest
@@ -44,17 +43,15 @@ class Submittal(unittest.TestCase):
         for heading in ("by elevation", "Change of the joint as surveyed", "Equipment that fails", "Not covered"):
             self.assertIn(heading, page)
         self.assertIn("motions are refused by the rules", page, "four seconds are too short for them")
-        with open(self.place / "review" / "joint_by_elevation.csv", newline="") as file:
-            rows = list(csv.DictReader(file))
+        rows = program.rows_of(self.place / "review" / "joint_by_elevation.csv")
         least = {row["contact"]: float(row["gap [m]"]) for row in rows}
         # The least of the surveys, the static closing and an error of half a millimetre.
         self.assertAlmostEqual(least["floor1"], 0.019, delta=0.002)
         self.assertAlmostEqual(least["floor2"], 0.016 - 0.002, delta=0.002)
         # All conditions at one level: their margins apart are the widths that they lack there.
-        with open(self.place / "review" / "conditions.csv", newline="") as file:
-            for row in csv.DictReader(file):
-                margin = min(float(one["margin [m]"]) for one in rows if one["runs"] == f"apart, {row['soil']}_{row['state']}")
-                self.assertAlmostEqual(margin, -float(row["joint, 5 % [m]"]), delta=1e-3)
+        for row in program.rows_of(self.place / "review" / "conditions.csv"):
+            margin = min(float(one["margin [m]"]) for one in rows if one["runs"] == f"apart, {row['soil']}_{row['state']}")
+            self.assertAlmostEqual(margin, -float(row["joint, 5 % [m]"]), delta=1e-3)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,4 @@
 """run/sweep over two small buildings: members, table, resuming, failures."""
-import csv
 import os
 import shutil
 import subprocess
@@ -32,11 +31,6 @@ def sweep(folder, *words, scene="two-buildings.yaml", options=FIXED, more=()):
                           env={**os.environ, "POUNDING_BUILD": os.path.abspath(program.BUILD)})
 
 
-def rows_of(folder):
-    with open(folder / "out" / "sweep.csv", newline="") as file:
-        return list(csv.DictReader(file))
-
-
 class Sweep(unittest.TestCase):
     def setUp(self):
         self.place = Path(tempfile.mkdtemp(prefix="pounding-"))
@@ -49,7 +43,7 @@ class Sweep(unittest.TestCase):
     def test_table_resuming_and_changed_files(self):
         done = sweep(self.place, GAPS, "motion_x_pga=4", more=["--ranks", "2", "--jobs", "1"])
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        rows = rows_of(self.place)
+        rows = program.rows_of(self.place / "out" / "sweep.csv")
         self.assertEqual([row["floor1_gap,floor2_gap"] for row in rows], ["0.01", "0.06"])
         for row in rows:
             run = pounding.load(self.place / "out" / row["folder"])
@@ -104,7 +98,7 @@ class Sweep(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("3 members, 1 failed", done.stdout)
         self.assertIn("option -floor1_gap wide", done.stdout)
-        rows = rows_of(self.place)
+        rows = program.rows_of(self.place / "out" / "sweep.csv")
         self.assertEqual([row["status"] == "ok" for row in rows], [True, False, True])
         self.assertIn("floor1_gap", rows[1]["status"])
         self.assertEqual(rows[1]["impacts"], "")
@@ -112,7 +106,7 @@ class Sweep(unittest.TestCase):
     def test_zip_pairs_the_values_and_semicolons_part_lists(self):
         done = sweep(self.place, "floor2_gap=0.03,0.02;0.06", "motion_x_pga=1;2", options=BRIEF, more=["--zip"])
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        self.assertEqual([(row["floor2_gap"], row["motion_x_pga"]) for row in rows_of(self.place)],
+        self.assertEqual([(row["floor2_gap"], row["motion_x_pga"]) for row in program.rows_of(self.place / "out" / "sweep.csv")],
                          [("0.03,0.02", "1"), ("0.06", "2")])
 
     def test_mistakes_are_one_line(self):
