@@ -17,11 +17,12 @@ import re
 import subprocess
 import time
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 from pounding import UserError
 from pounding.arguments import positive, ranks
-from pounding.fragility import conditions, design, envelope, motions, report, rules, stability, study, submittal
+from pounding.fragility import conditions, controlled, design, envelope, motions, report, rules, stability, study, submittal
 from pounding.fragility.analysis import Analysis
 from pounding.fragility.runs import Runner
 from pounding.plot.report import print_pdf, require_browser
@@ -66,6 +67,7 @@ def arguments() -> argparse.Namespace:
     only = parser.add_mutually_exclusive_group()
     only.add_argument("--part", metavar="i/n", type=part, help="run this part of the members and stop")
     only.add_argument("--collect", action="store_true", help="run nothing; tables, figures and page of the runs that are there")
+    only.add_argument("--pilot", action="store_true", help="run the pilot of full_order: accuracy, say how many members it asks for, and stop")
     only.add_argument("--dry-run", action="store_true", help="check study and motions, and stop")
     return parser.parse_args()
 
@@ -74,6 +76,7 @@ def run(options: argparse.Namespace) -> int:
     found = study.read(options.study)
     if options.samples:
         found.samples = max(2, options.samples)
+    study.check_orders(found)
     folder = options.out or found.output
     options.browser = require_browser("--pdf") if options.pdf else None
     require_room(options.ranks, options.jobs)
@@ -157,9 +160,17 @@ def members_of(found: study.Study, folder: Path, options: argparse.Namespace,
     notes += ends
     if options.dry_run:
         return None
+    numbers = found.both and controlled.settle(runner, not options.collect and not options.part)
+    if numbers:
+        print(f"fragility: {numbers.told}", flush=True)
+        found, plan = runner.study, runner.design = replace(found, samples=numbers.count), plan.first(numbers.count)
+    if options.pilot:
+        return None
     if not options.collect:
         began = time.monotonic()
-        how = runner.run(options.part or (1, 1))
+        if numbers:
+            controlled.run(runner, numbers, options.part or (1, 1))
+        how = runner.run(options.part or (1, 1), plan.members, [plan.members[index] for index in plan.repeated])
         print(f"fragility: runs ended after {time.monotonic() - began:.0f} s ({how})", flush=True)
         if options.part:
             return None
@@ -175,7 +186,8 @@ def members_of(found: study.Study, folder: Path, options: argparse.Namespace,
     notes += [note] if note else []
     analysis = Analysis(found, plan, gathered, runner.equipment, notes, runner.scouted[True].inputs, runner, runner.mats)
     notes += stability.doubts(analysis)
-    page, text = report.write(analysis, full, ruled, notes, folder)
+    at_both = controlled.Controlled(runner, numbers) if numbers else None
+    page, text = report.write(analysis, full, ruled, notes, folder, at_both)
     print("\n" + text)
     print(f"see {page}")
     return analysis

@@ -38,6 +38,16 @@ class Design:
     motions: list  # of each sample the number of its motion
     repeated: list  # indices of members to be repeated at full order
 
+    @property
+    def plain(self) -> list:
+        """Members as the study has them: not disturbed, nor in the joints of others or in other fields."""
+        return [one for one in self.members if not one.disturbed and not one.exchanged and one.factors == OWN_FIELD]
+
+    def first(self, count: int) -> "Design":
+        """That of so many samples."""
+        members = [one for one in self.members if one.sample < count]
+        return Design(self.columns, members, self.samples[:count], self.motions[:count], self.repeated)
+
 
 def text_of(value: float) -> str:
     return f"{value:.9g}"

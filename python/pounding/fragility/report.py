@@ -13,6 +13,7 @@ from pounding.fragility import Fragility, binomial_interval, moments
 
 from . import figures, spans, stability
 from .analysis import CONTACT, EXCEEDED, TOLERANCE, Analysis, fit_row, gap_text, name_of
+from .controlled import Controlled
 from .design import OWN_FIELD
 from .outcomes import Outcomes
 
@@ -74,8 +75,8 @@ def elevation_runs(analysis: Analysis, gap: float, level: float) -> dict:
         raise UserError(f"{study.path}: {error}") from error
 
 
-def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, folder: Path) -> tuple:
-    """Writes everything and returns the page's path and what the terminal shows."""
+def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, folder: Path, at_both: Controlled | None = None) -> tuple:
+    """Writes everything and returns the page's path and what the terminal shows; `at_both`: of a study at both orders."""
     study = analysis.study
     write_design(analysis, folder)
     write_spectra(analysis, folder)
@@ -104,7 +105,9 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
               "joint": analysis.joint_rows(rules), "first_contact": first_rows, "enough": enough_rows,
               "confidence": widths, "scatter": analysis.scatter_rows(), "joint_share": analysis.joint_share_rows(),
               "fields": analysis.field_rows(),
-              "full_order": analysis.repeat_rows(full) if full else []}
+              "full_order": analysis.repeat_rows(full) if full else [], "both_orders": at_both.rows() if at_both else []}
+    if at_both:
+        at_both.write_spectra(folder)
     for name, rows in tables.items():
         if rows:
             write_csv(folder / f"{name}.csv", rows)
@@ -115,9 +118,11 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
              ("Other deviations and lengths of the joints' fields, 5 % damping", fields_summary(tables["fields"])),
              (f"{analysis.study.width_title} that would be needed [m]".capitalize(), tables["joint"]),
              (f"Members that the mean of any spectrum needs, within {100 * TOLERANCE:g} %",
-              enough_summary(enough_rows)), ("Repeats at full order: ln-ratio of the spectra", repeats_summary(tables["full_order"]))]
+              enough_summary(enough_rows)), ("Repeats at full order: ln-ratio of the spectra", repeats_summary(tables["full_order"])),
+             ("At full order, with reduced runs as control variates", [row for row in tables["both_orders"] if not row["quantity"].startswith(
+                 ("mean", "84 %")) or (row["gap [m]"], row["pga [m/s2]"]) == (gap_text(gap), level)])]
     parts = [(stability.CAPTION, stability.shown(of_mats)), *parts] if of_mats else parts
-    lines = told(analysis, fits, full, tables) + spans.told(across, level) + notes
+    lines = told(analysis, fits, full, tables) + (at_both.told(tables["both_orders"]) if at_both else []) + spans.told(across, level) + notes
     box = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))
     shown = [*figure_parts(folder, pages), ("Floor spectra", floor_table(analysis)),
              (spans.CAPTION, spans.table(across, [level], analysis)),

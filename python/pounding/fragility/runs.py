@@ -90,7 +90,7 @@ class Runner:
         self.ranks, self.jobs, self.kind = ranks, jobs, kind
         self.variables = environment()
         self.bases, self.scouted = {}, {}
-        for reduced in (True, False) if design.repeated else (True,):
+        for reduced in (True, False) if design.repeated or study.both else (True,):
             options = scene_options(study, reduced, folder / "runs")
             with alone_in(folder / "runs", called("run/fragility"), wait=True):  # parts of a study look once
                 self._find_base(reduced, options, key_of(study, options, design), only_look)
@@ -134,7 +134,7 @@ class Runner:
     def _scout(self, reduced: bool, base: Path) -> Scouted:
         """Two steps of the first member: what the program refuses, it refuses here."""
         place = base / "scout"
-        words = [*self._words(self.design.members[0], reduced), "-end_time", "1e-4", "-modes", "0"]
+        words = [*self.words(self.design.members[0], reduced), "-end_time", "1e-4", "-modes", "0"]
         failure = finish(lambda: Job(words, place.absolute(), 1, Path.cwd(), self.variables))
         if failure:
             raise UserError(f"{self.study.path}: {failure}")
@@ -148,7 +148,8 @@ class Runner:
         doubts = [line for line in summary["warnings"] if "its modes end at" in line or "its mesh carries waves" in line]
         return Scouted(inputs, list(summary.get("probes", {})), list(summary.get("contacts", {})), items, doubts, heights, mats)
 
-    def _words(self, member, reduced: bool) -> list:
+    def words(self, member, reduced: bool) -> list:
+        """Options of the run of a member."""
         words = ["-options_file", str(self.scene(reduced).absolute())]
         for column, value in zip(self.design.columns, member.values):
             words += [f"-{column}", value]
@@ -175,18 +176,16 @@ class Runner:
         place = base / f"history-{_digest(member.values)[:16]}"
         if not (place / "summary.json").exists():
             steps = sorted({step for path in self.files(True) for step in outcomes.time_steps(path)})
-            words = [*self._words(member, True), "-modes", "0", *(["-time_step", steps[0]] if len(steps) == 1 else [])]
+            words = [*self.words(member, True), "-modes", "0", *(["-time_step", steps[0]] if len(steps) == 1 else [])]
             print(f"fragility: history of a member in {place}", flush=True)
             failure = finish(lambda: Job(words, place.absolute(), self.ranks, Path.cwd(), self.variables))
             if failure:
                 raise UserError(failure)
         return place
 
-    def run(self, part: tuple) -> str:
-        """Runs part i of n of the members, and of the repeats at full order; returns how members were run. Throws
-        UserError."""
-        share = self.design.members[part[0] - 1::part[1]]
-        repeats = [self.design.members[index] for index in self.design.repeated][part[0] - 1::part[1]]
+    def run(self, part: tuple, members: list, full: list) -> str:
+        """Runs part i of n of members, and of some at full order; returns how members were run. Throws UserError."""
+        share, repeats = members[part[0] - 1::part[1]], full[part[0] - 1::part[1]]
         name = f"{part[0]}-of-{part[1]}"
         kind = self.kind
         _, missing = self.found(share)
@@ -246,7 +245,7 @@ class Runner:
         print(f"fragility: {announcement(len(members), len(todo), self.jobs, self.ranks, what)}", flush=True)
 
         def start(member) -> Job:
-            return Job(self._words(member, reduced), places[member].absolute(), self.ranks, Path.cwd(), self.variables)
+            return Job(self.words(member, reduced), places[member].absolute(), self.ranks, Path.cwd(), self.variables)
 
         def ended(member, job: Job, waiting: list, _running: list) -> None:
             nonlocal ended_count

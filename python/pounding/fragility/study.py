@@ -13,6 +13,7 @@ from pounding.motion_signals import MotionError
 from pounding.results import DIRECTIONS
 
 from . import spans
+from .both_orders import BothOrders, read as read_both_orders
 from .coherence import Moved, read as read_coherence
 from .matching import Matching, read as read_matching
 from .stability import Stability, read as read_stability
@@ -139,6 +140,7 @@ class Study:
     share: float  # of the members that are repeated at full order
     full_options: dict
     noise: float  # part by which their shaking is disturbed
+    both: BothOrders | None  # samples at both orders
     frequencies: list = field(default_factory=list)
     dampings: list = field(default_factory=list)
     show: dict = field(default_factory=dict)
@@ -407,6 +409,13 @@ def check_names(study: Study, probes: list, contacts: list) -> None:
                         f"{', '.join(channels) or 'probes, of which there are none'}")
 
 
+def check_orders(study: Study) -> None:
+    """Throws UserError where the study has too few samples for those that it asks for at full order."""
+    complaint = study.both.complaint(study.samples) if study.both else ""
+    if complaint:
+        raise UserError(f"{study.path}: full_order: {complaint}")
+
+
 def doubts(study: Study) -> list:
     """What may be meant otherwise: a line each."""
     found, low, high = [], study.levels[0], study.levels[-1]
@@ -433,7 +442,7 @@ def read(path: Path) -> Study:
     table = _motion_rules(reader)
     frequencies = reader.increasing("frequencies", standard_frequencies())
     dampings = reader.increasing("dampings", DAMPINGS)
-    full = reader.part("full_order", ("share", "options", "noise"))
+    full = reader.part("full_order", ("share", "options", "noise", "samples", "accuracy", "pilot"))
     gaps, levels = reader.increasing("gaps", None, -1e-12), reader.increasing("levels")
     if gaps[-1] > WIDEST:
         reader.fail("gaps", f"has a joint of {gaps[-1]:g} m, above {WIDEST:g} m: gaps are in m, 40 mm are 0.04")
@@ -454,7 +463,7 @@ def read(path: Path) -> Study:
         reader.number("confidence", 0.95, 0.0, 1.0), axes, limit, between, wanted, levels, gaps,
         reader.number("apart", max(1.0, 20 * gaps[-1]), gaps[-1]), joints, exchange, field_factors, _factors(reader),
         _capacities(reader, frequencies, dampings), full.number("share", 0.0, -1e-12, 1.0 + 1e-12),
-        full.options("options"), full.number("noise", 1e-3, 0.0), frequencies, dampings,
+        full.options("options"), full.number("noise", 1e-3, 0.0), read_both_orders(full, exchange), frequencies, dampings,
         _show(reader, gaps, levels), {key: reader.values.get(key) for key in ("soils", "states", "submittal")},
         reader.number("uncertainty", None, 0.0) if "uncertainty" in reader.values else None, table,
         read_matching(reader, table, limit), *read_coherence(reader),
