@@ -57,7 +57,7 @@ def make(study, made, step: float) -> None:
     gives them to the study. Throws UserError."""
     found: mats.Coherence = study.coherence
     count = study.motion_count
-    told = [found.told, found.model.name, [[axis, one.ratio] for axis, one in study.axes.items()]]  # names tell of peaks
+    told = [found.told, found.model.name, [[axis, one.ratios or one.ratio] for axis, one in study.axes.items()]]  # names tell of peaks
     factors, names, files = None, None, []
     for number in range(count):
         motion = {axis: one.motions[number] for axis, one in study.axes.items()}

@@ -75,11 +75,11 @@ def _matched(study, made, step: float, number: int) -> dict:
     (`misses`) and whether it is `accepted`."""
     level, matching = study.levels[-1], study.matching
     motion = {axis: one.motions[number] for axis, one in study.axes.items()}
-    told = [study.rules.read_text(encoding="utf-8"), level, matching.told(), [[made.name(*pair), study.axes[pair[0]].ratio] for pair in motion.items()]]
+    told = [study.rules.read_text(encoding="utf-8"), level, matching.told(), [[made.name(*pair), study.axes[pair[0]].ratio_of(number)] for pair in motion.items()]]
     key = hashlib.sha256(str(told).encode()).hexdigest()[:12]
     kept = made.folder / f"matched-{key}.json"
     if not kept.is_file():
-        components = {axis: Signal(f"{axis} {Path(str(one)).name}", step, made.record(axis, one, level * study.axes[axis].ratio))
+        components = {axis: Signal(f"{axis} {Path(str(one)).name}", step, made.record(axis, one, level * study.axes[axis].ratio_of(number)))
                       for axis, one in motion.items()}
         rules = read_rules(study.rules)
         try:

@@ -38,7 +38,7 @@ FACTOR = re.compile(r"\w+_(stiffness|damping)_factor")
 class Axis:
     """The motions along one axis: `records`, or synthetic ones that match `target`, told apart by `seeds`. `ratio`: its
     peak over that of the level; `options`: more options of the motion, as duration. Of records that the study matched how
-    they were (`matched`, their peaks in place of the ratio), and what they are `made_of`."""
+    they were (`matched`, their peaks in place of the ratio), and what they are `made_of`. `ratios`: of each motion its own."""
 
     records: tuple = ()
     target: str = ""
@@ -47,10 +47,11 @@ class Axis:
     options: tuple = ()
     matched: tuple = ()
     made_of: str = ""
+    ratios: tuple = ()
 
     def ratio_of(self, motion: int) -> float:
         """Peak of a motion over that of the level."""
-        return self.matched[motion]["peak"] if self.matched else self.ratio
+        return self.matched[motion]["peak"] if self.matched else self.ratios[motion] if self.ratios else self.ratio
 
     def name_of(self, motion: int) -> str:
         """Of a record its file without folder and ending, of a synthetic motion its seed."""
@@ -216,7 +217,8 @@ def _axis(reader: Reader, name: str) -> Axis:
     if (records is None) == (target is None):
         raise UserError(f"{reader.path}: motions: {name} needs either records or a target")
     options = one.options("options")
-    ratio = one.number("ratio", 1.0, 0.0)
+    ratios = tuple(one.numbers("ratio", None, 0.0)) if isinstance(one.values.get("ratio"), list) else ()
+    ratio = ratios[0] if ratios else one.number("ratio", 1.0, 0.0)
     if records is not None:
         if not isinstance(records, list) or not all(isinstance(item, str) for item in records):
             one.fail("records", "is not a list of files")
@@ -224,7 +226,11 @@ def _axis(reader: Reader, name: str) -> Axis:
         missing = [item for item in paths if not Path(item).is_file()]
         if missing:
             raise UserError(f"{reader.path}: motions: {name}: {missing[0]}: no such file")
-        return Axis(paths, "", (), ratio, tuple((key, value) for key, value in options.items()))
+        if ratios and len(ratios) != len(paths):
+            one.fail("ratio", f"are {len(ratios)} of {len(paths)} records")
+        return Axis(paths, "", (), ratio, tuple(options.items()), ratios=ratios)
+    if ratios:
+        one.fail("ratio", "is one for all motions to a target; a list of them goes with records")
     path = beside(reader.path, str(target))
     if not Path(path).is_file():
         raise UserError(f"{reader.path}: motions: {name}: {path}: no such file")
