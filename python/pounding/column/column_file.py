@@ -61,6 +61,8 @@ class Ground:
 
 def _number(reader: Reader, key: str, default=None) -> float:
     low, high, unit = RANGES[key]
+    if isinstance(reader.values.get(key), str):  # as 2.6e8, which is none in YAML
+        reader.values[key] = reader.numbers(key)[0]
     value = reader.number(key, default)
     if not low <= value < high:
         reader.fail(key, f"is not from {low:g} to {high:g} {unit}?")
@@ -132,9 +134,11 @@ def _mats(reader: Reader) -> Mats:
                 one.number("poisson", None if names else 0.0, -1e-9, 0.5), names, tuple(tables.items()))
 
 
-def read(path: Path) -> Ground:
-    """Throws UserError or OSError."""
+def read(path: Path, thickest: float | None = None) -> Ground:
+    """`thickest`: of sublayers [m], in place of that of the file. Throws UserError or OSError."""
     reader = Reader(load(path), path, "", KEYS)
+    if thickest:
+        reader.values["thickest"] = thickest
     files = reader.values.get("curves") or {}
     if not isinstance(files, dict) or not all(isinstance(file, str) for file in files.values()):
         reader.fail("curves", "has not names of curves, each with its file")

@@ -10,7 +10,7 @@ from .waves import Column, Given, Waves
 
 QUIET = 1e-3  # part of the largest acceleration of the surface that may be left at the end of the padding
 LONGEST = 5  # doublings of the padding
-EASED = 8  # iterations after which a modulus goes half of its way only
+EASED = 20  # iterations after which a modulus goes half of its way only, in case it swings
 
 
 @dataclass(frozen=True)

@@ -63,22 +63,25 @@ class Waves:
         self.complex_speed = np.sqrt(column.complex_modulus / column.density)
         count = len(column.thickness)
         ratio = np.ones((count + 1, len(omega)), complex)
-        passed = np.ones((count, len(omega)), complex)  # A of a layer over A of the one below
+        handed = np.ones((count, len(omega)), complex)  # A of the layer below over A exp(i k h), which it becomes at a layer's bottom
         for m in range(count):
             once = self.turned(m, column.thickness[m])
             step = column.density[m] * self.complex_speed[m] / (column.density[m + 1] * self.complex_speed[m + 1])
             back = ratio[m] * once**2
             total = (1 + step) + (1 - step) * back
-            passed[m] = 2 * once / total
+            handed[m] = total / 2
             ratio[m + 1] = ((1 - step) + (1 + step) * back) / total
         at = given.entry
         self.ratio = ratio
         self.up = np.empty_like(ratio)
         self.up[at] = 0.5 if given.outcrop else 1 / (1 + ratio[at])
+        self.leaving = np.empty_like(handed)  # A exp(i k h) at the bottoms of the layers
         for m in range(at - 1, -1, -1):
-            self.up[m] = self.up[m + 1] * passed[m]
+            self.leaving[m] = self.up[m + 1] / handed[m]
+            self.up[m] = self.leaving[m] * self.turned(m, column.thickness[m])
         for m in range(at, count):
-            self.up[m + 1] = self.up[m] / passed[m]
+            self.leaving[m] = self.up[m] / self.turned(m, column.thickness[m])
+            self.up[m + 1] = self.leaving[m] * handed[m]
 
     def turned(self, layer: int, way: float) -> np.ndarray:
         """exp(-i k way): what a wave has left, and its phase, after a way in a layer."""
@@ -94,11 +97,10 @@ class Waves:
 
     def strain(self, layer: int, depth: float) -> np.ndarray:
         """Shear strain [-] at a depth below the top of a layer; at rest that of the inertia of what lies above, evenly accelerated."""
-        way = self.turned(layer, depth)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            found = -1j / (self.omega * self.complex_speed[layer]) * self.up[layer] * (1 / way - self.ratio[layer] * way)
-        still = self.omega == 0
-        column = self.column
+        column, still = self.column, self.omega == 0
+        up = self.leaving[layer] * self.turned(layer, column.thickness[layer] - depth)
+        down = self.up[layer] * self.ratio[layer] * self.turned(layer, depth)
+        found = -1j / (np.where(still, 1, self.omega) * self.complex_speed[layer]) * (up - down)
         above = (column.density[:layer] * column.thickness[:layer]).sum() + column.density[layer] * depth
         found[still] = (above / column.complex_modulus[layer]).real * self.within(layer)[still]
         return found

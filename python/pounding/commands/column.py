@@ -8,6 +8,7 @@ docs/manual/column.md has the keys and the method.
 
 from pathlib import Path
 
+from pounding.arguments import positive
 from pounding.column import answer, column_file, motions, output
 
 from .process import parser_of
@@ -17,9 +18,11 @@ def main() -> int:
     parser = parser_of(__doc__)
     parser.add_argument("file", metavar="FILE", type=Path, help="layers, curves and motions")
     parser.add_argument("--out", metavar="DIR", type=Path, help="(default: results/FILE)")
+    parser.add_argument("--thickest", metavar="M", type=positive(float),
+                        help="sublayers in place of those of the file (default there: a wave takes 5 ms through one)")
     options = parser.parse_args()
     folder = options.out or Path("results") / options.file.stem
-    ground = column_file.read(options.file)
+    ground = column_file.read(options.file, options.thickest)
     signals = motions.signals_of(ground)
     estimates = [answer.estimate(ground, name, soil, signals) for name, soil in ground.estimates().items()]
     folder.mkdir(parents=True, exist_ok=True)

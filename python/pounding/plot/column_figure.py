@@ -23,7 +23,7 @@ def draw(ground: Ground, estimates: list, folder: Path) -> Path:
                                         figsize=(WIDTH, 6.6), height_ratios=[1.5, 1])
     tops = ground.soil.column.tops
     bottom = 1.06 * tops[-1]
-    panels["speed"].plot(*_steps(ground.soil.column.speed, tops, bottom), color=OF_GROUND, ls="--", label="small strain, best")
+    small = panels["speed"].plot(*_steps(ground.soil.column.speed, tops, bottom), color=OF_GROUND, ls="--", label="best at small strain")
     for one in estimates:
         _draw_depths(panels, one, tops, bottom)
         panels["transfer"].plot(FREQUENCIES, one.transfer(0, False), color=COLOURS[one.name], label=f"{one.name}, surface")
@@ -39,9 +39,8 @@ def draw(ground: Ground, estimates: list, folder: Path) -> Path:
     panels["speed"].set_ylabel("depth [m]")
     panels["speed"].set_xlim(left=0)
     panels["strain"].set_xscale("log")
-    panels["speed"].legend(loc="lower left")
     panels["transfer"].set(xscale="log", xlabel="frequency [Hz]", ylabel="over rock outcrop")
-    panels["transfer"].legend(loc="upper right", ncols=2)
+    panels["transfer"].legend(handles=[*panels["transfer"].get_lines(), *small], loc="upper left", ncols=2)
     save(figure, folder, "column.png", "Column", "Level ground as its motions leave it.")
     return folder / "column.png"
 
@@ -50,7 +49,7 @@ def _draw_depths(panels: dict, one: Estimate, tops: np.ndarray, bottom: float) -
     colour, column = COLOURS[one.name], one.column
     strains, accelerations = one.strains(), one.accelerations()
     middles = tops[:-1] + column.thickness / 2
-    panels["speed"].plot(*_steps(column.speed, tops, bottom), color=colour, label=one.name)
+    panels["speed"].plot(*_steps(column.speed, tops, bottom), color=colour)
     panels["damping"].plot(*_steps(100 * column.damping, tops, bottom), color=colour)
     panels["strain"].plot(100 * strains.mean(0), middles, color=colour)
     panels["strain"].fill_betweenx(middles, 100 * strains.min(0), 100 * strains.max(0), color=colour, alpha=0.15, lw=0)
