@@ -163,7 +163,7 @@ def read(path: Path, thickest: float | None = None) -> Ground:
     if not level and any(axis.target for axis in axes.values()):
         raise ColumnError(f"{path}: level is missing: synthetic motions have the peak that it says [m/s2]")
     rule = Rule(reader.number("ratio", 0.65, 0.0, 1.0 + 1e-9), reader.number("tolerance", 1e-3, 0.0, 0.1),
-                reader.whole("iterations", 50, 1))
+                reader.whole("iterations", 100, 1))
     return Ground(path, Soil(column, tuple(one["curve"] for one in parts[:-1]), names),
                   np.array([cv if one["cv"] is False else one["cv"] for one in parts]), axes, level,
                   Given(names.index(str(at)), _word(told, "as", AS) == "outcrop"), mats,

@@ -10,7 +10,6 @@ from .waves import Column, Given, Waves
 
 QUIET = 1e-3  # part of the largest acceleration of the surface that may be left at the end of the padding
 LONGEST = 5  # doublings of the padding
-EASED = 20  # iterations after which a modulus goes half of its way only, in case it swings
 
 
 @dataclass(frozen=True)
@@ -54,26 +53,28 @@ class Rule:
 
     ratio: float = 0.65
     tolerance: float = 1e-3
-    most: int = 50
+    most: int = 100
 
 
 def iterate(soil: Soil, motion: np.ndarray, step: float, given: Given, mat: Given, rule: Rule) -> Found:
     """A motion [m/s2] through a soil, until moduli and damping change by no more than the tolerance. Throws ColumnError where they
     do not come to that."""
     size = next_fast_len(2 * len(motion) + int(4 * soil.column.period / step), real=True)
-    column, changes, number = soil.at(np.zeros(len(soil.curves))), [], 0
+    column, step_before, number = soil.at(np.zeros(len(soil.curves))), 0.0, 0
     while True:
         number += 1
         strain = _largest_strain(column, motion, step, given, size)
         new = soil.at(rule.ratio * strain)
-        changes.append(_change(column, new))
-        if changes[-1].max() <= rule.tolerance:
+        change = _change(column, new)
+        if change.max() <= rule.tolerance:
             break
         if number == rule.most:
-            worst = int(changes[-1].argmax())
-            raise ColumnError(f"after {number} iterations layer {soil.names[worst]} still changes by {100 * changes[-1].max():.2g} %; "
-                              "give more iterations, a larger tolerance or thinner layers")
-        column = new if number < EASED else column.with_(np.sqrt(column.modulus * new.modulus), 0.5 * (column.damping + new.damping))
+            raise ColumnError(f"after {number} iterations layer {soil.names[int(change.argmax())]} still changes by "
+                              f"{100 * change.max():.2g} %; give more iterations or a larger tolerance")
+        step_now = np.log(new.modulus / column.modulus)
+        if (step_now * step_before).sum() < 0:  # moduli swing: half of the way
+            new = column.with_(np.sqrt(column.modulus * new.modulus), 0.5 * (column.damping + new.damping))
+        column, step_before = new, step_now
     return _moved(column, strain, motion, step, given, mat, size, number)
 
 
