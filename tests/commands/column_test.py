@@ -18,8 +18,7 @@ sys.path.insert(0, os.path.join(program.SOURCE, "python"))
 from pounding import UserError  # noqa: E402
 from pounding.column import column_file, curves, iteration, motions  # noqa: E402
 from pounding.column.waves import Column, Given, Waves  # noqa: E402
-from pounding.fragility import study_file  # noqa: E402
-from pounding.fragility.study import read_motions  # noqa: E402
+from pounding.fragility import study, study_file  # noqa: E402
 
 CURVES = Path(program.SOURCE, "petsc-options", "curves")
 STEP = 0.01
@@ -286,7 +285,7 @@ class Command(unittest.TestCase):
         axes = soils["lower"]["motions"]
         self.assertEqual(axes["z"], {"records": [str(self.folder / name) for name in ("one.csv", "two.csv")], "ratio": 0.7,
                                      "options": {"unit": "m/s2"}})
-        read, *_, count = read_motions(study_file.Reader({"motions": axes}, scene, "", ("motions",)))
+        read, *_, count = study.read_motions(study_file.Reader({"motions": axes}, scene, "", ("motions",)))
         self.assertEqual((list(read), count), (["x", "z"], 2))
         for number, file in enumerate(axes["x"]["records"]):
             peak = max(abs(float(row["mats"])) for row in self.rows(file))
@@ -297,6 +296,20 @@ class Command(unittest.TestCase):
         with open(samples) as lines:
             read_again = [float(row["acceleration"]) for row in csv.DictReader(lines)]
         numpy.testing.assert_array_equal(read_again, [float(row["mats"]) for row in self.rows(axes["x"]["records"][1])])
+
+    def test_what_a_study_takes(self):
+        scene = self.folder / "study.yaml"
+        axis = {"records": ["one.csv", "two.csv"], "ratio": [1.5]}
+        with self.assertRaisesRegex(UserError, "ratio: .* are 1 of 2 records"):
+            study.read_motions(study_file.Reader({"motions": {"x": axis}}, scene, "", ("motions",)))
+        for text, told in (("soils: {}\nother: 1\n", "is no file with a block `soils`"), (None, "No such file")):
+            if text:
+                (self.folder / "soils.yaml").write_text(text)
+            with self.assertRaisesRegex(UserError, told):
+                study.soils_of(study_file.Reader({"soils": "soils.yaml" if text else "none.yaml"}, scene, "", ("soils",)))
+        (self.folder / "soils.yaml").write_text("soils: {best: {factor: 2}}\n")
+        found = study.soils_of(study_file.Reader({"soils": "soils.yaml"}, scene, "", ("soils",)))
+        self.assertEqual(found, {"best": {"factor": 2}})
 
     def test_strains_beyond_what_is_meant_are_doubted(self):
         result = self.ran(GROUND.replace("level: 2", "level: 14"))

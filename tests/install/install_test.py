@@ -74,7 +74,7 @@ class Installed(unittest.TestCase):
 
     def test_tools_are_named_and_say_what_they_cannot(self):
         listed = self.tool().stdout.split()
-        self.assertEqual(listed[1::2], ["compare", "fragility", "import", "incoherent", "law", "match", "new", "plant", "plot", "seal", "section", "shake",
+        self.assertEqual(listed[1::2], ["column", "compare", "fragility", "import", "incoherent", "law", "match", "new", "plant", "plot", "seal", "section", "shake",
                                         "soil", "spans", "stability", "sweep", "tradeoff"])
         for name in listed[1::2]:
             said = self.tool(name, "--help").stdout

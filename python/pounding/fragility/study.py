@@ -256,6 +256,18 @@ def read_motions(reader: Reader) -> tuple:
     return axes, motions.number("correlation", 0.16, 0.0), motions.flag("between_samples"), wanted, wanted or next(iter(counts.values()))
 
 
+def soils_of(reader: Reader):
+    """The block `soils`, in the study or in a file of its own, as run/column writes it."""
+    values = reader.values.get("soils")
+    if not isinstance(values, str):
+        return values
+    path = Path(beside(reader.path, values))
+    found = load(path)
+    if not isinstance(found, dict) or set(found) != {"soils"}:
+        raise UserError(f"{path}: is no file with a block `soils` and nothing else")
+    return found["soils"]
+
+
 def _joints(reader: Reader) -> dict:
     values = reader.values.get("joints")
     if not isinstance(values, dict) or not values:
@@ -470,7 +482,7 @@ def read(path: Path) -> Study:
         reader.number("apart", max(1.0, 20 * gaps[-1]), gaps[-1]), joints, exchange, field_factors, _factors(reader),
         _capacities(reader, frequencies, dampings), full.number("share", 0.0, -1e-12, 1.0 + 1e-12),
         full.options("options"), full.number("noise", 1e-3, 0.0), read_both_orders(full, exchange), frequencies, dampings,
-        _show(reader, gaps, levels), {key: reader.values.get(key) for key in ("soils", "states", "submittal")},
+        _show(reader, gaps, levels), {**{key: reader.values.get(key) for key in ("states", "submittal")}, "soils": soils_of(reader)},
         reader.number("uncertainty", None, 0.0) if "uncertainty" in reader.values else None, table,
         read_matching(reader, table, limit), *read_coherence(reader),
         elevations=reader.increasing("elevations", None, -1e9) if "elevations" in reader.values else None,
