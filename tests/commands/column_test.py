@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from dataclasses import replace
 from pathlib import Path
 
 import numpy
@@ -16,7 +17,7 @@ from references import shake2000_column
 
 sys.path.insert(0, os.path.join(program.SOURCE, "python"))
 from pounding import UserError  # noqa: E402
-from pounding.column import column_file, curves, iteration, motions  # noqa: E402
+from pounding.column import answer, column_file, curves, iteration, motions  # noqa: E402
 from pounding.column.waves import Column, Given, Waves  # noqa: E402
 from pounding.fragility import study, study_file  # noqa: E402
 
@@ -311,13 +312,21 @@ class Command(unittest.TestCase):
         found = study.soils_of(study_file.Reader({"soils": "soils.yaml"}, scene, "", ("soils",)))
         self.assertEqual(found, {"best": {"factor": 2}})
 
-    def test_strains_beyond_what_is_meant_are_doubted(self):
-        result = self.ran(GROUND.replace("level: 2", "level: 14"))
+    def test_numbers_beyond_those_that_are_meant_are_doubted(self):
+        result = self.ran(GROUND.replace("level: 2", "level: 14") + "thickest: 20\ncv: 0\n")
         self.assertEqual((result.returncode, result.stderr), (0, ""))
-        self.assertRegex(result.stdout, "warning: lower: a shear strain of .* % in fill; equivalent linear ground is not meant for more than 1 %")
-        self.assertRegex(self.ran(GROUND.replace("level: 2", "level: 0.2")).stdout, r"warning: a level of 0.2 m/s2 \(in g\?\)")
-        thick = self.ran(GROUND + "thickest: 20\ncv: 0\n")
-        self.assertRegex(thick.stdout, "warning: best: waves take .* ms through a sublayer of fill, 4 m thick")
+        self.assertRegex(result.stdout, "warning: best: a shear strain of .* % in fill; equivalent linear ground is not meant for more than 1 %")
+        self.assertRegex(result.stdout, "warning: best: waves take .* ms through a sublayer of fill, 4 m thick")
+        (self.folder / "sand.csv").write_text("strain,modulus,damping\n1e-6,1,0.01\n1e-4,0.8,0.04\n")
+        (self.folder / "ground.yaml").write_text(GROUND.replace("level: 2", "level: 0.2"))
+        ground = column_file.read(self.folder / "ground.yaml")
+        self.assertEqual(column_file.doubts_of(ground), ["a level of 0.2 m/s2 (in g?)"])
+        signals = motions.signals_of(ground)
+        best = answer.estimate(ground, "best", ground.soil, signals)
+        self.assertEqual(answer.doubts_of(best, signals, ground.rule.ratio), [])
+        signals = {key: replace(one, values=20 * one.values) for key, one in signals.items()}
+        doubts = answer.doubts_of(answer.estimate(ground, "best", ground.soil, signals), signals, ground.rule.ratio)
+        self.assertEqual(doubts, ["best: effective strains in fill are beyond the last of curve sand, 0.01 %, whose values go on"])
 
     def refused(self, old, new, *parts):
         self.assertIn(old, GROUND)

@@ -12,7 +12,7 @@ IDENTIFIER = re.compile(r"`(\w+(?:::\w+)?)`")
 OF_NO_CODE = {"snake_case", "PascalCase", "member_", "POUNDING_BUILD"}
 LINK = re.compile(r"\]\(([^)#\s]*)(?:#([^)\s]*))?\)")
 # Results of runs and studies, and examples of scenes; tables are results unless their folder is named.
-OF_A_RUN = re.compile(r"\w+\.csv|spectra/gap-G_pga-L\.csv|resolved\.yaml|case\.yaml")
+OF_A_RUN = re.compile(r"\w+\.csv|spectra/gap-G_pga-L\.csv|resolved\.yaml|case\.yaml|soils\.yaml")
 
 
 def files():
