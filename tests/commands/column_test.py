@@ -20,6 +20,7 @@ from pounding import UserError  # noqa: E402
 from pounding.column import answer, column_file, curves, iteration, motions  # noqa: E402
 from pounding.column.waves import Column, Given, Waves  # noqa: E402
 from pounding.fragility import study, study_file  # noqa: E402
+from pounding.motion_signals import response_spectra  # noqa: E402
 
 CURVES = Path(program.SOURCE, "petsc-options", "curves")
 STEP = 0.01
@@ -105,6 +106,9 @@ class Transfer(unittest.TestCase):
             numpy.testing.assert_allclose(found.within(entry), 1, rtol=1e-12)
             other = self.waves(column, 1, 7)
             numpy.testing.assert_allclose(found.within(3), other.within(3) / other.within(entry), rtol=1e-9)
+        found = self.waves(column, 1, 7, at=5)
+        numpy.testing.assert_allclose(found.outcrop(5), 1, rtol=1e-12)
+        numpy.testing.assert_allclose(found.within(5), (1 + found.ratio[5]) / 2, rtol=1e-12)
 
 
 def by_stiffness(column, omega):
@@ -311,6 +315,27 @@ class Command(unittest.TestCase):
         (self.folder / "soils.yaml").write_text("soils: {best: {factor: 2}}\n")
         found = study.soils_of(study_file.Reader({"soils": "soils.yaml"}, scene, "", ("soils",)))
         self.assertEqual(found, {"best": {"factor": 2}})
+
+    def test_synthetic_motions_are_those_of_the_program(self):
+        """The spectrum follows the target, and the peak is that of the level; records without a level are as recorded."""
+        target = Path(program.SOURCE, "petsc-options", "spectra", "rg160.csv")
+        text = GROUND.replace("x: {records: [one.csv, two.csv], options: {unit: m/s2}}",
+                              f"x: {{target: {target}, seeds: [4, 5], ratio: 1.5, options: {{duration: 20}}}}")
+        (self.folder / "ground.yaml").write_text(text)
+        signals = motions.signals_of(column_file.read(self.folder / "ground.yaml"))
+        for one in signals.values():
+            self.assertAlmostEqual(one.peak, 3, delta=1e-12)
+        self.assertLess(abs(numpy.corrcoef(signals["x", 0].values[:3900], signals["x", 1].values[:3900])[0, 1]), 0.3)
+        points = numpy.loadtxt(target, delimiter=",", skiprows=4)
+        frequency, found = response_spectra(list(signals.values()), "1,2,4,8,16", 0.05, Path(program.BUILD, "pounding-spectra"))
+        wanted = 3 * numpy.exp(numpy.interp(numpy.log(frequency), *numpy.log(points).T))
+        numpy.testing.assert_allclose(found.mean(0), wanted, rtol=0.15)
+        (self.folder / "ground.yaml").write_text(GROUND.replace("level: 2\n", ""))
+        signals = motions.signals_of(column_file.read(self.folder / "ground.yaml"))
+        self.assertAlmostEqual(signals["x", 1].peak, 3, delta=1e-9)
+        (self.folder / "ground.yaml").write_text(text.replace("level: 2\n", ""))
+        with self.assertRaisesRegex(UserError, "level is missing"):
+            column_file.read(self.folder / "ground.yaml")
 
     def test_numbers_beyond_those_that_are_meant_are_doubted(self):
         result = self.ran(GROUND.replace("level: 2", "level: 14") + "thickest: 20\ncv: 0\n")

@@ -66,6 +66,9 @@ def iterate(soil: Soil, motion: np.ndarray, step: float, given: Given, mat: Give
         strain = _largest_strain(column, motion, step, given, size)
         new = soil.at(rule.ratio * strain)
         change = _change(column, new)
+        if not np.isfinite(change).all():
+            raise ColumnError(f"the motion cannot be followed down to layer {soil.names[int((~np.isfinite(change)).argmax())]}: its high "
+                              "frequencies grow without limit; give it deeper, or a coarser step")
         if change.max() <= rule.tolerance:
             break
         if number == rule.most:
