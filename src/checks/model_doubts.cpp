@@ -207,6 +207,31 @@ void doubt_floors(const Scene& scene, std::span<const GlobalMesh> meshes,
   }
 }
 
+/// Places on a face over which its pairs are too few to tell how the force is spread.
+void doubt_struck_places(const Scene& scene, const interactions::Interface& interface,
+                         Doubts doubts) {
+  constexpr double as_large = 1 - 1e-6;
+  for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
+    double area = 0, length = 0;  // largest that a pair stands for
+    for (const interactions::Constraint& row : interface.constraints) {
+      if (row.contact != static_cast<int>(c)) continue;
+      const auto [s, t] = row.patch;
+      area = std::max(area, (s[1] - s[0]) * (t[1] - t[0]));
+      length = std::max(length, s[1] - s[0]);
+    }
+    const auto doubt = [&](const char* option, std::span<const double> sizes, double of_pair) {
+      if (sizes.empty() || std::ranges::min(sizes) >= as_large * of_pair) return;
+      doubts.add("contact " + scene.contacts[c].name,
+                 "a pair stands for {:.3g} {} of its face, and {} has {:.3g}: over so little the "
+                 "mesh does not tell how the force is spread",
+                 {of_pair, std::string(option).ends_with("areas") ? "m2" : "m", option,
+                  std::ranges::min(sizes)});
+    };
+    doubt("struck_areas", scene.struck_areas, area);
+    doubt("struck_edges", scene.struck_edges, length);
+  }
+}
+
 }  // namespace
 
 void add_place_doubts(const Scene& scene, std::span<const GlobalMesh> meshes,
@@ -222,6 +247,7 @@ void add_place_doubts(const Scene& scene, std::span<const GlobalMesh> meshes,
         .doubt(doubts);
   }
   doubt_floors(scene, meshes, probes, doubts);
+  doubt_struck_places(scene, interface, doubts);
 }
 
 void add_frequency_doubts(const Scene& scene, std::span<const ResolvedProbe> probes,

@@ -63,6 +63,9 @@ std::vector<Quantity> quantities(const EnsembleLayout& layout) {
   }
   if (contacts == 0) return list;
   const std::size_t pairs = layout.pair_contacts.size();
+  if (const std::size_t windows = layout.struck_areas.size() + layout.struck_edges.size()) {
+    list.push_back({"struck/largest", "N, s, m", {contacts, windows, 5}, &MemberResult::struck});
+  }
   list.insert(list.end(),
               {{"impacts/episodes", "-", {contacts}, &MemberResult::episodes},
                {"impacts/first_time", "s", {contacts}, &MemberResult::first_time},
@@ -139,6 +142,8 @@ void create(const std::string& path, const EnsembleLayout& layout) {
   }
   if (!layout.contacts.empty()) {
     file.write_strings("impacts/contacts", layout.contacts);
+    if (!layout.struck_areas.empty()) file.write_array("struck/areas", 0, layout.struck_areas);
+    if (!layout.struck_edges.empty()) file.write_array("struck/edges", 0, layout.struck_edges);
     file.write_array("pairs/contact", 0, layout.pair_contacts);
     file.write_array("pairs/place", 3, layout.pair_places);
     file.write_attribute("pairs/place", "unit", "m");
@@ -290,7 +295,8 @@ void write_ensemble_table(const std::string& path, const EnsembleLayout& layout,
   const std::vector<bool> done = file.done();
   std::vector<Quantity> list = quantities(layout);
   std::erase_if(list, [](const Quantity& quantity) {  // they have no place in a line
-    constexpr std::array<std::string_view, 4> left{"spectra/", "pairs/", "spans/", "forces/"};
+    constexpr std::array<std::string_view, 5> left{"spectra/", "pairs/", "spans/", "forces/",
+                                                   "struck/"};
     return std::ranges::any_of(
         left, [&](auto group) { return std::string_view(quantity.name).starts_with(group); });
   });

@@ -19,6 +19,8 @@ struct EnsembleLayout {
   std::vector<double> damping_ratios;
   std::vector<double> frequencies;  ///< [Hz]
   std::vector<std::string> contacts;
+  std::vector<double> struck_areas;   ///< [m2]
+  std::vector<double> struck_edges;   ///< [m]
   std::vector<double> pair_contacts;  ///< numbers of the contacts of the pairs
   std::vector<double> pair_places;    ///< shape (pairs, 3) [m]
   /// Lines of the sources of the results: a file of other ones is of another ensemble.

@@ -330,7 +330,10 @@ void MemberRun::close() {
 }
 
 void MemberRun::fill(MemberResult& result) {
-  for (const auto& observer : observers_.list()) observer->finish(true);
+  for (const auto& observer : observers_.list()) {
+    observer->finish(true);
+    result.struck.insert(result.struck.end(), observer->kept().begin(), observer->kept().end());
+  }
   const ImpactCatalogue& catalogue = observers_.impacts();
   const std::size_t contacts = run_.scene.contacts.size();
   result.smallest_gap.assign(contacts, std::numeric_limits<double>::infinity());

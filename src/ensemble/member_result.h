@@ -13,6 +13,7 @@ struct MemberResult {
   std::vector<double> impulse_largest;    ///< of an episode [N s]
   std::vector<double> force_peak;         ///< [N]
   std::vector<double> smallest_gap;       ///< [m]
+  std::vector<double> struck;             ///< see StruckAreas, shape (contacts, windows, 5)
   std::vector<double> pair_initial_gap;   ///< per pair of the contacts, as the next ones [m]
   std::vector<double> pair_least_gap;     ///< of the samples [m]
   std::vector<double> pair_time;          ///< of that [s]

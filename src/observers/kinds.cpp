@@ -9,6 +9,7 @@ OutputKind model_output();
 OutputKind impact_output();
 OutputKind contact_history_output();
 OutputKind loops_output();
+OutputKind struck_output();
 OutputKind uplift_output();
 OutputKind forces_output();
 OutputKind history_output();
@@ -28,6 +29,7 @@ const std::vector<OutputKind>& output_kinds() {
       impact_output(),
       contact_history_output(),
       loops_output(),
+      struck_output(),
       uplift_output(),
       forces_output(),
       history_output(),

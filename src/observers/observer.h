@@ -90,6 +90,8 @@ class Observer {
   /// Results that others read of it; null where it has none.
   virtual const ImpactCatalogue* impacts() const { return nullptr; }
   virtual const Recorder* history() const { return nullptr; }
+  /// After `finish`: numbers that an ensemble keeps of a member, of which there are always as many.
+  virtual std::span<const double> kept() const { return {}; }
   /// Phase of the profile that its time counts for.
   virtual Phase phase() const { return Phase::output; }
 };

@@ -40,8 +40,8 @@ class IdleOptions {
     for (const char* option : {"fields_start", "fields_end", "fields_format"}) {
       needs(option, scene_.fields_interval > 0, "fields_interval");
     }
-    for (const char* option :
-         {"gap_interval", "gap_tolerance", "impact_merge_time", "force_window"}) {
+    for (const char* option : {"gap_interval", "gap_tolerance", "impact_merge_time", "force_window",
+                               "struck_areas", "struck_edges"}) {
       needs(option, !scene_.contacts.empty(), "contacts");
     }
     needs("preload_solver", scene_.preload || !scene_.supports.empty(), "preload");

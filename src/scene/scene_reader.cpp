@@ -112,7 +112,9 @@ class SceneReader {
       scene_.fidelity.target = options_.real("fidelity_target");
     }
     gravity_ = read_gravity();
-    std::erase(scene_.law_cycles, 0.0);
+    for (auto* list : {&scene_.law_cycles, &scene_.struck_areas, &scene_.struck_edges}) {
+      std::erase(*list, 0.0);
+    }
     ensemble_ = options_.path("ensemble");
     level_ = options_.real("motion_level");
   }

@@ -71,6 +71,9 @@ class Records:
                 for label, column in zip(labels, numpy.nan_to_num(data[()]).T):
                     turning = re.search(r"\.(M\w|T|r[xyz])\w?$", label) is not None
                     self.columns[f"{key} {label}"] = column / factor(unit[-1 if turning else 0], length, mass)
+        struck = os.path.join(folder, "struck_areas.csv")
+        for place, force in enumerate(program.read_csv(struck)["force"] if os.path.exists(struck) else ()):
+            self.columns[f"contact_force struck {place}"] = numpy.array([float(force)]) / factor("N", length, mass)
         if turned:
             self.turn_back()
         ledger = program.read_csv(os.path.join(folder, "energy.csv"))
@@ -253,6 +256,7 @@ def as_member(cell):
     with h5py.File(os.path.join(output, "ensemble.h5")) as file:
         channels = [name.decode() for name in file["spectra/channels"]]
         peaks, residual = file["peaks/displacement"][1], file["energy/residual"][()]
+        struck = file["struck/largest"][1, ..., 0].ravel() if "struck/largest" in file else []
         impulse, episodes = file["impacts/impulse_sum"][1].sum(), file["impacts/episodes"][1].sum()
     own = {name: abs(column).max() for name, column in single.columns.items()}
     scale = max(value for name, value in own.items() if name.startswith("displacement"))
@@ -260,6 +264,10 @@ def as_member(cell):
         expected = own["displacement " + channel.replace(" ", ".")]
         if abs(peak - expected) > 1e-9 * scale:
             return f"peak of {channel} {peak:.10g}, alone {expected:.10g}"
+    for place, force in enumerate(struck):
+        alone = single.columns[f"contact_force struck {place}"][0]
+        if abs(force - alone) > 1e-7 * abs(alone):
+            return f"struck by {force:.10g} N, alone {alone:.10g} N"
     if abs(residual).max() > CLOSE:
         return f"residual {abs(residual).max():.1e}"
     found = single.summary["impacts"]

@@ -71,7 +71,8 @@ class WithoutMass(Doubts):
 
 class WithoutEffect(Doubts):
     IDLE = {"loops_at": "0,0,0", "fields_start": "0.05", "fields_end": "0.08",
-            "fields_format": "xdmf", "gap_interval": "1e-3", "force_window": "2e-3",
+            "fields_format": "xdmf", "gap_interval": "1e-3", "force_window": "2e-3", "struck_areas": "1",
+            "struck_edges": "1",
             "impact_merge_time": "2e-3", "gap_tolerance": "1e-9", "preload_solver": "direct", "courant": "0.5",
             "motion_level": "2", "resampling": "band_limited", "spectra_damping": "0.02", "spectra_frequencies": "10",
             "peak_frequency": "30", "write_modes": "true", "m_damping_factor": "2", "m_link1_dashpot_exponent": "0.5",

@@ -22,7 +22,7 @@ from pathlib import Path
 
 from pounding import UserError
 from pounding.arguments import positive, ranks
-from pounding.fragility import conditions, controlled, design, envelope, motions, report, rules, stability, study, submittal
+from pounding.fragility import conditions, controlled, design, envelope, motions, report, rules, stability, struck, study, submittal
 from pounding.fragility.analysis import Analysis
 from pounding.fragility.runs import Runner
 from pounding.plot.report import print_pdf, require_browser
@@ -185,7 +185,7 @@ def members_of(found: study.Study, folder: Path, options: argparse.Namespace,
     ruled, note = ({}, "") if found.is_surveyed else rules.find(found, plan, runner.scene(True), folder, options.jobs)
     notes += [note] if note else []
     analysis = Analysis(found, plan, gathered, runner.equipment, notes, runner.scouted[True].inputs, runner, runner.mats)
-    notes += stability.doubts(analysis)
+    notes += stability.doubts(analysis) + struck.doubts(analysis)
     at_both = controlled.Controlled(runner, numbers) if numbers else None
     page, text = report.write(analysis, full, ruled, notes, folder, at_both)
     print("\n" + text)

@@ -11,7 +11,7 @@ from pounding.plot.markup import answer_box, figure_parts, html_table, linked, w
 from pounding.plot.style import WIDTH, WITH, WITHOUT, g_axis, log_scale, plt, save
 from pounding.tables import cells_of, markdown, write_csv
 
-from . import figures, report, spans, stability
+from . import figures, report, spans, stability, struck
 from .analysis import CONTACT, EXCEEDED, Analysis, gap_text, name_of, quantile
 from .conditions import ALONE, Condition
 from .study import Study
@@ -149,6 +149,11 @@ class Envelope:
         """Stability of the mats, see stability.rows_of; its tables are written with it."""
         return stability.write(self.analyses, self.folder, self.gap)
 
+    @cached_property
+    def struck_rows(self) -> list:
+        """Places that are struck, see struck.rows_of; their table is written with it."""
+        return struck.write(self.analyses, self.folder, self.gap)
+
     def hclpf_rows(self) -> list:
         rows = []
         for event in self.first.events:
@@ -274,6 +279,7 @@ def write(one: Envelope) -> tuple:
     parts = [(f"{one.study.width_title} that would be needed [m]".capitalize(), tables["joint"]),
              ("Each soil and state", tables["conditions"]),
              *([(stability.CAPTION, stability.shown(one.mat_rows))] if one.mat_rows else []),
+             *([(struck.CAPTION, struck.shown(one.struck_rows))] if one.struck_rows else []),
              ("What moves the answer", tables["sensitivity"]), ("Largest probability of each event", tables["probability"]),
              ("Capacity of high confidence and low probability of failure (HCLPF)", tables["hclpf"])]
     box = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))

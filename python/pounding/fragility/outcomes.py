@@ -13,6 +13,7 @@ from pounding import UserError
 from pounding.files import written_beside
 from pounding.results import UNREADABLE, Result
 from pounding.spans import MOTIONS
+from pounding.struck import of_run as struck_of_run
 
 
 FILE = "ensemble.h5"
@@ -22,7 +23,7 @@ ARRAYS = {"spectra/pseudo_acceleration": "spectra", "impacts/episodes": "episode
           "impacts/force_peak": "force_peak", "gaps/smallest": "smallest_gap", "peaks/displacement": "displacement",
           "peaks/acceleration": "acceleration", "energy/residual": "residual", "pairs/initial_gap": "pair_gap",
           "pairs/least_gap": "pair_least", "pairs/time": "pair_time", "pairs/displacement": "pair_moved",
-          "spans/peak": "span_peak", "spans/time": "span_time"}
+          "spans/peak": "span_peak", "spans/time": "span_time", "struck/largest": "struck"}
 FORCES = "forces/history"  # of members that have them: left in the file
 # What all members share.
 LABELS = {"spectra/frequency": "frequency", "spectra/damping": "damping", "spectra/channels": "channels",
@@ -35,7 +36,8 @@ class Outcomes:
     """`spectra` (members, channels, damping ratios, frequencies) [m/s2]; impacts and gaps (members, contacts); peaks
     (members, channels); pairs of contacts by number of the contact and place (pairs, 3), their gaps at the start, least ones
     and when (members, pairs), and largest relative displacements (members, pairs, 3); largest motions of the ends of
-    `spans` against each other, and when (members, spans, 8), in the order of spans.MOTIONS; `forces` recorded (members,
+    `spans` against each other, and when (members, spans, 8), in the order of spans.MOTIONS; largest forces on windows of the faces
+    (members, contacts, windows, struck.VALUES); `forces` recorded (members,
     samples, columns) and their names and times; SI units."""
 
     frequency: np.ndarray
@@ -61,6 +63,7 @@ class Outcomes:
     spans: list
     span_peak: np.ndarray
     span_time: np.ndarray
+    struck: np.ndarray
     force_names: list = field(default_factory=list)
     force_time: np.ndarray = field(default_factory=lambda: np.empty(0))
     forces: "np.ndarray | Kept" = field(default_factory=lambda: np.empty((1, 0, 0)))
@@ -185,7 +188,7 @@ def of_run(result: Result) -> Outcomes:
                     np.array(peaks["peak_acceleration"]), np.array([told["energy"]["relative_residual"] or 0.0]),
                     of_pairs["initial_gap"][None], of_pairs["least_gap"][None], of_pairs["time"][None],
                     np.stack([of_pairs[f"d{axis}"] for axis in "xyz"], -1)[None], list(result.spans), of_spans[None, :, 0],
-                    of_spans[None, :, 1], list(recorded), result.history["time"][every],
+                    of_spans[None, :, 1], struck_of_run(result)[1][None], list(recorded), result.history["time"][every],
                     result.history.get("force", np.empty((0, 0)))[every][None])
 
 

@@ -11,7 +11,7 @@ from pounding.plot.answer import plural
 from pounding.plot.markup import answer_box, figure_parts, html_table, paragraphs, write_page
 from pounding.fragility import Fragility, binomial_interval, moments
 
-from . import figures, spans, stability
+from . import figures, spans, stability, struck
 from .analysis import CONTACT, EXCEEDED, TOLERANCE, Analysis, fit_row, gap_text, name_of
 from .controlled import Controlled
 from .design import OWN_FIELD
@@ -96,6 +96,7 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
     across = spans.write(alone, folder, gap)
     pages += spans.figure(across, alone, folder, level)
     of_mats = stability.write(alone, folder, gap)
+    of_places = struck.write(alone, folder, gap)
     more, widths = figures.enough(analysis, folder)
     pages += more + (figures.scatter_parts(analysis, folder) if study.exchange else [])
     first_rows = [{"sample": sample, "motion": analysis.design.motions[sample],
@@ -122,6 +123,7 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
              ("At full order, with reduced runs as control variates", [row for row in tables["both_orders"] if not row["quantity"].startswith(
                  ("mean", "84 %")) or (row["gap [m]"], row["pga [m/s2]"]) == (gap_text(gap), level)])]
     parts = [(stability.CAPTION, stability.shown(of_mats)), *parts] if of_mats else parts
+    parts = [(struck.CAPTION, struck.shown(of_places)), *parts] if of_places else parts
     lines = told(analysis, fits, full, tables) + (at_both.told(tables["both_orders"]) if at_both else []) + spans.told(across, level) + notes
     box = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))
     shown = [*figure_parts(folder, pages), ("Floor spectra", floor_table(analysis)),

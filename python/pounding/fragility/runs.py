@@ -40,6 +40,8 @@ def scene_options(study: Study, reduced: bool, folder: Path) -> dict:
             found |= {f"{name}_gap_deviation": str(one.field[0]), f"{name}_gap_length": str(one.field[1])}
     if study.stability:
         found |= study.stability.options
+    if study.struck:
+        found |= study.struck.options
     if reduced:
         found |= study.reduction
         for structure in [name.removesuffix("_model") for name, value in found.items()
@@ -145,7 +147,8 @@ class Runner:
         clear(place)
         own = str(self.scene(reduced).absolute())
         inputs = {path: found for path, found in finished.inputs_of(summary).items() if path != own}
-        doubts = [line for line in summary["warnings"] if "its modes end at" in line or "its mesh carries waves" in line]
+        doubts = [line for line in summary["warnings"] if "its modes end at" in line or "its mesh carries waves" in line
+                  or "how the force is spread" in line]
         return Scouted(inputs, list(summary.get("probes", {})), list(summary.get("contacts", {})), items, doubts, heights, mats)
 
     def words(self, member, reduced: bool) -> list:

@@ -17,13 +17,14 @@ from .both_orders import BothOrders, read as read_both_orders
 from .coherence import Moved, read as read_coherence
 from .matching import Matching, read as read_matching
 from .stability import Stability, read as read_stability
+from .struck import Struck, read as read_struck
 from .study_file import Reader, beside, given_options, load
 from .torsion import Torsion, read as read_torsion
 
 KEYS = ("title", "scene", "output", "options", "reduction", "seed", "samples", "confidence", "motions", "levels",
         "motion_rules", "match", "gaps", "apart", "joints", "coherence", "soils", "states", "submittal", "uncertainty", "exchange", "field_factors",
         "factors", "capacities", "full_order", "frequencies", "dampings", "show", "elevations", "spans", "stability",
-        "accidental_torsion")
+        "struck", "accidental_torsion")
 DAMPINGS = (0.02, 0.03, 0.04, 0.05, 0.07)
 SYNTHETIC = {"duration": "25", "envelope": "2,15"}
 RECORDED = {"unit": "auto", "time_step": "0", "column": "0"}
@@ -154,6 +155,7 @@ class Study:
     moved: Moved | None = None  # these as supports, once their motions are made
     elevations: list | None = None  # between bands of the table of the joint [m]; None: those that suit its pairs
     stability: Stability | None = None  # of the mats
+    struck: Struck | None = None  # places whose pressure is asked for
     torsion: Torsion = Torsion()  # accidental, on the closings
 
     @property
@@ -417,6 +419,10 @@ def check_names(study: Study, probes: list, contacts: list) -> None:
         if name not in contacts:
             raise UserError(f"{study.path}: joints: {name} is no contact of the scene; it has "
                             f"{', '.join(contacts) or 'none'}")
+    for name in study.struck.strengths.own if study.struck else ():
+        if name not in contacts:
+            raise UserError(f"{study.path}: struck: contacts: {name} is no contact of the scene; it has "
+                            f"{', '.join(contacts) or 'none'}")
     for one in study.capacities:
         if one.probe not in probes:
             raise UserError(f"{study.path}: capacities: {one.probe!r} is no probe of the scene; it has "
@@ -487,4 +493,4 @@ def read(path: Path) -> Study:
         read_matching(reader, table, limit), *read_coherence(reader),
         elevations=reader.increasing("elevations", None, -1e9) if "elevations" in reader.values else None,
         stability=read_stability(reader, levels, {**given_options(scene), **reader.options("options")}.get("structures", "")),
-        torsion=read_torsion(reader))
+        struck=read_struck(reader, levels), torsion=read_torsion(reader))

@@ -39,6 +39,10 @@ class Reader:
         value = self.values.get(key, default)
         if value is None:
             raise UserError(f"{self.path}: {self._at(key)} is missing")
+        try:
+            value = float(value) if isinstance(value, str) else value  # as YAML takes 30e6
+        except ValueError:
+            self.fail(key, "is not a number")
         if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) < float("inf"):
             self.fail(key, "is not a number")
         if above is not None and not value > above:

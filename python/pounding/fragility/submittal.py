@@ -14,7 +14,7 @@ from pounding.plot import design_spectra
 from pounding.plot.markup import answer_box, figure_parts, folded, html_table, paragraphs, write_page
 from pounding.tables import cells_of, write_csv
 
-from . import spans, stability
+from . import spans, stability, struck
 from .analysis import CONTACT
 from .envelope import Envelope, governs
 from .study import Study
@@ -186,6 +186,8 @@ def write(one: Envelope) -> Path | None:
              ("Equipment that fails: cases on the worst soil and in the worst state", html_table("", *cells_of(items), text=(0,))),
              *([(stability.CAPTION, html_table("", *cells_of([row for row in stability.shown(one.mat_rows) if row["pga [m/s2]"] in (told.design, told.beyond)]),
                                                text=(0, 1, 3)))] if one.mat_rows else []),
+             *([(struck.CAPTION, html_table("", *cells_of([row for row in struck.shown(one.struck_rows) if row["pga [m/s2]"] in (told.design, told.beyond)]),
+                                            text=(0, 1, 2)))] if one.struck_rows else []),
              *figure_parts(folder, one.sensitivity_figure),
              ("Assumptions", html_table("", ["subject", "assumption"], assumptions(one), text=(0, 1))),
              ("Not covered", paragraphs([*told.not_covered, *missing])),

@@ -132,6 +132,7 @@ void add_axis(const GlobalMesh& mesh, const Facet& facet, const std::optional<Ve
   face.facet_areas.push_back({length * normal[0], length * normal[1], length * normal[2]});
   face.two_sided.push_back(0);
   face.facet_half_thickness.push_back(0);
+  face.facet_half_width.push_back(0);
   face.facet_depth.push_back(length);
   ++face.beams;
 }
@@ -169,6 +170,10 @@ ContactFace build_contact_face(const GlobalMesh& mesh, std::span<const Region> r
     face.facet_areas.push_back(element->area);
     face.two_sided.push_back(element->two_sided ? 1 : 0);
     face.facet_half_thickness.push_back(behind[f].half_thickness(normalised(element->area)));
+    const auto nodes = group.facets[f].corners();
+    const Vector3 along = minus(mesh.position(nodes[1]), mesh.position(nodes[0]));
+    face.facet_half_width.push_back(
+        nodes.size() == 2 ? behind[f].half_thickness(normalised(cross(along, element->area))) : 0);
     face.facet_depth.push_back(element->depth);
   }
   align_shells(face);

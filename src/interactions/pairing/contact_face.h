@@ -26,7 +26,8 @@ struct ContactFace {
                                              ///< outward normal
   std::vector<char> two_sided;               ///< per facet: both sides of a shell are outside
   std::vector<double> facet_half_thickness;  ///< as of the nodes [m]
-  std::vector<double> facet_depth;           ///< as of the nodes [m]
+  std::vector<double> facet_half_width;  ///< of edges half the thickness of their shell, else 0 [m]
+  std::vector<double> facet_depth;       ///< as of the nodes [m]
   Vector3 mean_normal{0, 0, 0};
   Vector3 centroid{0, 0, 0};  ///< mean of the nodes
   /// Every facet is an edge of a shell or the axis of a beam.

@@ -150,6 +150,10 @@ class PairFinder {
         const Vector3 y = secondary.mesh->position(edge.nodes[1]);
         Vector3 place{};
         for (std::size_t d = 0; d < 3; ++d) place[d] = x[d] + crossing->first * (y[d] - x[d]);
+        const auto [s, t] = in_plane(place, report_.normal, report_.tangent_axes);
+        const double half =
+            std::max(secondary.face.facet_half_width[f], primary.face.facet_half_width[g]);
+        constraint.patch = {{{s - half, s + half}, {t - half, t + half}}};
         keep(place, std::move(constraint), interface);
       }
     }
@@ -176,6 +180,7 @@ class PairFinder {
       areas_ = has_lines() ? node_areas(nodes.face) : common_area(nodes, facets, finder);
       common_area_ += std::accumulate(areas_.begin(), areas_.end(), 0.0) / report_.passes;
     }
+    lay_patches(nodes);
     std::optional<SlidingBuilder> sliding;
     if (contact_.sliding > 0 && !watches_) {
       sliding.emplace(contact_, number_, nodes, facets, finder, interface.sliding);
@@ -226,6 +231,7 @@ class PairFinder {
       areas_ = node_areas(sides_.secondary.face);
       common_area_ = std::accumulate(areas_.begin(), areas_.end(), 0.0);
     }
+    lay_patches(sides_.secondary);
     const std::vector<char> all(sides_.secondary.face.nodes.size(), 1);
     const std::vector<char> is_left_out = left_out(sides_.secondary, all);
     for (std::size_t i = 0; i < sides_.secondary.face.nodes.size(); ++i) {
@@ -264,10 +270,15 @@ class PairFinder {
     largest = std::max(largest, half_thickness);
   }
 
+  void lay_patches(const FaceSide& nodes) {
+    patches_ = node_patches(*nodes.mesh, nodes.face, report_.normal, report_.tangent_axes);
+  }
+
   /// Adds the node's own terms, and keeps the constraint.
   void finish(const FaceSide& nodes, std::size_t i, Constraint&& constraint, Interface& interface) {
     const GlobalIndex node = nodes.face.nodes[i];
     if (contact_.filler && !watches_) constraint.filler.area = areas_[i];
+    constraint.patch = patches_[i];
     add_terms(nodes.structure, node, -1, nodes.face.node_normals[i], constraint);
     keep(nodes.mesh->position(node), std::move(constraint), interface);
   }
@@ -356,8 +367,9 @@ class PairFinder {
   std::size_t first_row_ = 0;  ///< of the contact, in the interface
   ContactSides sides_;
   InterfaceReport report_;
-  std::vector<double> areas_;  ///< filler: of the nodes that are being paired [m2]
-  double common_area_ = 0;     ///< filler: of the faces [m2]
+  std::vector<Patch> patches_;  ///< of the nodes that are being paired
+  std::vector<double> areas_;   ///< filler: of the nodes that are being paired [m2]
+  double common_area_ = 0;      ///< filler: of the faces [m2]
 };
 
 }  // namespace

@@ -136,6 +136,37 @@ std::vector<double> node_areas(const ContactFace& face) {
   return areas;
 }
 
+std::vector<Patch> node_patches(const GlobalMesh& mesh, const ContactFace& face,
+                                const Vector3& normal, const std::array<int, 2>& axes) {
+  std::map<GlobalIndex, BoundingBox> boxes;
+  for (std::size_t f = 0; f < face.facets.size(); ++f) {
+    const auto nodes = face.facets[f].corners();
+    std::vector<std::array<double, 2>> places;
+    std::array<double, 2> middle{};
+    for (const GlobalIndex node : nodes) {
+      const auto& [s, t] = places.emplace_back(in_plane(mesh.position(node), normal, axes));
+      middle[0] += s / static_cast<double>(nodes.size());
+      middle[1] += t / static_cast<double>(nodes.size());
+    }
+    const double s = places[1][0] - places[0][0];
+    const double t = places[1][1] - places[0][1];
+    const double half = nodes.size() == 2 ? face.facet_half_width[f] / std::hypot(s, t) : 0;
+    const Vector3 across{half * std::abs(t), half * std::abs(s), 0};
+    for (std::size_t a = 0; a < places.size(); ++a) {
+      for (const auto& place : {places[a], middle}) {
+        boxes[nodes[a]].include({place[0] - across[0], place[1] - across[1], 0});
+        boxes[nodes[a]].include({place[0] + across[0], place[1] + across[1], 0});
+      }
+    }
+  }
+  std::vector<Patch> patches;
+  for (const GlobalIndex node : face.nodes) {
+    const auto& [low, high] = boxes[node];
+    patches.push_back({{{low[0], high[0]}, {low[1], high[1]}}});
+  }
+  return patches;
+}
+
 void fill_joint(const Contact& contact, Constraint& constraint) {
   if (contact.is_elastic()) {
     constraint.filler = {1, 0, constraint.initial_gap};

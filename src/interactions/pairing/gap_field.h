@@ -60,6 +60,12 @@ class GivenGap {
 /// around it [m2], of a line of its length [m].
 std::vector<double> node_areas(const ContactFace& face);
 
+/// Part of the plane across a normal that each node of a face stands for: the rectangle along the
+/// axes that holds it and the centroids of the facets around it, of edges as wide as their shells
+/// are thick. Those of a face of rectangles along the axes tile it.
+std::vector<Patch> node_patches(const GlobalMesh& mesh, const ContactFace& face,
+                                const Vector3& normal, const std::array<int, 2>& axes);
+
 /// Lays the filler of a contact into the joint between its pairs, whose initial gap is the joint's
 /// width until then and that of hard contact afterwards. `common`: area of the filler where none is
 /// told [m2], shared out in proportion to what the pairs' fillers have of it so far. `lines`: some

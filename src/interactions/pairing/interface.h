@@ -64,6 +64,9 @@ struct ConstraintTerm {
   double coefficient = 0;
 };
 
+/// A rectangle in the plane of a face, lowest and highest along each of the tangent axes [m].
+using Patch = std::array<std::array<double, 2>, 2>;
+
 /// Filler of a joint at one pair of a contact, the strip of its faces that is crushed there, or the
 /// spring of a stop that gives way.
 struct FillerPart {
@@ -91,6 +94,7 @@ struct Constraint {
   Vector3 at{};                   ///< secondary node [m]
   std::array<double, 2> place{};  ///< and on the tangent axes [m]
   std::array<double, 2> level{};  ///< and in the mean plane of the face, lengths kept [m]
+  Patch patch{};                  ///< of that plane that the row stands for
   /// Place on that face, from 0 to 1 along the tangent axes; of a row of a stop that acts the other
   /// way (1, 0), so that it has the second of two gaps.
   std::array<double, 2> share{};
@@ -103,7 +107,7 @@ struct Constraint {
 
   static void members(auto& self, auto& stream) {
     stream(self.contact, self.terms, self.initial_gap, self.geometric_gap, self.surveyed,
-           self.facet_size, self.at, self.place, self.level, self.share, self.matched,
+           self.facet_size, self.at, self.place, self.level, self.patch, self.share, self.matched,
            self.friction, self.filler);
   }
 };
