@@ -233,5 +233,5 @@ FEATURES = [
     Feature("pictures", "output", {"write_model": "true", "write_modes": "true", "modes": 2}, physics=False),
     Feature("fields", "output", {"fields_interval": 4e-3}, physics=False),
     Feature("exported matrices", "output", {"export_matrices": "$export"}, physics=False),
-    Feature("struck areas", "output", {**FACES, "struck_areas": .2, "struck_edges": .8}, physics=False),
+    Feature("struck areas", "output", {"struck_areas": .2, "struck_edges": .8}, physics=False),
 ]
