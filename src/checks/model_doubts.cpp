@@ -207,28 +207,26 @@ void doubt_floors(const Scene& scene, std::span<const GlobalMesh> meshes,
   }
 }
 
-/// Places on a face over which its pairs are too few to tell how the force is spread.
+/// Places on a face that are smaller than the parts of its pairs, over which forces are even.
 void doubt_struck_places(const Scene& scene, const interactions::Interface& interface,
                          Doubts doubts) {
-  constexpr double as_large = 1 - 1e-6;
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
-    double area = 0, length = 0;  // largest that a pair stands for
+    double area = 0, length = 0;  // largest of a pair
     for (const interactions::Constraint& row : interface.constraints) {
       if (row.contact != static_cast<int>(c)) continue;
       const auto [s, t] = row.patch;
       area = std::max(area, (s[1] - s[0]) * (t[1] - t[0]));
       length = std::max(length, s[1] - s[0]);
     }
-    const auto doubt = [&](const char* option, std::span<const double> sizes, double of_pair) {
-      if (sizes.empty() || std::ranges::min(sizes) >= as_large * of_pair) return;
-      doubts.add("contact " + scene.contacts[c].name,
-                 "a pair stands for {:.3g} {} of its face, and {} has {:.3g}: over so little the "
-                 "mesh does not tell how the force is spread",
-                 {of_pair, std::string(option).ends_with("areas") ? "m2" : "m", option,
-                  std::ranges::min(sizes)});
+    const auto doubt = [&](const char* option, const std::vector<double>& sizes, double of_pair) {
+      if (sizes.empty() || std::ranges::min(sizes) >= of_pair * (1 - 1e-6)) return;
+      doubts.add("contact " + scene.contacts[c].name + ", " + option,
+                 "one pair presses up to {:.3g} of its face, more than {:.3g}: within it the mesh "
+                 "spreads the force evenly",
+                 {of_pair, std::ranges::min(sizes)});
     };
-    doubt("struck_areas", scene.struck_areas, area);
-    doubt("struck_edges", scene.struck_edges, length);
+    doubt("struck_areas in m2", scene.struck.areas, area);
+    doubt("struck_edges in m", scene.struck.edges, length);
   }
 }
 

@@ -63,7 +63,7 @@ std::vector<Quantity> quantities(const EnsembleLayout& layout) {
   }
   if (contacts == 0) return list;
   const std::size_t pairs = layout.pair_contacts.size();
-  if (const std::size_t windows = layout.struck_areas.size() + layout.struck_edges.size()) {
+  if (const std::size_t windows = layout.struck.areas.size() + layout.struck.edges.size()) {
     list.push_back({"struck/largest", "N, s, m", {contacts, windows, 5}, &MemberResult::struck});
   }
   list.insert(list.end(),
@@ -142,8 +142,8 @@ void create(const std::string& path, const EnsembleLayout& layout) {
   }
   if (!layout.contacts.empty()) {
     file.write_strings("impacts/contacts", layout.contacts);
-    if (!layout.struck_areas.empty()) file.write_array("struck/areas", 0, layout.struck_areas);
-    if (!layout.struck_edges.empty()) file.write_array("struck/edges", 0, layout.struck_edges);
+    if (!layout.struck.areas.empty()) file.write_array("struck/areas", 0, layout.struck.areas);
+    if (!layout.struck.edges.empty()) file.write_array("struck/edges", 0, layout.struck.edges);
     file.write_array("pairs/contact", 0, layout.pair_contacts);
     file.write_array("pairs/place", 3, layout.pair_places);
     file.write_attribute("pairs/place", "unit", "m");

@@ -19,8 +19,6 @@ struct EnsembleLayout {
   std::vector<double> damping_ratios;
   std::vector<double> frequencies;  ///< [Hz]
   std::vector<std::string> contacts;
-  std::vector<double> struck_areas;   ///< [m2]
-  std::vector<double> struck_edges;   ///< [m]
   std::vector<double> pair_contacts;  ///< numbers of the contacts of the pairs
   std::vector<double> pair_places;    ///< shape (pairs, 3) [m]
   /// Lines of the sources of the results: a file of other ones is of another ensemble.
@@ -28,6 +26,7 @@ struct EnsembleLayout {
   std::vector<std::string> spans;
   std::vector<std::string> forces;  ///< columns of recorded forces
   std::vector<double> force_times;  ///< of their records [s]
+  StruckPlaces struck;
 };
 
 /// The file of the results of an ensemble: every member has a place of its own in it, taken when

@@ -119,8 +119,7 @@ class Ensemble {
   void read_members() {
     for (const Contact& contact : scene_.contacts) layout_.contacts.push_back(contact.name);
     for (const Span& span : scene_.spans) layout_.spans.push_back(span.name);
-    layout_.struck_areas = scene_.struck_areas;
-    layout_.struck_edges = scene_.struck_edges;
+    layout_.struck = scene_.struck;
     table_ = read_member_table(comm_, read_.ensemble, scene_);
     layout_.table = &table_;
     if (root()) print(warning_facts(repeated_members(table_)));

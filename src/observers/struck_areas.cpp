@@ -82,10 +82,10 @@ double part_in(const interactions::Patch& patch, const std::array<double, 2>& lo
 }  // namespace
 
 StruckAreas::StruckAreas(const ObservedRun& run) : run_(run) {
-  for (const double area : run.scene.struck_areas) {
+  for (const double area : run.scene.struck.areas) {
     windows_.push_back({std::sqrt(area), std::sqrt(area)});
   }
-  for (const double length : run.scene.struck_edges) windows_.push_back({length, endless});
+  for (const double length : run.scene.struck.edges) windows_.push_back({length, endless});
   const double count = whole_steps(run.model, run.scene.force_window / run.model.time_step);
   blocks_ = std::min<std::int64_t>(4, std::llround(count));
   steps_ = std::llround(count / static_cast<double>(blocks_));
@@ -186,11 +186,7 @@ void StruckAreas::report(RunStatistics& /*statistics*/) {
 
 OutputKind struck_output() {
   return output<StruckAreas>(
-      {struck_table},
-      [](const ObservedRun& run) {
-        return !run.scene.struck_areas.empty() || !run.scene.struck_edges.empty();
-      },
-      true);
+      {struck_table}, [](const ObservedRun& run) { return run.scene.struck.asked(); }, true);
 }
 
 }  // namespace pounding

@@ -21,6 +21,7 @@ void add(OptionBlock block, RowCollector& collector) {
 std::vector<OptionRow> rows_of_scene() {
   RowCollector rows;
   add<Scene>(OptionBlock::run, rows);
+  add<StruckPlaces>(OptionBlock::run, rows);
   add<Structure>(OptionBlock::structure, rows);
   add<Region>(OptionBlock::region, rows);
   add<Material>(OptionBlock::material, rows);

@@ -58,6 +58,21 @@ struct TriedFidelity {
   double wall_time = 0;  ///< estimate included [s]
 };
 
+/// Places on the faces of contacts whose largest mean force is looked for.
+struct StruckPlaces {
+  std::vector<double> areas;  ///< squares [m2]
+  std::vector<double> edges;  ///< lengths along the faces, as high as these [m]
+  bool asked() const { return !areas.empty() || !edges.empty(); }
+
+  static void describe(auto& option) {
+    using namespace option_words;
+    // clang-format off
+    option(&StruckPlaces::areas, "struck_areas", reals("m2", "0", "areas", not_negative), "squares, anywhere on the faces of contacts, over which the largest mean pressure of force_window is taken; 0: none");
+    option(&StruckPlaces::edges, "struck_edges", reals("m", "0", "lengths", not_negative), "lengths along the faces of contacts, over which the largest force per length of force_window is taken, over the face's whole height; 0: none");
+    // clang-format on
+  }
+};
+
 /// How the program came to the fidelity of a run by an accepted error.
 struct FidelityClimb {
   double target = 0;                 ///< that error, rms as above [-]; 0: none
@@ -111,13 +126,12 @@ struct Scene {
   double gap_tolerance = 0;      ///< contact where gap <= gap_tolerance x model size [-]
   double impact_merge_time = 0;  ///< contacts separated by less are one episode [s]
   double force_window = 0;       ///< over which the largest force of an impact is taken [s]
-  std::vector<double> struck_areas;  ///< squares on faces that are struck [m2]
-  std::vector<double> struck_edges;  ///< lengths along them, as high as the face [m]
-  int csv_digits = 0;            ///< significant digits of the numbers in the tables of the results
-  double output_interval = 0;    ///< of the probes [s]
-  double gap_interval = 0;       ///< of the gaps at least; 0: with every sample of the probes [s]
-  int energy_interval = 0;       ///< steps between two lines of the energy ledger
-  double mesh_time_limit = 0;    ///< for Gmsh to make or read one mesh [s]
+  StruckPlaces struck;
+  int csv_digits = 0;          ///< significant digits of the numbers in the tables of the results
+  double output_interval = 0;  ///< of the probes [s]
+  double gap_interval = 0;     ///< of the gaps at least; 0: with every sample of the probes [s]
+  int energy_interval = 0;     ///< steps between two lines of the energy ledger
+  double mesh_time_limit = 0;  ///< for Gmsh to make or read one mesh [s]
   bool dry_run = false;
   std::string vector_unit;         ///< whose kernels compute (use_vector_unit)
   double checkpoint_interval = 0;  ///< wall time between checkpoints [s]; 0: none
@@ -157,8 +171,6 @@ struct Scene {
     option(&Scene::gap_tolerance, "gap_tolerance", real("-", "1e-12", not_negative), "contact where gap <= gap_tolerance x model size", free_in_pieces);
     option(&Scene::impact_merge_time, "impact_merge_time", real("s", "1e-3", not_negative), "contacts separated by less are one impact", free_in_pieces);
     option(&Scene::force_window, "force_window", real("s", "1e-3", positive), "time over which the largest force of an impact is taken: its largest impulse within it, over it", free_in_pieces);
-    option(&Scene::struck_areas, "struck_areas", reals("m2", "0", "areas", not_negative), "squares, anywhere on the faces of contacts, over which the largest mean pressure of force_window is taken; 0: none");
-    option(&Scene::struck_edges, "struck_edges", reals("m", "0", "lengths", not_negative), "lengths along the faces of contacts, over which the largest force per length of force_window is taken, over the face's whole height; 0: none");
     option(&Scene::output_interval, "output_interval", real("s", "5e-5", positive), "time between two samples of the probes", free_in_pieces);
     option(&Scene::gap_interval, "gap_interval", real("s", "0", not_negative), "time between two samples of the gaps, not a number in between unless they were looked at anyway; 0: with every sample of the probes", free_in_pieces);
     option(&Scene::energy_interval, "energy_interval", integer("steps", "100", at_least_1), "steps between two lines of the energy balance; each takes one more product with the stiffness", free_in_pieces);

@@ -112,7 +112,8 @@ class SceneReader {
       scene_.fidelity.target = options_.real("fidelity_target");
     }
     gravity_ = read_gravity();
-    for (auto* list : {&scene_.law_cycles, &scene_.struck_areas, &scene_.struck_edges}) {
+    options_.read(scene_.struck);
+    for (auto* list : {&scene_.law_cycles, &scene_.struck.areas, &scene_.struck.edges}) {
       std::erase(*list, 0.0);
     }
     ensemble_ = options_.path("ensemble");

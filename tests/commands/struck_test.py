@@ -90,7 +90,7 @@ class OfARun(unittest.TestCase):
 class OfAStudy(StudyCommand):
     def test_rows_are_those_of_single_runs(self):
         done = self.fragility("--runner", "ensemble", submittal={"question": "Does the edge hold?"}, struck=STRUCK, **ALIKE)
-        self.assertIn("a pair stands for", done.stdout)
+        self.assertIn("one pair presses up to", done.stdout)
         rows = rows_of(self.place / "out" / "struck.csv")
         found = {seed: self.alone(seed) for seed in (1, 2)}
         self.assertEqual([(row["contact"], row["over"]) for row in rows],

@@ -74,7 +74,7 @@ class StruckAreas(unittest.TestCase):
         self.assertTrue(((run.found["time"] > 0.75) & (run.found["time"] < 0.92)).all(), run.found["time"])
         for axis, middle in (("x", 0.5), ("y", 0.5)):
             self.assertAlmostEqual(run.found[axis][1], middle)
-        self.assertFalse([line for line in run.summary["warnings"] if "stands for" in line])
+        self.assertFalse([line for line in run.summary["warnings"] if "one pair presses" in line])
 
     def test_windows_lie_anywhere(self):
         """The mean over the whole run is that of the pairs' impulses, in the place where it is largest."""
@@ -119,9 +119,9 @@ class StruckAreas(unittest.TestCase):
 
     def test_areas_that_the_mesh_does_not_tell(self):
         run = Struck(self, tilted())
-        self.assertEqual(len([line for line in run.summary["warnings"] if "stands for" in line]), 2)
-        for words in ("contact stop: a pair stands for 0.1 m2 of its face, and struck_areas has 0.01",
-                      "contact stop: a pair stands for 0.25 m of its face, and struck_edges has 0.1"):
+        self.assertEqual(len([line for line in run.summary["warnings"] if "one pair presses" in line]), 2)
+        for words in ("contact stop, struck_areas in m2: one pair presses up to 0.1 of its face, more than 0.01",
+                      "contact stop, struck_edges in m: one pair presses up to 0.25 of its face, more than 0.1"):
             self.assertTrue(any(words in line for line in run.summary["warnings"]), run.summary["warnings"])
 
     def test_mistakes(self):

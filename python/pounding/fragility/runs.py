@@ -148,7 +148,7 @@ class Runner:
         own = str(self.scene(reduced).absolute())
         inputs = {path: found for path, found in finished.inputs_of(summary).items() if path != own}
         doubts = [line for line in summary["warnings"] if "its modes end at" in line or "its mesh carries waves" in line
-                  or "how the force is spread" in line]
+                  or "spreads the force evenly" in line]
         return Scouted(inputs, list(summary.get("probes", {})), list(summary.get("contacts", {})), items, doubts, heights, mats)
 
     def words(self, member, reduced: bool) -> list:

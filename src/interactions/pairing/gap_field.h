@@ -60,7 +60,7 @@ class GivenGap {
 /// around it [m2], of a line of its length [m].
 std::vector<double> node_areas(const ContactFace& face);
 
-/// Part of the plane across a normal that each node of a face stands for: the rectangle along the
+/// Part of the plane across a normal that belongs to each node of a face: the rectangle along the
 /// axes that holds it and the centroids of the facets around it, of edges as wide as their shells
 /// are thick. Those of a face of rectangles along the axes tile it.
 std::vector<Patch> node_patches(const GlobalMesh& mesh, const ContactFace& face,

@@ -94,7 +94,7 @@ struct Constraint {
   Vector3 at{};                   ///< secondary node [m]
   std::array<double, 2> place{};  ///< and on the tangent axes [m]
   std::array<double, 2> level{};  ///< and in the mean plane of the face, lengths kept [m]
-  Patch patch{};                  ///< of that plane that the row stands for
+  Patch patch{};                  ///< part of that plane that belongs to it
   /// Place on that face, from 0 to 1 along the tangent axes; of a row of a stop that acts the other
   /// way (1, 0), so that it has the second of two gaps.
   std::array<double, 2> share{};
