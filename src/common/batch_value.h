@@ -76,6 +76,9 @@ POUNDING_BATCH BatchValue operator-(const BatchValue& a) {
 POUNDING_BATCH BatchValue operator*(const BatchValue& a, const BatchValue& b) {
   return by_parts<BatchValue>([](const auto& x, const auto& y) { return x * y; }, a, b);
 }
+POUNDING_BATCH BatchValue operator*(const BatchValue& a, double b) {
+  return by_parts<BatchValue>([b](const auto& x) { return x * b; }, a);
+}
 POUNDING_BATCH BatchValue operator+(const BatchValue& a, double b) {
   return by_parts<BatchValue>([b](const auto& x) { return x + b; }, a);
 }

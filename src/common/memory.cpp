@@ -94,14 +94,6 @@ void return_pages(void* /*bytes*/, std::size_t /*count*/) {}
 
 #endif
 
-std::vector<double> zeros_on_large_pages(std::size_t size) {
-  std::vector<double> zeros;
-  zeros.reserve(size);
-  wish_large_pages(zeros.data(), size * sizeof(double));
-  zeros.resize(size, 0.0);
-  return zeros;
-}
-
 MemoryUse take_memory_use() {
   MemoryUse use;
   std::ifstream status("/proc/self/status");

@@ -23,8 +23,19 @@ void return_freed_memory();
 /// 64 MB of addresses, and 128 MB for a moment, under a limit that the run may need.
 void share_memory_among_threads();
 
+/// The system may give these bytes large pages, as far as they fill such. A wish: small ones do as
+/// well.
+void wish_large_pages(void* bytes, std::size_t count);
+
 /// Zeros that a step streams through: of a large array on large pages, where the system has them.
-std::vector<double> zeros_on_large_pages(std::size_t size);
+template <typename Value = double>
+std::vector<Value> zeros_on_large_pages(std::size_t size) {
+  std::vector<Value> zeros;
+  zeros.reserve(size);
+  wish_large_pages(zeros.data(), size * sizeof(Value));
+  zeros.resize(size, Value{});
+  return zeros;
+}
 
 /// Memory that begins with a cache line: vectors of it, counted in whole ones, cross none.
 template <typename Value>
@@ -45,10 +56,6 @@ struct CacheLineAllocator {
     return true;
   }
 };
-
-/// The system may give these bytes large pages, as far as they fill such. A wish: small ones do as
-/// well.
-void wish_large_pages(void* bytes, std::size_t count);
 
 /// Gives the memory of these bytes back as far as they fill pages, their addresses not: they are
 /// lost, and may be written anew.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <functional>
 
+#include "common/memory.h"
 #include "common/row_products.h"
+#include "system/support_shapes.h"
 
 namespace pounding {
 namespace {
@@ -20,23 +22,42 @@ std::vector<double> diagonal_of(const LinearSystem& system, const stiffness::Sti
 }  // namespace
 
 BatchStep::BatchStep(std::span<const LinearSystem* const> systems, const LinearSystem& scene,
-                     double time_step)
+                     double time_step, const stiffness::BatchStiffness* elements)
     : state_(std::make_unique<StateOf<BatchValue>>()),
       time_step_(time_step),
-      stiffness_(constants_of<BatchValue>(
-          systems, [](const auto& s) { return diagonal_of(s, s.stiffness.get()); })),
+      elements_(elements),
       beta_(number_of<BatchValue>(systems, [](const auto& s) { return s.damping.beta; })) {
-  const std::vector<BatchValue> zeros(coordinates(), BatchValue{});
-  state_->displacement = state_->velocity = force_ = stiffness_velocity_ = zeros;
-  if (std::ranges::any_of(systems, &LinearSystem::has_extra_damping)) {
-    extra_damping_ = constants_of<BatchValue>(
-        systems, [](const auto& s) { return diagonal_of(s, s.extra_damping.get()); });
-    state_->extra_force = zeros;
+  const std::size_t size = systems.front()->lumped_mass.size();
+  for (auto* const values : {&state_->displacement, &state_->velocity, &stiffness_velocity_}) {
+    *values = zeros_on_large_pages<BatchValue>(size);
   }
+  if (elements_ == nullptr) take_diagonals(systems);
   take_dashpots(systems, scene);
   structure_.emplace(systems, *state_, time_step, dashpots_.has_value());
-  state_->filtered.assign(structure_->filters(), zeros);
+  for (std::size_t k = 0; k < structure_->filters(); ++k) {
+    state_->filtered.push_back(zeros_on_large_pages<BatchValue>(size));
+  }
   state_->inelastic_force.assign(systems.front()->inelastic.size(), BatchValue{});
+}
+
+void BatchStep::take_diagonals(std::span<const LinearSystem* const> systems) {
+  stiffness_ = constants_of<BatchValue>(
+      systems, [](const auto& s) { return diagonal_of(s, s.stiffness.get()); });
+  force_.assign(coordinates(), BatchValue{});
+  if (std::ranges::none_of(systems, &LinearSystem::has_extra_damping)) return;
+  extra_damping_ = constants_of<BatchValue>(
+      systems, [](const auto& s) { return diagonal_of(s, s.extra_damping.get()); });
+  state_->extra_force = force_;
+}
+
+double BatchStep::memory_per_dof(const LinearSystem& system) {
+  const std::size_t filters =
+      system.uniform_damping ? system.uniform_damping->filters.size() + 1 : 0;
+  const std::size_t columns = system.supports ? system.supports->shape.size() + 1 : 0;
+  // u, v, K v and w, q of the product; of the runs u, v and what a LinearSystem has per dof.
+  const std::size_t together = 5 + filters + columns;
+  const std::size_t alone = 2 + filters + columns + 3;
+  return static_cast<double>((together + alone) * sizeof(BatchValue));
 }
 
 void BatchStep::take_dashpots(std::span<const LinearSystem* const> systems,
@@ -73,6 +94,24 @@ void BatchStep::step(double duration, const std::array<BatchValue, 3>& ground_ac
                      std::span<const BatchValue> supports, std::span<const double> loads,
                      bool with_energies, bool with_forces) {
   ++steps_;
+  const StepRequest<BatchValue> request{with_energies ? stiffness_velocity_.data() : nullptr,
+                                        with_forces};
+  const BatchValue* const velocity = state_->velocity.data();
+  if (elements_ != nullptr) {
+    stiffness::StoredForces store(stiffness_velocity_.data());
+    if (with_energies) elements_->apply({velocity, velocity, {}}, store);
+    structure_->begin(duration, ground_acceleration, request, supports, loads);
+    elements_->apply({state_->displacement.data(), velocity, beta_}, *structure_);
+    return;
+  }
+  multiply_diagonals(with_energies);
+  structure_->begin(duration, ground_acceleration, request, supports, loads);
+  structure_->receive(0, static_cast<LocalIndex>(coordinates()), force_.data());
+  if (dashpots_) brake(duration / time_step_);
+  structure_->complete();
+}
+
+void BatchStep::multiply_diagonals(bool with_energies) {
   extra_before_ = BatchValue{};
   const BatchValue beta = beta_;
   for (std::size_t i = 0; i < coordinates(); ++i) {
@@ -83,12 +122,6 @@ void BatchStep::step(double duration, const std::array<BatchValue, 3>& ground_ac
     state_->extra_force[i] = extra_damping_[i] * velocity;
     extra_before_ += velocity * state_->extra_force[i];
   }
-  structure_->begin(duration, ground_acceleration,
-                    {with_energies ? stiffness_velocity_.data() : nullptr, with_forces}, supports,
-                    loads);
-  structure_->receive(0, static_cast<LocalIndex>(coordinates()), force_.data());
-  if (dashpots_) brake(duration / time_step_);
-  structure_->complete();
 }
 
 BatchMember::BatchMember(BatchStep& batch, std::size_t member, StructureState& state)
@@ -107,9 +140,21 @@ void BatchMember::take(const std::vector<BatchValue>& values, std::vector<double
   for (std::size_t i = 0; i < values.size(); ++i) to[i] = values[i][member_];
 }
 
+void BatchMember::take_asked(const std::vector<BatchValue>& values, std::vector<double>& to) const {
+  if (batch_.elements_ == nullptr) return take(values, to);
+  for (const LocalIndex i : watched_) to[i] = values[i][member_];
+}
+
+void BatchMember::watch(std::span<const LocalIndex> dofs, bool always) {
+  SteppedRun::watch(dofs, always);
+  watched_.insert(watched_.end(), dofs.begin(), dofs.end());
+  std::ranges::sort(watched_);
+  watched_.erase(std::ranges::unique(watched_).begin(), watched_.end());
+}
+
 const std::vector<double>& BatchMember::displacement() const {
   if (displacement_known_ != batch_.steps_) {
-    take(batch_.state_->displacement, state_.displacement);
+    take_asked(batch_.state_->displacement, state_.displacement);
     displacement_known_ = batch_.steps_;
   }
   return state_.displacement;
@@ -117,15 +162,17 @@ const std::vector<double>& BatchMember::displacement() const {
 
 const std::vector<double>& BatchMember::velocity() const {
   if (velocity_known_ != batch_.steps_) {
-    take(batch_.state_->velocity, state_.velocity);
+    take_asked(batch_.state_->velocity, state_.velocity);
     velocity_known_ = batch_.steps_;
   }
   return state_.velocity;
 }
 
 void BatchMember::bring_state() const {
-  displacement();
-  velocity();
+  if (state_known_ == batch_.steps_) return;
+  take(batch_.state_->displacement, state_.displacement);
+  take(batch_.state_->velocity, state_.velocity);
+  displacement_known_ = velocity_known_ = state_known_ = batch_.steps_;
   for (std::size_t k = 0; k < state_.filtered.size(); ++k) {
     take(batch_.state_->filtered[k], state_.filtered[k]);
   }
@@ -133,7 +180,7 @@ void BatchMember::bring_state() const {
 
 std::span<const double> BatchMember::points(const Trace& trace) {
   const std::size_t count = trace.known().size();
-  if (count == 0) return {};
+  if (count == 0 || batch_.elements_ != nullptr) return {};
   points_.resize(count);
   batch_.points_.resize(count);
   if (batch_.points_known_ != batch_.steps_) {

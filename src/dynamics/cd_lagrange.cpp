@@ -26,25 +26,24 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
       rest_before_(systems.size(), 0.0),
       load_values_(loads != nullptr ? loads->size() : 0, 0.0),
       incident_(motion.incident().size(), 0.0) {
-  structure_steps_.reserve(systems_.size());
-  runs_.reserve(systems_.size());
-  members_.reserve(systems_.size());
+  structure_steps_ = std::vector<std::optional<StructureStep<double>>>(systems_.size());
+  runs_ = std::vector<std::optional<SteppedRun<double>>>(systems_.size());
+  members_ = std::vector<std::optional<BatchMember>>(systems_.size());
   for (std::size_t s = 0; s < systems_.size(); ++s) {
     StructureState& state = state_.structures[s];
     start_filters(systems_[s], time_step, state);
-    if (slot.structures.empty()) {
-      StructureStep<double>& step =
-          structure_steps_.emplace_back(std::array{&systems_[s]}, state, time_step);
-      structures_.push_back(&runs_.emplace_back(step, 0, state));
+    if (BatchStep* const batch = slot.of(s); batch != nullptr) {
+      structures_.push_back(&members_[s].emplace(*batch, slot.number, state));
     } else {
-      structures_.push_back(&members_.emplace_back(slot.structures[s], slot.number, state));
+      structure_steps_[s].emplace(std::array{&systems_[s]}, state, time_step);
+      structures_.push_back(&runs_[s].emplace(*structure_steps_[s], 0, state));
     }
     ledger_.push_back(&sums_[s]);
     vectors_.emplace_back(systems_[s], state);
     extra_forces_.push_back(systems_[s].has_extra_damping()
                                 ? wrap_vector(systems_[s], state.extra_force)
                                 : VecHandle());
-    stiffness_velocity_.push_back(zeros_on_large_pages(state.velocity.size()));
+    stiffness_velocity_.push_back(zeros_on_large_pages(members_[s] ? 0 : state.velocity.size()));
     rest_forces_.push_back(rest_forces(systems_[s]));
   }
 }
@@ -118,28 +117,31 @@ void CdLagrange::free_velocity(bool with_forces) {
   const ScopedTimer timer(profile_, Phase::step);
   with_forces = with_forces || corrects();
   for (std::size_t s = 0; with_energies_ && s < systems_.size(); ++s) {
+    if (members_[s]) continue;
     const double* const velocity = state_.structures[s].velocity.data();
     stiffness::StoredForces store(stiffness_velocity_[s].data());
     systems_[s].stiffness->apply({velocity, velocity, 0}, store);
   }
-  for (std::size_t s = 0; s < systems_.size(); ++s) systems_[s].stiffness->start(argument(s));
   for (std::size_t s = 0; s < systems_.size(); ++s) {
+    if (!members_[s]) systems_[s].stiffness->start(argument(s));
+  }
+  for (std::size_t s = 0; s < systems_.size(); ++s) {
+    if (members_[s]) continue;
     sums_[s].extra_damping_before = apply_extra_damping(s);
     const double* const rate = with_energies_ ? stiffness_velocity_[s].data() : nullptr;
-    structure_steps_[s].begin(force_duration_, acceleration_, {rate, with_forces},
-                              supports_.acceleration, load_values_);
-    systems_[s].stiffness->finish(argument(s), structure_steps_[s]);
-    structure_steps_[s].complete();
+    structure_steps_[s]->begin(force_duration_, acceleration_, {rate, with_forces},
+                               supports_.acceleration, load_values_);
+    systems_[s].stiffness->finish(argument(s), *structure_steps_[s]);
+    structure_steps_[s]->complete();
   }
 }
 
 void CdLagrange::close_energy(const interactions::Step& step) {
   const ScopedEvent event(events_.close_energy);
-  for (std::size_t s = 0; s < members_.size(); ++s) sums_[s] = members_[s].sums();
-  for (std::size_t s = 0; s < structure_steps_.size(); ++s) {
+  for (std::size_t s = 0; s < sums_.size(); ++s) {
     const double extra_damping_before = sums_[s].extra_damping_before;
-    sums_[s] = structure_steps_[s].sums(0);
-    sums_[s].extra_damping_before = extra_damping_before;
+    sums_[s] = members_[s] ? members_[s]->sums() : structure_steps_[s]->sums(0);
+    if (!members_[s]) sums_[s].extra_damping_before = extra_damping_before;
   }
   for (std::size_t s = 0; with_energies_ && s < sums_.size(); ++s) {
     sums_[s].rest_before = rest_before_[s];

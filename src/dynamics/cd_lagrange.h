@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -21,8 +22,13 @@ namespace pounding {
 
 /// Slot of a run among those that are stepped together.
 struct BatchSlot {
-  std::span<BatchStep> structures;  ///< empty: the run is stepped by itself
+  /// Null for a structure that is stepped by itself in every run; empty: all are.
+  std::span<BatchStep* const> structures;
   std::size_t number = 0;
+
+  BatchStep* of(std::size_t structure) const {
+    return structures.empty() ? nullptr : structures[structure];
+  }
 };
 
 /// CD-Lagrange: central differences with lumped mass and lagged Rayleigh damping, contact as a
@@ -50,8 +56,8 @@ struct BatchSlot {
 /// without damping. Times are n dt, never accumulated. Stable for dt below `stable_time_step`;
 /// contact does not lower it. A step allocates nothing, opens nothing, prints nothing.
 ///
-/// Eight runs of reduced structures can share the line `free_velocity`, in a batch: `open` of
-/// all, BatchStep::step of every structure, `close` of all.
+/// Eight runs can share the line `free_velocity`, in a batch: `open` of all, BatchStep::step of
+/// every structure in batches, `free_velocity` of all for the others, `close` of all.
 class CdLagrange {
  public:
   /// All references must outlive this object. `supports`: null where the ground moves as one;
@@ -80,6 +86,8 @@ class CdLagrange {
   /// impulses and ledger; for members of a batch. Returns whether to make it with energies.
   bool open(bool look_at_gap, bool with_energies);
   void close();
+  /// v_free, and the u_{n+1} that it leads to, of the structures that no batch steps.
+  void free_velocity(bool with_forces);
   /// An interaction asks for the forces of this step, to correct it. After `open`.
   bool corrects() const;
 
@@ -89,15 +97,16 @@ class CdLagrange {
   }
   /// Force of the last step at a watched dof, if it was asked for: see StructureStep.
   double force(std::size_t structure, LocalIndex dof) const {
-    return members_.empty() ? runs_[structure].force(dof) : members_[structure].force(dof);
+    return members_[structure] ? members_[structure]->force(dof) : runs_[structure]->force(dof);
   }
   /// Displacement over the owned dofs of a structure, in a batch as well.
   const std::vector<double>& displacement(std::size_t structure) const {
+    structures_[structure]->bring_state();
     return structures_[structure]->displacement();
   }
   /// See BatchMember; in a batch, of a structure that the step brakes.
   double braked(std::size_t structure, std::size_t coordinate) const {
-    return members_[structure].braked(coordinate);
+    return members_[structure]->braked(coordinate);
   }
 
   /// All that the next step needs, interactions and ledger included, between two steps.
@@ -126,8 +135,6 @@ class CdLagrange {
   interactions::Step at_hand(bool look_at_gap) const;
   /// Motion of ground and supports at t_n.
   void move_ground();
-  /// v_free and the u_{n+1} that it leads to; sums for the ledger.
-  void free_velocity(bool with_forces);
   /// The ledger of the step.
   void close_energy(const interactions::Step& step);
 
@@ -151,9 +158,10 @@ class CdLagrange {
   Profile& profile_;
   State state_;
   interactions::SupportStep supports_;
-  std::vector<StructureStep<double>> structure_steps_;  ///< none in a batch
-  std::vector<SteppedRun<double>> runs_;                ///< of these
-  std::vector<BatchMember> members_;                    ///< per structure in their place
+  /// Per structure: its own step and run, or its member of a batch.
+  std::vector<std::optional<StructureStep<double>>> structure_steps_;
+  std::vector<std::optional<SteppedRun<double>>> runs_;
+  std::vector<std::optional<BatchMember>> members_;
   std::vector<std::unique_ptr<interactions::Interaction>> interactions_;
   EnergyBalance energy_;
   std::vector<StepSums> sums_;

@@ -34,6 +34,10 @@ template <typename Number>
 void load_first(const Number* from, AllLanes, Number& to) {
   to = *from;
 }
+/// A number that all runs share.
+inline void load_first(const double* from, AllLanes, BatchValue& to) {
+  to = all_eight(*from);
+}
 template <typename Number>
 void store_first(const Number& from, AllLanes, Number* to) {
   *to = from;

@@ -54,12 +54,15 @@ StructureStep<Number>::StructureStep(std::span<const LinearSystem* const> system
     : system_(*systems.front()),
       runs_(systems.size()),
       state_(state),
-      mass_(constants_of<Number>(systems, &LinearSystem::lumped_mass)),
-      inverse_mass_(constants_of<Number>(systems, &LinearSystem::inverse_mass)),
+      dofs_(system_.lumped_mass.size()),
       alpha_(number_of<Number>(systems, [](const auto& s) { return s.damping.alpha; })),
       beta_(number_of<Number>(systems, [](const auto& s) { return s.damping.beta; })),
-      forces_(mass_.size()),
+      forces_(dofs_),
       vectors_(std::make_unique<VectorParts>()) {
+  if (!shares_masses()) {
+    mass_ = constants_of<Number>(systems, &LinearSystem::lumped_mass);
+    inverse_mass_ = constants_of<Number>(systems, &LinearSystem::inverse_mass);
+  }
   terms_.time_step = Number{} + time_step;
   filters_.passing = Number{} + 1.0;
   for (std::size_t member = 0; member < systems.size(); ++member) {
@@ -86,7 +89,7 @@ StructureStep<Number>::StructureStep(std::span<const LinearSystem* const> system
          constants_of<Number>(
              systems, [l](const auto& s) -> const auto& { return s.loads->loads[l].force; })});
   }
-  if (system_.supports || system_.loads) known_step_.assign(mass_.size(), Number{});
+  if (system_.supports || system_.loads) known_step_.assign(dofs_, Number{});
   find_segments(wait);
 }
 
@@ -138,7 +141,7 @@ typename StructureStep<Number>::Segment StructureStep<Number>::segment_at(LocalI
 
 template <typename Number>
 void StructureStep<Number>::find_segments(bool wait) {
-  const auto dofs = static_cast<LocalIndex>(mass_.size());
+  const auto dofs = static_cast<LocalIndex>(dofs_);
   for (LocalIndex dof = 0; dof < dofs; dof = segments_.back().end) {
     const Segment next = segment_at(dof, wait);
     if (segments_.empty() || !segments_.back().goes_on(next)) {
@@ -154,7 +157,7 @@ void StructureStep<Number>::find_segments(bool wait) {
   node_mass_.resize(node_mass_.size() + most_lanes, 0.0);  // whole vectors are read
   node_inverse_mass_.resize(node_mass_.size(), 0.0);
   if (std::ranges::none_of(segments_, &Segment::waits)) return;
-  const std::vector<Number> zeros(mass_.size(), Number{});
+  const std::vector<Number> zeros(dofs_, Number{});
   waiting_ = {zeros, zeros, zeros};
   if (system_.coupled_mass) field_.resize(system_.coupled_mass->field_size());
 }
@@ -198,7 +201,9 @@ void StructureStep<Number>::begin(double duration, const std::array<Number, 3>& 
     const Number step = h * (Number{} + load_values_[load.number]);
     for (std::size_t k = 0; k < load.dofs.size(); ++k) {
       const auto i = static_cast<std::size_t>(load.dofs[k]);
-      known_step_[i] = known_step_[i] - step * load.force[k] * inverse_mass_[i];
+      const Number inverse =
+          shares_masses() ? Number{} + system_.inverse_mass[i] : inverse_mass_[i];
+      known_step_[i] = known_step_[i] - step * load.force[k] * inverse;
     }
   }
   load_before_ = load_power();
@@ -251,6 +256,10 @@ void StructureStep<Number>::advance_in_order(const Segment& segment, LocalIndex 
   if (segment.order == Order::directions) {
     const Actions<Number, Number, any> others(parts);
     DirectionGround<Number> ground{system_.direction.data(), ground_step_, totals_.momentum};
+    if constexpr (!vectors) {
+      const DofMasses<double> of_all{system_.lumped_mass.data(), system_.inverse_mass.data()};
+      return advance_values(state_, terms_, first, stop, force, others, of_all, ground, totals_);
+    }
     return advance_values(state_, terms_, first, stop, force, others, masses, ground, totals_);
   }
   const Actions<Value, Number, any> others(parts);
@@ -350,8 +359,8 @@ void StructureStep<Number>::correct(std::size_t member, std::span<const LocalInd
     if (!state_.extra_force.empty()) {
       change.dofs.device += of_member(state_.extra_force[i], member) * (velocity[k] - dof.velocity);
     }
-    const double gained =
-        correct_dof(terms, of_member(mass_[i], member), old, velocity[k], forces, dof, change.dofs);
+    const double mass = shares_masses() ? system_.lumped_mass[i] : of_member(mass_[i], member);
+    const double gained = correct_dof(terms, mass, old, velocity[k], forces, dof, change.dofs);
     if (!known_step_.empty()) change.dofs.known_work += of_member(known_step_[i], member) * gained;
     if (system_.generalised) {
       for (std::size_t d = 0; d < 3; ++d) {

@@ -153,10 +153,16 @@ class StructureStep final : public stiffness::ReceiverOf<Number> {
   /// sum_l f_l p_l^T v of the velocities as they are [W].
   Number load_power() const;
 
+  /// Dofs of a mesh have the same masses in all runs of a batch, those of `system_`.
+  bool shares_masses() const {
+    return !std::is_same_v<Number, double> && system_.generalised == nullptr;
+  }
+
   const LinearSystem& system_;  ///< of the first run
   std::size_t runs_;
   StateOf<Number>& state_;
-  Constants<Number> mass_;
+  std::size_t dofs_;
+  Constants<Number> mass_;  ///< empty where runs share masses, as the next one
   Constants<Number> inverse_mass_;
   std::array<Constants<Number>, 3> influence_;  ///< of generalised coordinates
   std::array<Number, 3> gravity_{};

@@ -1,7 +1,6 @@
 #include "ensemble/batch_passes.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "common/row_products.h"
 #include "system/trace.h"
@@ -19,17 +18,13 @@ BatchRows::BatchRows(std::span<const interactions::Constraint> rows,
         if (term.structure == static_cast<int>(s)) places.push_back({term.node, term.component});
       }
     }
-    const std::size_t width = systems[s].lumped_mass.size();
-    std::vector<double>& values = values_.emplace_back(rows.size() * width, 0.0);
+    CoordinateRows& own = of_structures_.emplace_back(rows.size(), systems[s]);
     const Trace trace(systems[s], meshes[s], places, false);
     std::size_t place = 0;
     for (std::size_t w = 0; w < rows.size(); ++w) {
       for (const interactions::ConstraintTerm& term : rows[w].terms) {
         if (term.structure != static_cast<int>(s)) continue;
-        const std::span<const double> of_term = trace.row(place);
-        for (std::size_t i = 0; i < width; ++i) {
-          values[w * width + i] += term.coefficient * of_term[i];
-        }
+        own.add(w, term.coefficient, trace, place);
         const std::span<const double> carried = trace.carried(place);  // none without supports
         for (std::size_t c = 0; c < carried.size(); ++c) {
           carried_[w * columns + c] += term.coefficient * carried[c];
@@ -40,11 +35,10 @@ BatchRows::BatchRows(std::span<const interactions::Constraint> rows,
   }
 }
 
-void BatchRows::add_to(std::vector<BatchValue>& sums, std::span<const BatchStep> batches,
+void BatchRows::add_to(std::vector<BatchValue>& sums, std::span<const StatesOfRuns> states,
                        const std::vector<BatchValue>& supports) {
-  for (std::size_t s = 0; s < values_.size(); ++s) {
-    multiply_rows(values_[s].data(), size(), batches[s].coordinates(),
-                  batches[s].state().displacement.data(), products_.data());
+  for (std::size_t s = 0; s < of_structures_.size(); ++s) {
+    of_structures_[s].multiply_displacements(states[s], products_.data());
     for (std::size_t row = 0; row < size(); ++row) sums[row] += products_[row];
   }
   if (carried_.empty()) return;
@@ -54,9 +48,8 @@ void BatchRows::add_to(std::vector<BatchValue>& sums, std::span<const BatchStep>
 
 double BatchRows::at_rest(std::size_t row, std::span<const LinearSystem> systems) const {
   double sum = 0;
-  for (std::size_t s = 0; s < values_.size(); ++s) {
-    const std::vector<double>& rest = systems[s].rest_displacement;
-    sum += std::inner_product(rest.begin(), rest.end(), &values_[s][row * rest.size()], 0.0);
+  for (std::size_t s = 0; s < of_structures_.size(); ++s) {
+    sum += of_structures_[s].product(row, systems[s].rest_displacement);
   }
   return sum;
 }
@@ -92,10 +85,10 @@ BatchPasses::BatchPasses(std::span<const MemberScene* const> scenes, std::span<c
   }
 }
 
-void BatchPasses::look(std::span<const BatchStep> batches, const std::vector<BatchValue>& supports,
-                       std::int64_t step, double time) {
+void BatchPasses::look(std::span<const StatesOfRuns> states,
+                       const std::vector<BatchValue>& supports, std::int64_t step, double time) {
   openings_ = gaps_;
-  watched_.add_to(openings_, batches, supports);
+  watched_.add_to(openings_, states, supports);
   for (std::size_t w = 0; w < gaps_.size(); ++w) {
     for (std::size_t member = 0; member < batch_size; ++member) {
       OtherPass& deepest = deepest_[contact_[w]][member];
@@ -107,7 +100,7 @@ void BatchPasses::look(std::span<const BatchStep> batches, const std::vector<Bat
   }
   if (step % (PairMotion::looks * stride_) != 0) return;
   moved_ = start_;
-  moving_.add_to(moved_, batches, supports);
+  moving_.add_to(moved_, states, supports);
   for (std::size_t row = 0; row < moved_.size(); ++row) {
     largest_[row] = larger(largest_[row], magnitude(moved_[row]));
   }

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/batch_step.h"
+#include "ensemble/coordinate_rows.h"
 #include "ensemble/member_result.h"
 #include "ensemble/member_scene.h"
 #include "mesh/mesh.h"
@@ -22,14 +22,14 @@ class BatchRows {
             std::span<const Mesh> meshes, std::size_t columns);
   std::size_t size() const { return products_.size(); }
   /// sums += the rows times the displacements of coordinates and supports.
-  void add_to(std::vector<BatchValue>& sums, std::span<const BatchStep> batches,
+  void add_to(std::vector<BatchValue>& sums, std::span<const StatesOfRuns> states,
               const std::vector<BatchValue>& supports);
   /// Value of a row in one run at rest.
   double at_rest(std::size_t row, std::span<const LinearSystem> systems) const;
 
  private:
-  std::vector<std::vector<double>> values_;  ///< per structure, shape (rows, coordinates)
-  std::vector<double> carried_;              ///< by supports, shape (rows, columns); or empty
+  std::vector<CoordinateRows> of_structures_;
+  std::vector<double> carried_;  ///< by supports, shape (rows, columns); or empty
   std::vector<BatchValue> products_;
 };
 
@@ -44,7 +44,7 @@ class BatchPasses {
 
   bool due(std::int64_t step) const { return moving_.size() > 0 && step % stride_ == 0; }
   /// `supports`: their displacements, per column.
-  void look(std::span<const BatchStep> batches, const std::vector<BatchValue>& supports,
+  void look(std::span<const StatesOfRuns> states, const std::vector<BatchValue>& supports,
             std::int64_t step, double time);
   void fill(std::size_t member, MemberResult& result) const;
 

@@ -47,6 +47,24 @@ const std::vector<double>& velocity_of_supports(const CdLagrange& stepper) {
   return stepper.state().supports.velocity;
 }
 
+/// Means of probes on one structure, whose places `trace` has, as rows: those of probe_means.
+CoordinateRows mean_rows(std::span<const ResolvedProbe* const> probes, const LinearSystem& system,
+                         const Trace& trace) {
+  CoordinateRows rows(3 * probes.size(), system);
+  std::size_t place = 0;
+  for (std::size_t p = 0; p < probes.size(); ++p) {
+    const std::size_t nodes = probes[p]->nodes.size();
+    for (std::size_t k = 0; k < 9 * nodes; ++k) {
+      const double weight = probes[p]->weight(k / 9, k / 3 % 3)[k % 3];
+      if (weight == 0) continue;
+      rows.add(3 * p + k / 3 % 3, weight, trace, place + k / 9 * 3 + k % 3,
+               static_cast<double>(nodes));
+    }
+    place += 3 * nodes;
+  }
+  return rows;
+}
+
 /// The smallest recorded gap of each pair.
 class SmallestGaps final : public Observer {
  public:
@@ -88,13 +106,23 @@ MemberBatch::MemberBatch(std::span<const MemberScene* const> members, const Scen
   for (std::size_t s = 0; s < shared_.systems.size(); ++s) {
     std::vector<const LinearSystem*> systems;
     for (const Model& model : models_) systems.push_back(&model.systems[s]);
-    batches_.emplace_back(systems, shared_.systems[s], shared_.time_step);
+    batches_.push_back(!shared.steps_alone(s) ? std::make_unique<BatchStep>(
+                                                    systems, shared_.systems[s], shared_.time_step,
+                                                    shared.elements[s].get())
+                                              : nullptr);
+    slots_.push_back(batches_.back().get());
   }
   for (std::size_t member = 0; member < members.size(); ++member) {
     runs_.push_back(std::make_unique<MemberRun>(*members[member], shared, models_[member],
-                                                BatchSlot{batches_, member}));
+                                                BatchSlot{slots_, member}));
   }
-  recorder_.restart(batches_, motion_of_supports(velocity_of_supports));
+  for (std::size_t s = 0; s < slots_.size(); ++s) {
+    StatesOfRuns& states = states_.emplace_back(StatesOfRuns{slots_[s], {}});
+    for (std::size_t member = 0; member < runs_.size(); ++member) {
+      states.own[member] = &runs_[member]->stepper().state().structures[s];
+    }
+  }
+  recorder_.restart(states_, motion_of_supports(velocity_of_supports));
 }
 
 const std::vector<BatchValue>& MemberBatch::motion_of_supports(const auto& part) {
@@ -119,8 +147,8 @@ void MemberBatch::step(std::int64_t n) {
   if (records || passes_.due(n)) {
     const std::vector<BatchValue>& supports = motion_of_supports(displacement_of_supports);
     const double time = static_cast<double>(n) * shared_.time_step;
-    if (passes_.due(n)) passes_.look(batches_, supports, n, time);
-    if (records) recorder_.take_displacements(batches_, supports);
+    if (passes_.due(n)) passes_.look(states_, supports, n, time);
+    if (records) recorder_.take_displacements(states_, supports);
   }
   bool with_energies = false, with_forces = false;
   for (std::size_t member = 0; member < runs_.size(); ++member) {
@@ -134,13 +162,15 @@ void MemberBatch::step(std::int64_t n) {
   const double duration = runs_.front()->stepper().force_duration();
   const std::vector<BatchValue>& supports =
       motion_of_supports([](const CdLagrange& of) -> auto& { return of.support_acceleration(); });
-  for (BatchStep& batch : batches_) {
-    batch.step(duration, acceleration_, supports, runs_.front()->stepper().load_values(),
-               with_energies, with_forces);
+  for (BatchStep* const batch : slots_) {
+    if (batch == nullptr) continue;
+    batch->step(duration, acceleration_, supports, runs_.front()->stepper().load_values(),
+                with_energies, with_forces);
   }
+  for (const auto& run : runs_) run->step_alone(with_forces);
   for (failed_ = 0; failed_ < runs_.size(); ++failed_) runs_[failed_]->close();
   recorder_.add_step(duration, acceleration_);
-  if (records) recorder_.record(batches_, motion_of_supports(velocity_of_supports));
+  if (records) recorder_.record(states_, motion_of_supports(velocity_of_supports));
 }
 
 MemberResult MemberBatch::result(std::size_t member) {
@@ -181,7 +211,7 @@ BatchRecorder::BatchRecorder(const Model& model, const Times& times)
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
     std::vector<TracePoint> places;
     std::vector<const ResolvedProbe*> here;
-    Rows rows{s, model.systems[s].lumped_mass.size(), {}, {}, {}};
+    Rows rows{s, {0, model.systems[s]}, {}, {}};
     for (std::size_t p = 0; p < recorded.size(); ++p) {
       if (recorded[p].structure != static_cast<int>(s)) continue;
       for (const GlobalIndex node : recorded[p].nodes) {
@@ -192,7 +222,7 @@ BatchRecorder::BatchRecorder(const Model& model, const Times& times)
     }
     if (here.empty()) continue;
     const Trace trace(model.systems[s], model.meshes[s], places, false);
-    rows.values = probe_means(here, [&](std::size_t k) { return trace.row(k); });
+    rows.values = mean_rows(here, model.systems[s], trace);
     rows.carried = probe_means(here, [&](std::size_t k) { return trace.carried(k); });
     rows_.push_back(std::move(rows));
   }
@@ -205,9 +235,9 @@ BatchRecorder::BatchRecorder(const Model& model, const Times& times)
   history_.resize(channels_ * batch_size * capacity_);
 }
 
-void BatchRecorder::restart(std::span<const BatchStep> batches,
+void BatchRecorder::restart(std::span<const StatesOfRuns> states,
                             const std::vector<BatchValue>& supports) {
-  multiply(batches, &StateOf<BatchValue>::velocity, supports);
+  take_velocities(states, supports);
   last_velocity_ = values_;
   displacement_.assign(channels_, BatchValue{});
   apart_.assign(3 * ends_.size(), BatchValue{});
@@ -220,12 +250,18 @@ void BatchRecorder::add_step(double duration, const std::array<BatchValue, 3>& a
   for (std::size_t d = 0; d < 3; ++d) ground_[d] += acceleration[d] * all_eight(duration);
 }
 
-void BatchRecorder::multiply(std::span<const BatchStep> all,
-                             std::vector<BatchValue> StateOf<BatchValue>::*part,
-                             const std::vector<BatchValue>& supports) {
+void BatchRecorder::take_velocities(std::span<const StatesOfRuns> states,
+                                    const std::vector<BatchValue>& supports) {
+  take_values(
+      [&](const Rows& rows) {
+        rows.values.multiply_velocities(states[rows.structure], products_.data());
+      },
+      supports);
+}
+
+void BatchRecorder::take_values(const auto& multiply, const std::vector<BatchValue>& supports) {
   for (const Rows& rows : rows_) {
-    const BatchValue* const x = (all[rows.structure].state().*part).data();
-    multiply_rows(rows.values.data(), rows.channels.size(), rows.width, x, products_.data());
+    multiply(rows);
     for (std::size_t r = 0; r < rows.channels.size(); ++r) values_[rows.channels[r]] = products_[r];
     if (rows.carried.empty()) continue;
     multiply_rows(rows.carried.data(), rows.channels.size(), supports.size(), supports.data(),
@@ -236,11 +272,15 @@ void BatchRecorder::multiply(std::span<const BatchStep> all,
   }
 }
 
-void BatchRecorder::take_displacements(std::span<const BatchStep> batches,
+void BatchRecorder::take_displacements(std::span<const StatesOfRuns> states,
                                        const std::vector<BatchValue>& supports) {
   const bool counts = records_ >= first_;
   if (!counts && records_ > 0) return;
-  multiply(batches, &StateOf<BatchValue>::displacement, supports);
+  take_values(
+      [&](const Rows& rows) {
+        rows.values.multiply_displacements(states[rows.structure], products_.data());
+      },
+      supports);
   note_spans(static_cast<double>(records_) * interval_, counts);
   if (!counts) return;
   for (std::size_t c = 0; c < channels_; ++c) {
@@ -272,9 +312,9 @@ void BatchRecorder::fill_spans(std::size_t member, MemberResult& result) const {
   }
 }
 
-void BatchRecorder::record(std::span<const BatchStep> batches,
+void BatchRecorder::record(std::span<const StatesOfRuns> states,
                            const std::vector<BatchValue>& supports) {
-  multiply(batches, &StateOf<BatchValue>::velocity, supports);
+  take_velocities(states, supports);
   BatchValue* const out = &block_[blocked_ * channels_];
   for (std::size_t c = 0; c < channels_; ++c) {
     out[c] = (values_[c] - last_velocity_[c] + ground_[c % 3]) / interval_;

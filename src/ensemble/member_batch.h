@@ -10,6 +10,7 @@
 #include "common/memory.h"
 #include "dynamics/batch_step.h"
 #include "ensemble/batch_passes.h"
+#include "ensemble/coordinate_rows.h"
 #include "ensemble/member_scene.h"
 #include "mesh/mesh.h"
 #include "mesh/probe_set.h"
@@ -32,6 +33,8 @@ class MemberRun {
   /// After it. Throws DivergenceError if this member's numbers cannot be trusted.
   void close();
   const CdLagrange& stepper() const { return scheme_.stepper(); }
+  /// The step of structures that no batch steps.
+  void step_alone(bool with_forces) { scheme_.stepper().free_velocity(with_forces); }
 
   /// Impacts, gaps, forces and the ledger's residual.
   void fill(MemberResult& result);
@@ -72,15 +75,15 @@ class BatchRecorder {
 
   /// Begins runs from their states at t = 0. `supports`, here and below: motion of the supports as
   /// that of the coordinates is taken, per column; empty where the ground moves as one.
-  void restart(std::span<const BatchStep> batches, const std::vector<BatchValue>& supports);
+  void restart(std::span<const StatesOfRuns> states, const std::vector<BatchValue>& supports);
   bool due(std::int64_t step) const { return step % stride_ == 0; }
   /// The ground's acceleration in a step [m/s2], and how long it acted [s].
   void add_step(double duration, const std::array<BatchValue, 3>& acceleration);
   /// Before the step to be recorded.
-  void take_displacements(std::span<const BatchStep> batches,
+  void take_displacements(std::span<const StatesOfRuns> states,
                           const std::vector<BatchValue>& supports);
   /// After it.
-  void record(std::span<const BatchStep> batches, const std::vector<BatchValue>& supports);
+  void record(std::span<const StatesOfRuns> states, const std::vector<BatchValue>& supports);
   /// After the last record: samples of a channel of a run [m/s2].
   std::span<const double> acceleration(std::size_t channel, std::size_t member);
   double largest_displacement(std::size_t channel, std::size_t member) const {
@@ -94,16 +97,16 @@ class BatchRecorder {
   /// Probes and rotations of one structure.
   struct Rows {
     std::size_t structure = 0;
-    std::size_t width = 0;              ///< coordinates
-    std::vector<double> values;         ///< shape (channels, width)
+    CoordinateRows values;
     std::vector<double> carried;        ///< by supports, shape (channels, columns); or empty
     std::vector<std::size_t> channels;  ///< numbers among all
   };
   /// Looks how far the ends of spans are apart at `time` [s]. `counts`: for the largest.
   void note_spans(double time, bool counts);
-  /// values_ := rows times the coordinates, and the way with the supports.
-  void multiply(std::span<const BatchStep> all, std::vector<BatchValue> StateOf<BatchValue>::*part,
-                const std::vector<BatchValue>& supports);
+  /// values_ := rows times the coordinates by `multiply`, and the way with the supports.
+  void take_values(const auto& multiply, const std::vector<BatchValue>& supports);
+  void take_velocities(std::span<const StatesOfRuns> states,
+                       const std::vector<BatchValue>& supports);
   /// Brings the records of the block to the histories.
   void flush();
 
@@ -132,7 +135,7 @@ class BatchRecorder {
 };
 
 /// Up to eight members of an ensemble from t_0 to the end time, stepped together: the structures in
-/// batches (BatchStep), interactions and outputs member by member (MemberRun). A member's results
+/// batches (BatchStep) where that pays, interactions and outputs member by member (MemberRun). A member's results
 /// depend neither on its place nor on its companions. Local: nothing is communicated.
 class MemberBatch {
  public:
@@ -157,7 +160,10 @@ class MemberBatch {
   BatchRecorder& recorder_;
   std::vector<Model> models_;  ///< per member, as the next ones
   BatchPasses passes_;
-  std::vector<BatchStep> batches_;  ///< per structure
+  /// Per structure; null where every run steps its own.
+  std::vector<std::unique_ptr<BatchStep>> batches_;
+  std::vector<BatchStep*> slots_;     ///< these
+  std::vector<StatesOfRuns> states_;  ///< per structure
   std::vector<std::unique_ptr<MemberRun>> runs_;
   std::array<BatchValue, 3> acceleration_{};
   std::vector<BatchValue> supports_;

@@ -4,13 +4,16 @@
 #include <limits>
 
 #include "common/error.h"
+#include "dynamics/batch_step.h"
 #include "interactions/pairing/gap_field.h"
 #include "modal/reduced_system.h"
 #include "model/start_at_rest.h"
 #include "model/time_step.h"
+#include "scene/law_kinds.h"
 #include "scene/stiffness_factor.h"
 #include "scene/support_reader.h"
 #include "stability/stable_time_step.h"
+#include "stiffness/element_stiffness.h"
 #include "system/load_shapes.h"
 
 namespace pounding {
@@ -20,23 +23,34 @@ namespace {
   throw UserError("option -ensemble: " + what + "; " + remedy);
 }
 
-void require_reduced(const Structure& structure) {
-  if (structure.modal) return;
-  const std::string option = "-" + structure.name;
-  refuse("structure " + structure.name + " is not reduced",
-         "give " + option + "_model modal and " + option +
-             "_modal_vectors, or make single runs (run/sweep)");
-}
-
 void require_lasting_pairs(const Contact& contact) {
   if (contact.sliding == 0) return;
   refuse("the pairs of contact " + contact.name + " are found anew",
          "leave -" + contact.name + "_sliding out");
 }
 
+/// Elements have the numbers of all members: no factor on their stiffness, nor on damping that
+/// others than the whole structure have.
+void require_shared_elements(const Structure& structure, const MemberTable& table) {
+  const auto refuse_column = [&](const char* what, const char* why) {
+    const std::string column = structure.name + what;
+    if (std::ranges::count(table.columns, column) == 0) return;
+    throw UserError("column " + column + ": structure " + structure.name + " is at full order" +
+                    why +
+                    "; make an ensemble for each factor, which its scene gives, or single "
+                    "runs");
+  };
+  refuse_column("_stiffness_factor", ", and its elements are those of all members");
+  const bool own = std::ranges::any_of(structure.regions, [](const Region& region) {
+    return region.damping || region.damping_factor != 1 || follows_law(region);
+  });
+  if (own) refuse_column("_damping_factor", ", and some of its groups are damped by themselves");
+}
+
 /// Modes that a factor on the stiffness of the elements would turn are not those of all members.
 void require_shared_modes(const Scene& scene, const MemberTable& table) {
   for (const Structure& structure : scene.structures) {
+    if (!structure.modal) require_shared_elements(structure, table);
     const std::string column = structure.name + "_stiffness_factor";
     if (structure.scales_as_a_whole() || std::ranges::count(table.columns, column) == 0) continue;
     throw UserError("column " + column + ": the modes of structure " + structure.name +
@@ -61,6 +75,25 @@ void require_same_columns(const Scene& scene, const Scene& member) {
   }
 }
 
+/// System of a structure of a member at full order, which has the operators of all.
+LinearSystem full_system(const Structure& structure, const LinearSystem& shared) {
+  LinearSystem system = shared;
+  system.damping = structure.damping;
+  if (system.uniform_damping) {
+    const double reference = system.uniform_damping->reference;
+    system.uniform_damping = structure.uniform_damping;
+    system.uniform_damping->reference = reference;
+  }
+  return system;
+}
+
+/// Limits of the time step of a structure at full order; `shared`: that of the ensemble's scene.
+StructureLimits full_limits(const LinearSystem& system, const Building& shared) {
+  if (system.has_extra_damping()) return shared.limits;
+  const LargestFrequency& largest = shared.limits.largest;
+  return {largest, stable_time_step(system.damping, largest.omega_max, system.stiffening())};
+}
+
 /// Part of a member's model without motion: systems and limits of its structures, gaps.
 Model member_structures(const MemberScene& member, const EnsembleModel& shared) {
   const Scene& scene = member.scene;
@@ -83,16 +116,23 @@ Model member_structures(const MemberScene& member, const EnsembleModel& shared) 
     building.structure = &structure;
     building.mesh = &shared.model->meshes[s];
     building.system = &model.systems[s];
-    building.basis = shared.bases[s];
-    scale_stiffness(member.stiffness_factors[s], *building.basis);
-    model.systems[s] = build_reduced_system(MPI_COMM_SELF, 0, structure, *building.mesh,
-                                            *building.basis, shared.model->support_columns());
-    model.systems[s].loads = shape_reduced_loads(shared.model->scene_loads(), static_cast<int>(s),
-                                                 building.basis->load_parts, true);
-    model.systems[s].start =
-        shape_reduced_start(building.basis->start_parts, model.systems[s].lumped_mass, true);
-    building.limits =
-        limits_of(structure, model.systems[s], *building.mesh, building.basis_or_null(), {});
+    if (shared.bases[s]) {
+      building.basis = shared.bases[s];
+      scale_stiffness(member.stiffness_factors[s], *building.basis);
+      model.systems[s] = build_reduced_system(MPI_COMM_SELF, 0, structure, *building.mesh,
+                                              *building.basis, shared.model->support_columns());
+      model.systems[s].loads = shape_reduced_loads(shared.model->scene_loads(), static_cast<int>(s),
+                                                   building.basis->load_parts, true);
+      model.systems[s].start =
+          shape_reduced_start(building.basis->start_parts, model.systems[s].lumped_mass, true);
+      building.limits =
+          limits_of(structure, model.systems[s], *building.mesh, building.basis_or_null(), {});
+    } else {
+      const Building& common = shared.model->buildings[s];
+      model.systems[s] = full_system(structure, shared.model->systems[s]);
+      building.modal = common.modal;
+      building.limits = full_limits(model.systems[s], common);
+    }
     building.energy_margin =
         energy_margin_of(structure, model.systems[s], *building.mesh, building.basis_or_null(),
                          building.limits, model.time_step, {});
@@ -103,7 +143,6 @@ Model member_structures(const MemberScene& member, const EnsembleModel& shared) 
 }  // namespace
 
 void require_ensemble_scene(const Scene& scene) {
-  for (const Structure& structure : scene.structures) require_reduced(structure);
   for (const Contact& contact : scene.contacts) require_lasting_pairs(contact);
   for (const ForceItem& force : scene.forces) {
     if (force.of_elements()) {
@@ -137,10 +176,42 @@ MemberScene read_member(const Scene& shared, const OptionsDatabase& scene, const
       scale_stiffness(read.stiffness_factors[s], read.scene.structures[s]);
     }
     read.scene.progress_interval = std::numeric_limits<double>::infinity();
+    read.scene.keeps_matrices = true;
     return {table.place(member), std::move(read.scene), std::move(read.stiffness_factors)};
   } catch (const UserError& error) {
     throw UserError(table.place(member) + error.what());
   }
+}
+
+bool EnsembleModel::steps_alone(std::size_t structure) const {
+  const LinearSystem& system = model->systems[structure];
+  if (system.generalised) return false;
+  if (system.mass_is_coupled() || system.has_extra_damping() || !system.laws.empty()) return true;
+  const auto* const product =
+      dynamic_cast<const stiffness::ElementStiffness*>(system.stiffness.get());
+  if (product == nullptr) return true;
+  const stiffness::ElementKinds& kinds = product->kinds();
+  return kinds.bricks + kinds.rectangles > kinds.general + kinds.beams + kinds.other;
+}
+
+void EnsembleModel::multiply_together() {
+  elements.resize(bases.size());
+  for (std::size_t s = 0; s < elements.size(); ++s) {
+    if (bases[s] || steps_alone(s)) continue;
+    const Building& building = model->buildings[s];
+    elements[s] =
+        std::make_unique<stiffness::BatchStiffness>(building.full_order(), *building.mesh);
+  }
+}
+
+double EnsembleModel::memory() const {
+  double bytes = 0;
+  for (std::size_t s = 0; s < bases.size(); ++s) {
+    if (bases[s]) continue;
+    bytes += BatchStep::memory_per_dof(model->systems[s]) * model->systems[s].owned_dofs();
+    if (!steps_alone(s)) bytes += stiffness::BatchStiffness::memory(model->meshes[s]);
+  }
+  return bytes;
 }
 
 void lay_foundations(const Scene& scene, MemberScene& member) {
@@ -157,7 +228,14 @@ StepLimits member_limits(const MemberScene& member, const EnsembleModel& shared)
   const double last = scene.spectra.frequencies.back();
   StepLimits limits;
   for (std::size_t s = 0; s < shared.bases.size(); ++s) {
-    ModalBasis basis = shared.bases[s];
+    if (!shared.bases[s]) {
+      const Building& common = shared.model->buildings[s];
+      const LinearSystem system = full_system(scene.structures[s], shared.model->systems[s]);
+      limits.stable = std::min(limits.stable, full_limits(system, common).stable_time_step);
+      limits.resolved = faster(limits.resolved, resolved_motion_of(common, last));
+      continue;
+    }
+    ModalBasis basis = *shared.bases[s];
     scale_stiffness(member.stiffness_factors[s], basis);
     limits.stable = std::min(limits.stable, stable_time_step(scene.structures[s], basis));
     limits.resolved = faster(limits.resolved, resolved_motion_of(scene.structures[s], basis, last));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +12,7 @@
 #include "model/model.h"
 #include "scene/member_table.h"
 #include "scene/scene_reader.h"
+#include "stiffness/batch_stiffness.h"
 
 /// The scenes of the members of an ensemble, and their own parts of the model.
 namespace pounding {
@@ -21,8 +24,8 @@ struct MemberScene {
   std::vector<double> stiffness_factors;  ///< per structure
 };
 
-/// Refuses scenes that cannot be stepped together: structures at full order, pairs that are found
-/// anew, records beside those of probes. Throws UserError.
+/// Refuses scenes that cannot be stepped together: pairs that are found anew, records beside those of
+/// probes. Throws UserError.
 void require_ensemble_scene(const Scene& scene);
 
 /// The scene of a member; `shared`: that of the ensemble, whose options are `scene`. Throws
@@ -41,8 +44,20 @@ double set_gap(const Scene& scene, std::span<const interactions::GivenGap> gaps,
 
 /// Model that the members share on a rank.
 struct EnsembleModel {
-  const Model* model = nullptr;   ///< of the ensemble's scene, on this rank alone
-  std::vector<ModalBasis> bases;  ///< of every structure, with rows, without a factor
+  const Model* model = nullptr;  ///< of the ensemble's scene, on this rank alone
+  /// Of every reduced structure, with rows, without a factor; empty at full order.
+  std::vector<std::optional<ModalBasis>> bases;
+  /// K in eight runs of structures at full order that are stepped in batches; see multiply_together.
+  std::vector<std::unique_ptr<stiffness::BatchStiffness>> elements;
+
+  /// Every run steps the structure by itself: where most elements stand in rows, which are as fast
+  /// by themselves; with mass that is coupled, laws of elements, damping beside Rayleigh's, or a
+  /// sparse matrix.
+  bool steps_alone(std::size_t structure) const;
+  /// Makes `elements`, before the first batch.
+  void multiply_together();
+  /// Memory of eight runs of the structures at full order [bytes].
+  double memory() const;
 };
 
 /// The part of the model that is a member's own, for this process alone: systems and limits of its

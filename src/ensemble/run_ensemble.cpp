@@ -90,7 +90,9 @@ class StopTogether {
 class Ensemble {
  public:
   Ensemble(MPI_Comm comm, ReadScene read, const OptionsDatabase& database)
-      : comm_(comm), read_(std::move(read)), database_(database), scene_(read_.scene) {}
+      : comm_(comm), read_(std::move(read)), database_(database), scene_(read_.scene) {
+    scene_.keeps_matrices = true;
+  }
 
   void run(const SceneOrigin& origin) {
     require_ensemble_scene(scene_);
@@ -146,6 +148,7 @@ class Ensemble {
   /// The model of the whole job, which computes the bases, and that of this rank alone.
   void build() {
     for (Structure& structure : scene_.structures) {
+      if (!structure.modal) continue;
       std::string& file = structure.modal->basis_file;
       if (file.empty() && !scene_.dry_run) file = path(("basis_" + structure.name + ".h5").c_str());
     }
@@ -165,8 +168,8 @@ class Ensemble {
     }
     parts_.model = &model();
     for (std::size_t s = 0; s < model().systems.size(); ++s) {
-      parts_.bases.push_back(*model().buildings[s].basis);
-      parts_.bases[s].rows = model().systems[s].generalised->rows;
+      parts_.bases.push_back(model().buildings[s].basis);
+      if (parts_.bases[s]) parts_.bases[s]->rows = model().systems[s].generalised->rows;
     }
   }
 
@@ -245,15 +248,24 @@ class Ensemble {
     return BatchRecorder::memory(layout_.channels.size() + layout_.forces.size(), times_);
   }
 
-  void check_memory() const {
-    const double wanted = memory() * size_of(comm_);
+  /// Memory of eight members at full order [bytes]; collective.
+  double full_order_memory() const {
+    double bytes = parts_.memory();
+    MPI_Allreduce(MPI_IN_PLACE, &bytes, 1, MPI_DOUBLE, MPI_SUM, comm_);
+    return own_ ? bytes / size_of(comm_) : bytes;  // of a dry run every rank has its part alone
+  }
+
+  void check_memory() {
+    state_memory_ = full_order_memory();
+    const double wanted = (memory() + state_memory_) * size_of(comm_);
     double available = available_memory();
     MPI_Bcast(&available, 1, MPI_DOUBLE, 0, comm_);
     if (wanted <= available) return;
     throw UserError(sentence(
-        "option -ensemble: eight histories of {} channels on each of {} ranks take {:.1f} GB, "
+        "option -ensemble: eight histories of {} channels{} on each of {} ranks take {:.1f} GB, "
         "{:.1f} are free; give a larger -output_interval, fewer probes, or fewer ranks",
-        {layout_.channels.size(), size_of(comm_), wanted / 1e9, available / 1e9}));
+        {layout_.channels.size(), state_memory_ > 0 ? " and eight runs at full order" : "",
+         size_of(comm_), wanted / 1e9, available / 1e9}));
   }
 
   void print_plan() const {
@@ -261,7 +273,16 @@ class Ensemble {
         "ensemble {}: {} members, {} at a time on each rank; time step {:.6g} s, {} steps\n  {}\n"
         "  histories in memory: {:.0f MB} per rank\n",
         {table_.file, members_.size(), batch_size, shared_.time_step, shared_.steps,
-         step_source_text(scene_, shared_), memory()}));
+         step_source_text(scene_, shared_), memory() / 1e6}));
+    for (std::size_t s = 0; s < parts_.bases.size(); ++s) {
+      if (parts_.bases[s]) continue;
+      print(sentence("  structure {}: at full order, stepped {}\n",
+                     {scene_.structures[s].name,
+                      parts_.steps_alone(s) ? "run by run" : "eight runs at a time"}));
+    }
+    if (state_memory_ > 0) {
+      print(sentence("  eight runs at full order: {:.0f} MB per rank\n", {state_memory_ / 1e6}));
+    }
   }
 
   void open_file() {
@@ -293,6 +314,7 @@ class Ensemble {
     const double start = MPI_Wtime();
     on_every_rank(comm_, [&] {
       if (missing_.empty()) return;
+      parts_.multiply_together();
       BatchRecorder recorder(model(), times_);
       const std::size_t stride = batch_size * static_cast<std::size_t>(size_of(comm_));
       const std::size_t begin = batch_size * static_cast<std::size_t>(rank_of(comm_));
@@ -368,6 +390,7 @@ class Ensemble {
   std::optional<Model>
       own_;  ///< of this rank alone; none on one rank, where the shared one is that
   EnsembleModel parts_;
+  double state_memory_ = 0;  ///< of eight members at full order, per rank [bytes]
   BatchRecorder::Times times_;
   std::optional<EnsembleFile> file_;
   MemberDoubts doubts_;

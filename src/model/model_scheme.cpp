@@ -135,7 +135,7 @@ void ModelScheme::make_stepper() {
           s, parts.meshes[s], system, parts.time_step, std::move(laws))));
     }
     const bool braked_in_batch =
-        !parts.batch.structures.empty() && parts.batch.structures[s].brakes(parts.batch.number);
+        parts.batch.of(s) != nullptr && parts.batch.of(s)->brakes(parts.batch.number);
     links_.push_back(system.links && !braked_in_batch
                          ? &stepper_->add(interactions::make_links(system, s, parts.time_step))
                          : nullptr);

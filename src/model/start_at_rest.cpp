@@ -63,7 +63,9 @@ void put_at_rest(MPI_Comm comm, const Scene& scene, std::span<const Mesh> meshes
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
     model.systems[s].rest_displacement = std::move(model.equilibrium->displacement[s]);
     model.systems[s].rest_law_force = std::move(model.equilibrium->law_force[s]);
-    if (scene.export_matrices.empty()) model.systems[s].stiffness->release_matrix();
+    if (scene.export_matrices.empty() && !scene.keeps_matrices) {
+      model.systems[s].stiffness->release_matrix();
+    }
   }
   model.equilibrium->displacement.clear();
   model.equilibrium->law_force.clear();

@@ -121,7 +121,8 @@ struct Scene {
   double fields_start = 0;     ///< of the first [s]
   double fields_end = 0;       ///< of the last at most [s]; 0: the end of the run
   FieldsFormat fields_format = FieldsFormat::both;
-  bool preload = false;  ///< start from the static equilibrium
+  bool preload = false;         ///< start from the static equilibrium
+  bool keeps_matrices = false;  ///< after it, for members of an ensemble
   SolverChoice preload_solver = SolverChoice::automatic;
   double gap_tolerance = 0;      ///< contact where gap <= gap_tolerance x model size [-]
   double impact_merge_time = 0;  ///< contacts separated by less are one episode [s]

@@ -34,7 +34,11 @@ class AssembledRows {
   const std::vector<LocalIndex>& ghost_rows() const { return ghost_part_.rows; }
 
   /// q += the part that owned values, or ghosts, contribute.
-  void add_owned(const double* owned, double* q) const { add_product(owned_part_, owned, q); }
+  /// `Number`: double, or BatchValue of eight runs.
+  template <typename Number>
+  void add_owned(const Number* owned, Number* q) const {
+    add_product(owned_part_, owned, q);
+  }
   void add_ghosts(const double* ghosts, double* q) const { add_product(ghost_part_, ghosts, q); }
 
  private:
@@ -44,7 +48,8 @@ class AssembledRows {
     std::vector<LocalIndex> columns;    ///< sorted within a row
     std::vector<double> values;
   };
-  static void add_product(const Part& part, const double* w, double* q);
+  template <typename Number>
+  static void add_product(const Part& part, const Number* w, Number* q);
   static void add_entry(Part& part, LocalIndex row, LocalIndex column, double value);
 
   LocalIndex owned_dofs_;

@@ -4,12 +4,19 @@
 #include <span>
 #include <vector>
 
+#include "common/batch_value.h"
 #include "common/lanes.h"
 #include "common/matrix3.h"
 #include "common/types.h"
 #include "elements/element_traits.h"
 
 namespace pounding::stiffness {
+
+/// Three components of four beams, or of one beam in several runs.
+template <typename Value>
+struct VectorsOf {
+  Value x, y, z;
+};
 
 /// Beams, four at a time, from their ten local stiffnesses and their axes instead of 12 x 12
 /// matrices. With d = u_1 - u_2, the rotations r_1, r_2 in local axes, and Phi of beam2.h, which is
@@ -42,6 +49,8 @@ class BeamElements {
 
   /// q += K w; both arrays hold all slots. Allocates nothing.
   void apply(const double* w, double* q) const;
+  /// The same in eight runs, one beam after the other.
+  void apply(const BatchValue* w, BatchValue* q) const;
 
  private:
   struct Batch {
@@ -52,6 +61,9 @@ class BeamElements {
     Lanes bending_y[4] = {};
     Lanes bending_z[4] = {};
   };
+  template <typename Value>
+  static void product(const Batch& beams, const auto& number, VectorsOf<Value> (&ends)[4]);
+
   std::vector<Batch> batches_;
 };
 

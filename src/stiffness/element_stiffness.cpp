@@ -60,7 +60,7 @@ void append(std::vector<DofRange>& ranges, LocalIndex dof) {
 }  // namespace
 
 ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
-                                   std::unique_ptr<Stiffness> assembled, const ProductForms& forms)
+                                   std::shared_ptr<Stiffness> assembled, const ProductForms& forms)
     : owned_dofs_(mesh.owned_dofs), assembled_(std::move(assembled)) {
   const std::vector<GlobalIndex> ghosts = ghost_dofs(mesh);
   for (LocalIndex node = 0; node < mesh.owned_nodes && origin_dof_ < 0; ++node) {

@@ -31,7 +31,7 @@ class ElementStiffness final : public Stiffness {
   /// `assembled` lends its matrix to those who ask for it; may be null, then matrix() is.
   /// Collective.
   ElementStiffness(const Structure& structure, const Mesh& mesh,
-                   std::unique_ptr<Stiffness> assembled, const ProductForms& forms = {});
+                   std::shared_ptr<Stiffness> assembled, const ProductForms& forms = {});
   ~ElementStiffness() override;
 
   using Stiffness::apply;
@@ -59,7 +59,7 @@ class ElementStiffness final : public Stiffness {
 
   LocalIndex owned_dofs_ = 0;
   LocalIndex origin_dof_ = -1;  ///< first of x, y, z of a node that moves freely; -1: there is none
-  std::unique_ptr<Stiffness> assembled_;
+  std::shared_ptr<Stiffness> assembled_;
   std::unique_ptr<Halo> halo_;
   Part inner_;                             ///< elements of owned nodes only
   Part outer_;                             ///< elements that touch a ghost

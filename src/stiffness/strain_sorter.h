@@ -30,6 +30,13 @@ struct GeneralElements {
     quadrangles.apply(w, q);
     triangles.apply(w, q);
   }
+  /// In eight runs, see StrainElements.
+  void apply(const BatchValue* w, BatchValue* q, LocalIndex idle) const {
+    hexahedra.apply(w, q, idle);
+    for (const auto& elements : extruded) elements.apply(w, q, idle);
+    quadrangles.apply(w, q, idle);
+    triangles.apply(w, q, idle);
+  }
 };
 
 /// Collects the elements of a rank that are applied by their strains. Local.

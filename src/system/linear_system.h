@@ -55,7 +55,7 @@ struct GeneralisedCoordinates {
 /// the motions u are those that rigid bodies and ties admit (see RigidBody, TiedPart), with M
 /// diagonal, D the damping beside alpha and beta (dashpots, and regions damped otherwise), and S
 /// the mass that stiff elements are given for a longer time step, mostly none. Arrays hold this
-/// rank's owned dofs. Constant during a run.
+/// rank's owned dofs. Constant during a run; copies share their operators.
 struct LinearSystem {
   std::string name;
   MPI_Comm comm = MPI_COMM_SELF;
@@ -70,10 +70,10 @@ struct LinearSystem {
   /// Label of the node of every owned dof in the files that the matrices come from; empty without.
   std::vector<std::string> node_labels;
   /// Null for a model whose dofs are components of nodes.
-  std::unique_ptr<GeneralisedCoordinates> generalised;
-  std::unique_ptr<stiffness::Stiffness> stiffness;  ///< K of all elements that hold a stiffness
+  std::shared_ptr<GeneralisedCoordinates> generalised;
+  std::shared_ptr<stiffness::Stiffness> stiffness;  ///< K of all elements that hold a stiffness
   std::string stiffness_method;                     ///< how it is applied, for the report
-  std::unique_ptr<stiffness::Stiffness> taut;  ///< K with links at their stiffest; null without
+  std::shared_ptr<stiffness::Stiffness> taut;  ///< K with links at their stiffest; null without
   std::shared_ptr<Links> links;                ///< null if there are none
   /// Laws by which elements yield or break: their forces beside K u.
   std::vector<interactions::RegionLaw> laws;
@@ -81,7 +81,7 @@ struct LinearSystem {
   std::shared_ptr<const SupportShapes> supports;
   /// Loads with a history of their own; null where none acts on it.
   std::shared_ptr<const LoadShapes> loads;
-  std::unique_ptr<stiffness::Stiffness> extra_damping;  ///< D [N s/m, N m s]; null if there is none
+  std::shared_ptr<stiffness::Stiffness> extra_damping;  ///< D [N s/m, N m s]; null if there is none
   /// Per owned dof, whether a law of `laws` may act on it; empty without any.
   std::vector<char> inelastic;
   MassScaling mass_scaling;
@@ -92,7 +92,7 @@ struct LinearSystem {
   RotaryScaling rotary_scaling;               ///< in `lumped_mass` already
   std::vector<RigidBodyReport> rigid_bodies;  ///< and ties, of all ranks
   /// M + S of the dofs in S, the rigid bodies and ties; null if this rank has none of them.
-  std::unique_ptr<CoupledMass> coupled_mass;
+  std::shared_ptr<CoupledMass> coupled_mass;
   Vector3 initial_displacement{0, 0, 0};  ///< of every translation at t = 0 [m]
   Vector3 initial_velocity{0, 0, 0};      ///< of every translation at t = 0 [m/s]
   /// State at t = 0 in place of these two where nodes start differently; null where they do not.

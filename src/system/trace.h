@@ -51,6 +51,8 @@ class Trace {
   std::span<const double> row(std::size_t k) const {
     return {rows_.data() + k * dofs_.size(), dofs_.size()};
   }
+  /// The owned dof that is known point k of a mesh; -1 if it is clamped.
+  LocalIndex dof(std::size_t k) const { return own_dof_[k] < 0 ? -1 : dofs_[own_dof_[k]]; }
   /// owned += f (row k of T)^T, over all owned dofs.
   void add_force(std::size_t k, double f, std::span<double> owned) const;
   /// The part of (T M^-1 T^T) of two known points [1/kg].

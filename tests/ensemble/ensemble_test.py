@@ -321,7 +321,6 @@ class Refusals(unittest.TestCase):
         program.must_refuse(self, [*SCENE, *words, "-ensemble", table(rows, columns), "-output", output], *parts)
 
     def test_what_it_cannot_do(self):
-        self.refuse([], "structure left is not reduced", "-left_model modal")
         self.refuse([*MODAL, "-floor1_sliding", "0.05"], "floor1_sliding out")
         self.refuse([*MODAL, "-fields_interval", "0.1"], "fields are written")
 

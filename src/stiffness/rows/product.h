@@ -9,18 +9,21 @@
 
 namespace pounding::stiffness {
 
-/// Argument of a stiffness, w = u + beta v over the owned dofs; formed where it is read.
-struct StiffnessArgument {
-  const double* displacement = nullptr;  ///< u [m, rad]
-  const double* velocity = nullptr;      ///< v [m/s, rad/s]
-  double beta = 0;                       ///< [s]
+/// Argument of a stiffness, w = u + beta v over the owned dofs; formed where it is read. `Number`:
+/// double, or that of several products at once.
+template <typename Number>
+struct ArgumentOf {
+  const Number* displacement = nullptr;  ///< u [m, rad]
+  const Number* velocity = nullptr;      ///< v [m/s, rad/s]
+  Number beta{};                         ///< [s]
   /// A translation [m] that elements which do not feel it may take off first: what is left of a
   /// body far from where it started has more digits.
   std::array<double, 3> origin{};
 
-  double operator[](std::size_t dof) const { return displacement[dof] + beta * velocity[dof]; }
-  double operator[](LocalIndex dof) const { return displacement[dof] + beta * velocity[dof]; }
+  Number operator[](std::size_t dof) const { return displacement[dof] + beta * velocity[dof]; }
+  Number operator[](LocalIndex dof) const { return displacement[dof] + beta * velocity[dof]; }
 };
+using StiffnessArgument = ArgumentOf<double>;
 
 /// Owned dofs that follow each other.
 struct DofRange {
@@ -43,15 +46,16 @@ class ReceiverOf {
 using ForceReceiver = ReceiverOf<double>;
 
 /// Keeps a product in an array over the owned dofs, which must outlive this object.
-class StoredForces final : public ForceReceiver {
+template <typename Number>
+class StoredForces final : public ReceiverOf<Number> {
  public:
-  explicit StoredForces(double* product) : product_(product) {}
-  void receive(LocalIndex begin, LocalIndex end, const double* force) override {
+  explicit StoredForces(Number* product) : product_(product) {}
+  void receive(LocalIndex begin, LocalIndex end, const Number* force) override {
     std::copy(force, force + (end - begin), product_ + begin);
   }
 
  private:
-  double* product_;
+  Number* product_;
 };
 
 /// Where the value of a dof stands: owned dofs in an array of their own, ghosts in another. A slot

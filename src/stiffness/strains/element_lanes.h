@@ -17,6 +17,16 @@ inline constexpr std::size_t element_lane_count = wide_lane_count;
 
 using ElementLanes = WideLanes;
 
+/// Numbers of one element of a batch, each in all lanes: for its products in several runs at once.
+struct NumbersOfOne {
+  const double* first;  ///< the element's lane of the batch's numbers
+
+  __attribute__((always_inline)) ElementLanes operator[](std::size_t k) const {
+    return all_wide(first[k * element_lane_count]);
+  }
+  NumbersOfOne operator+(std::size_t k) const { return {first + k * element_lane_count}; }
+};
+
 #ifdef __AVX512F__
 
 /// Four values of element `first`, then of the one four further.
@@ -100,13 +110,13 @@ constexpr std::size_t packed_size(std::size_t size) {
 }
 
 /// force = S strain; S row by row of its lower triangle.
-template <std::size_t size>
-static inline __attribute__((always_inline)) void packed_product(const ElementLanes* matrix,
+template <std::size_t size, typename Numbers>
+static inline __attribute__((always_inline)) void packed_product(Numbers matrix,
                                                                  const ElementLanes* strain,
                                                                  ElementLanes* force) {
 #pragma GCC unroll 16
   for (std::size_t i = 0; i < size; ++i) {
-    const ElementLanes* const row = matrix + packed_size(i);
+    const Numbers row = matrix + packed_size(i);
     ElementLanes sum = row[i] * strain[i];
 #pragma GCC unroll 16
     for (std::size_t j = 0; j < i; ++j) {
@@ -118,9 +128,8 @@ static inline __attribute__((always_inline)) void packed_product(const ElementLa
 }
 
 /// Turns vectors of three components into axes (three rows of three numbers).
-template <std::size_t count>
-static inline __attribute__((always_inline)) void turn_into(const ElementLanes* axes,
-                                                            ElementLanes* vectors) {
+template <std::size_t count, typename Numbers>
+static inline __attribute__((always_inline)) void turn_into(Numbers axes, ElementLanes* vectors) {
 #pragma GCC unroll 8
   for (std::size_t v = 0; v < 3 * count; v += 3) {
     const ElementLanes x = vectors[v], y = vectors[v + 1], z = vectors[v + 2];
@@ -131,9 +140,8 @@ static inline __attribute__((always_inline)) void turn_into(const ElementLanes* 
 }
 
 /// Turns them back.
-template <std::size_t count>
-static inline __attribute__((always_inline)) void turn_back(const ElementLanes* axes,
-                                                            ElementLanes* vectors) {
+template <std::size_t count, typename Numbers>
+static inline __attribute__((always_inline)) void turn_back(Numbers axes, ElementLanes* vectors) {
 #pragma GCC unroll 8
   for (std::size_t v = 0; v < 3 * count; v += 3) {
     const ElementLanes x = vectors[v], y = vectors[v + 1], z = vectors[v + 2];

@@ -109,12 +109,14 @@ constexpr std::array<std::size_t, strain_count> grouped_strains() {
 }
 
 /// value += number * other, unless the number is zero for all such elements.
-inline __attribute__((always_inline)) void add(const ElementLanes* n, int offset,
-                                               const ElementLanes& other, ElementLanes& value) {
+template <typename Numbers>
+inline __attribute__((always_inline)) void add(Numbers n, int offset, const ElementLanes& other,
+                                               ElementLanes& value) {
   if (offset != none) value = plus(value, n[offset], other);
 }
-inline __attribute__((always_inline)) void take(const ElementLanes* n, int offset,
-                                                const ElementLanes& other, ElementLanes& value) {
+template <typename Numbers>
+inline __attribute__((always_inline)) void take(Numbers n, int offset, const ElementLanes& other,
+                                                ElementLanes& value) {
   if (offset != none) value = less(value, n[offset], other);
 }
 
@@ -149,7 +151,8 @@ std::array<std::size_t, 8> corners_along(std::size_t third) {
 }  // namespace
 
 template <bool extruded>
-void HexahedronStrains<extruded>::product(const ElementLanes* n, ElementLanes* values) {
+template <typename Numbers>
+void HexahedronStrains<extruded>::product(Numbers n, ElementLanes* values) {
   constexpr Offsets offsets = number_offsets<extruded>();
   constexpr auto order = grouped_strains<extruded>();
   ElementLanes c[strain_count];
@@ -301,6 +304,10 @@ std::array<double, HexahedronStrains<extruded>::number_count> HexahedronStrains<
 
 template struct HexahedronStrains<false>;
 template struct HexahedronStrains<true>;
+template void HexahedronStrains<false>::product(const ElementLanes*, ElementLanes*);
+template void HexahedronStrains<false>::product(NumbersOfOne, ElementLanes*);
+template void HexahedronStrains<true>::product(const ElementLanes*, ElementLanes*);
+template void HexahedronStrains<true>::product(NumbersOfOne, ElementLanes*);
 
 std::optional<Extrusion> Extrusion::find(std::span<const double> coordinates) {
   double extent = 0;

@@ -47,8 +47,10 @@ struct HexahedronStrains {
   static std::array<double, number_count> numbers(std::span<const double> coordinates,
                                                   std::span<const double> stiffness);
 
-  /// Forces in the place of displacements, of a batch of elements.
-  static void product(const ElementLanes* numbers, ElementLanes* values);
+  /// Forces in the place of displacements, of a batch of elements or, by NumbersOfOne, of several
+  /// runs.
+  template <typename Numbers>
+  static void product(Numbers numbers, ElementLanes* values);
 };
 
 /// How a hexahedron whose ends are alike, and across a global axis, is seen along that axis.

@@ -35,8 +35,8 @@ struct PlaneFrame {
 
 /// Stress of plane strains: moduli of the sum, and of the difference and slip. The gradients of
 /// both components become what works on them.
-static inline __attribute__((always_inline)) void plane_stress(const ElementLanes* moduli,
-                                                               PlaneGradient& of_x,
+template <typename Numbers>
+static inline __attribute__((always_inline)) void plane_stress(Numbers moduli, PlaneGradient& of_x,
                                                                PlaneGradient& of_y) {
   const ElementLanes sum = moduli[0] * (of_x.x + of_y.y);
   const ElementLanes difference = moduli[1] * (of_x.x - of_y.y);

@@ -12,8 +12,8 @@ struct Differences {
   ElementLanes p, r, h;
 };
 
-inline __attribute__((always_inline)) Differences differences(const ElementLanes* skew,
-                                                              const ElementLanes& f1,
+template <typename Numbers>
+inline __attribute__((always_inline)) Differences differences(Numbers skew, const ElementLanes& f1,
                                                               const ElementLanes& f2,
                                                               const ElementLanes& f3,
                                                               const ElementLanes& f4) {
@@ -23,7 +23,8 @@ inline __attribute__((always_inline)) Differences differences(const ElementLanes
 }
 
 /// Forces at the four nodes of what works on the differences.
-inline __attribute__((always_inline)) void nodal_forces(const ElementLanes* skew, Differences work,
+template <typename Numbers>
+inline __attribute__((always_inline)) void nodal_forces(Numbers skew, Differences work,
                                                         ElementLanes* force) {
   work.p = less(work.p, skew[0], work.h);
   work.r = less(work.r, skew[1], work.h);
@@ -34,10 +35,10 @@ inline __attribute__((always_inline)) void nodal_forces(const ElementLanes* skew
 }
 
 /// u_x, u_y, r_z of the nodes become forces.
-inline __attribute__((always_inline)) void quadrangle_membrane(const ElementLanes* n,
-                                                               const PlaneFrame& frame,
+template <typename Numbers>
+inline __attribute__((always_inline)) void quadrangle_membrane(Numbers n, const PlaneFrame& frame,
                                                                ElementLanes* values) {
-  const ElementLanes* const skew = n + Quadrangle::skew;
+  const auto skew = n + Quadrangle::skew;
   Differences u = differences(skew, values[0], values[6], values[12], values[18]);
   Differences v = differences(skew, values[1], values[7], values[13], values[19]);
   PlaneGradient of_u = frame.gradient(u.p, u.r);
@@ -60,11 +61,11 @@ inline __attribute__((always_inline)) void quadrangle_membrane(const ElementLane
 }
 
 /// u_z, r_x, r_y of the nodes become forces.
-inline __attribute__((always_inline)) void quadrangle_plate(const ElementLanes* n,
-                                                            const PlaneFrame& frame,
+template <typename Numbers>
+inline __attribute__((always_inline)) void quadrangle_plate(Numbers n, const PlaneFrame& frame,
                                                             ElementLanes* values) {
-  const ElementLanes* const skew = n + Quadrangle::skew;
-  const ElementLanes* const edge = n + Quadrangle::edges;
+  const auto skew = n + Quadrangle::skew;
+  const auto edge = n + Quadrangle::edges;
   const ElementLanes x41 = -(edge[0] + edge[2] + edge[4]);
   const ElementLanes y41 = -(edge[1] + edge[3] + edge[5]);
   const auto shear = [&](std::size_t a, std::size_t b, const ElementLanes& x,
@@ -105,16 +106,16 @@ inline __attribute__((always_inline)) void quadrangle_plate(const ElementLanes* 
 using Triangle = TriangleStrains;
 
 /// u_x, u_y, r_z of the nodes become forces.
-inline __attribute__((always_inline)) void triangle_membrane(const ElementLanes* n,
-                                                             const PlaneFrame& frame,
+template <typename Numbers>
+inline __attribute__((always_inline)) void triangle_membrane(Numbers n, const PlaneFrame& frame,
                                                              ElementLanes* values) {
   PlaneGradient of_u = frame.gradient(values[6] - values[0], values[12] - values[0]);
   PlaneGradient of_v = frame.gradient(values[7] - values[1], values[13] - values[1]);
-  const ElementLanes& spin = n[Triangle::spin];
+  const ElementLanes spin = n[Triangle::spin];
   const ElementLanes angle = spin * (of_v.x - of_u.y);
   const ElementLanes strain[3] = {values[5] - angle, values[11] - angle, values[17] - angle};
   const ElementLanes sum = strain[0] + strain[1] + strain[2];
-  const ElementLanes& drilling = n[Triangle::drilling];
+  const ElementLanes drilling = n[Triangle::drilling];
   for (std::size_t a = 0; a < 3; ++a) values[6 * a + 5] = drilling * (strain[a] + sum);
   const ElementLanes moment = values[5] + values[11] + values[17];
   plane_stress(n + Triangle::stretch, of_u, of_v);
@@ -129,8 +130,8 @@ inline __attribute__((always_inline)) void triangle_membrane(const ElementLanes*
 }
 
 /// u_z, r_x, r_y of the nodes become forces.
-inline __attribute__((always_inline)) void triangle_plate(const ElementLanes* n,
-                                                          const PlaneFrame& frame,
+template <typename Numbers>
+inline __attribute__((always_inline)) void triangle_plate(Numbers n, const PlaneFrame& frame,
                                                           ElementLanes* values) {
   const ElementLanes x[3] = {frame.x_p, frame.x_r - frame.x_p, -frame.x_r};
   const ElementLanes y[3] = {frame.y_p, frame.y_r - frame.y_p, -frame.y_r};
@@ -161,7 +162,8 @@ inline __attribute__((always_inline)) void triangle_plate(const ElementLanes* n,
 
 }  // namespace
 
-void QuadrangleStrains::product(const ElementLanes* n, ElementLanes* values) {
+template <typename Numbers>
+void QuadrangleStrains::product(Numbers n, ElementLanes* values) {
   turn_into<8>(n + axes, values);
   const ElementLanes heights[4] = {-n[height], n[height], -n[height], n[height]};
   for (std::size_t a = 0; a < 4; ++a) {
@@ -169,7 +171,7 @@ void QuadrangleStrains::product(const ElementLanes* n, ElementLanes* values) {
     node[0] = less(node[0], heights[a], node[4]);
     node[1] = plus(node[1], heights[a], node[3]);
   }
-  const ElementLanes* const edge = n + edges;
+  const auto edge = n + edges;
   const PlaneFrame frame{edge[0] + edge[2], edge[1] + edge[3], edge[2] + edge[4],
                          edge[3] + edge[5]};
   quadrangle_membrane(n, frame, values);
@@ -239,7 +241,8 @@ std::array<double, QuadrangleStrains::number_count> QuadrangleStrains::numbers(
   return n;
 }
 
-void TriangleStrains::product(const ElementLanes* n, ElementLanes* values) {
+template <typename Numbers>
+void TriangleStrains::product(Numbers n, ElementLanes* values) {
   turn_into<6>(n + axes, values);
   const PlaneFrame frame{n[edges], ElementLanes{}, n[edges + 1], n[edges + 2]};
   triangle_membrane(n, frame, values);
@@ -280,5 +283,10 @@ std::array<double, TriangleStrains::number_count> TriangleStrains::numbers(
   fields.put_moduli(jacobian, stiffness, &n[stretch], &n[bend]);
   return n;
 }
+
+template void QuadrangleStrains::product(const ElementLanes*, ElementLanes*);
+template void QuadrangleStrains::product(NumbersOfOne, ElementLanes*);
+template void TriangleStrains::product(const ElementLanes*, ElementLanes*);
+template void TriangleStrains::product(NumbersOfOne, ElementLanes*);
 
 }  // namespace pounding::stiffness

@@ -43,8 +43,9 @@ struct QuadrangleStrains {
   static std::array<double, number_count> numbers(std::span<const double> coordinates,
                                                   std::span<const double> stiffness);
 
-  /// Forces in the place of displacements, of a batch of elements.
-  static void product(const ElementLanes* numbers, ElementLanes* values);
+  /// See HexahedronStrains.
+  template <typename Numbers>
+  static void product(Numbers numbers, ElementLanes* values);
 };
 
 /// Strains of a triangle of a shell in axes of its own, x along its first edge, z normal: three of
@@ -70,8 +71,9 @@ struct TriangleStrains {
   static std::array<double, number_count> numbers(std::span<const double> coordinates,
                                                   std::span<const double> stiffness);
 
-  /// Forces in the place of displacements, of a batch of elements.
-  static void product(const ElementLanes* numbers, ElementLanes* values);
+  /// See HexahedronStrains.
+  template <typename Numbers>
+  static void product(Numbers numbers, ElementLanes* values);
 };
 
 }  // namespace pounding::stiffness

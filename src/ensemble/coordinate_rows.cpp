@@ -1,0 +1,80 @@
+#include "ensemble/coordinate_rows.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "common/row_products.h"
+
+namespace pounding {
+namespace {
+
+BatchValue gathered(const StatesOfRuns& states, const std::vector<double> StructureState::*part,
+                    std::size_t i) {
+  BatchValue value{};
+  for (std::size_t run = 0; run < batch_size && states.own[run] != nullptr; ++run) {
+    value[run] = (states.own[run]->*part)[i];
+  }
+  return value;
+}
+
+}  // namespace
+
+BatchValue StatesOfRuns::displacement(std::size_t i) const {
+  return batch != nullptr ? batch->state().displacement[i]
+                          : gathered(*this, &StructureState::displacement, i);
+}
+
+BatchValue StatesOfRuns::velocity(std::size_t i) const {
+  return batch != nullptr ? batch->state().velocity[i]
+                          : gathered(*this, &StructureState::velocity, i);
+}
+
+CoordinateRows::CoordinateRows(std::size_t rows, const LinearSystem& system)
+    : rows_(rows), width_(system.generalised ? system.lumped_mass.size() : 0) {
+  values_.assign(rows_ * width_, 0.0);
+}
+
+void CoordinateRows::add(std::size_t row, double factor, const Trace& trace, std::size_t k,
+                         double divisor) {
+  if (width_ == 0) {
+    if (trace.dof(k) >= 0) entries_.push_back({row, trace.dof(k), factor / divisor});
+    return;
+  }
+  const std::span<const double> of_point = trace.row(k);
+  for (std::size_t i = 0; i < width_; ++i) {
+    values_[row * width_ + i] += factor * of_point[i] / divisor;
+  }
+}
+
+void CoordinateRows::multiply_entries(const auto& value, BatchValue* products) const {
+  std::fill(products, products + rows_, BatchValue{});
+  for (const Entry& entry : entries_) {
+    products[entry.row] += value(static_cast<std::size_t>(entry.dof)) * entry.coefficient;
+  }
+}
+
+void CoordinateRows::multiply_displacements(const StatesOfRuns& states,
+                                            BatchValue* products) const {
+  if (width_ == 0) {
+    return multiply_entries([&](std::size_t i) { return states.displacement(i); }, products);
+  }
+  multiply_rows(values_.data(), rows_, width_, states.batch->state().displacement.data(), products);
+}
+
+void CoordinateRows::multiply_velocities(const StatesOfRuns& states, BatchValue* products) const {
+  if (width_ == 0) {
+    return multiply_entries([&](std::size_t i) { return states.velocity(i); }, products);
+  }
+  multiply_rows(values_.data(), rows_, width_, states.batch->state().velocity.data(), products);
+}
+
+double CoordinateRows::product(std::size_t row, std::span<const double> x) const {
+  if (width_ > 0) return std::inner_product(x.begin(), x.end(), &values_[row * width_], 0.0);
+  double sum = 0;
+  for (const Entry& entry : entries_) {
+    if (entry.row == row && !x.empty()) sum += entry.coefficient * x[entry.dof];
+  }
+  return sum;
+}
+
+}  // namespace pounding

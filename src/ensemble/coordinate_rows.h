@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "dynamics/batch_step.h"
+#include "system/linear_system.h"
+#include "system/trace.h"
+
+namespace pounding {
+
+/// The states of one structure in up to eight runs, wherever they are stepped.
+struct StatesOfRuns {
+  const BatchStep* batch = nullptr;                     ///< null: each run steps its own
+  std::array<const StructureState*, batch_size> own{};  ///< null beyond the last run
+
+  /// u_n of a coordinate in every run, or v-.
+  BatchValue displacement(std::size_t i) const;
+  BatchValue velocity(std::size_t i) const;
+};
+
+/// Rows over the coordinates of one structure, of displacements at places of its mesh: of
+/// generalised coordinates whole ones, at full order a few dofs.
+class CoordinateRows {
+ public:
+  /// `system`: of any of the runs.
+  CoordinateRows(std::size_t rows, const LinearSystem& system);
+  std::size_t rows() const { return rows_; }
+
+  /// row += factor * (known point k of a trace) / divisor.
+  void add(std::size_t row, double factor, const Trace& trace, std::size_t k, double divisor = 1);
+  /// products := rows times displacements, or velocities. Allocates nothing.
+  void multiply_displacements(const StatesOfRuns& states, BatchValue* products) const;
+  void multiply_velocities(const StatesOfRuns& states, BatchValue* products) const;
+  /// One row times the coordinates `x` of one run.
+  double product(std::size_t row, std::span<const double> x) const;
+
+ private:
+  struct Entry {
+    std::size_t row = 0;
+    LocalIndex dof = 0;
+    double coefficient = 0;
+  };
+  void multiply_entries(const auto& value, BatchValue* products) const;
+
+  std::size_t rows_;
+  std::size_t width_ = 0;       ///< generalised coordinates; 0 at full order
+  std::vector<double> values_;  ///< of these, shape (rows, width)
+  std::vector<Entry> entries_;  ///< at full order
+};
+
+}  // namespace pounding
