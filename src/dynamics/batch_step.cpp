@@ -54,7 +54,7 @@ double BatchStep::memory_per_dof(const LinearSystem& system) {
   const std::size_t filters =
       system.uniform_damping ? system.uniform_damping->filters.size() + 1 : 0;
   const std::size_t columns = system.supports ? system.supports->shape.size() + 1 : 0;
-  // u, v, K v and w, q of the product; of the runs u, v and what a LinearSystem has per dof.
+  // u, v, K v and w, q of the product; of the runs u, v and the arrays of a LinearSystem.
   const std::size_t together = 5 + filters + columns;
   const std::size_t alone = 2 + filters + columns + 3;
   return static_cast<double>((together + alone) * sizeof(BatchValue));

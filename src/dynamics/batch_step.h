@@ -17,10 +17,11 @@
 
 namespace pounding {
 
-/// Brings eight runs of a structure one step on together (StructureStep), in generalised coordinates
-/// or at full order. Each run is a BatchMember of it, which interactions correct alone, but for
-/// links of generalised coordinates that are all dashpots: the step itself brakes those runs by them whose dashpots and masses
-/// are those of the scene, before any other interaction. Local; a step allocates nothing.
+/// Brings eight runs of a structure one step on together (StructureStep), in generalised
+/// coordinates or at full order. Each run is a BatchMember of it, which interactions correct alone,
+/// but for links of generalised coordinates that are all dashpots: the step itself brakes those
+/// runs by them whose dashpots and masses are those of the scene, before any other interaction.
+/// Local; a step allocates nothing.
 class BatchStep {
  public:
   /// `systems`: of each run, alike in their numbers of coordinates; their states are zero.
@@ -82,7 +83,7 @@ class BatchMember final : public SteppedRun<BatchValue> {
   /// Puts `state` into the batch. Both references must outlive this object.
   BatchMember(BatchStep& batch, std::size_t member, StructureState& state);
 
-  /// At full order those of the watched dofs, unless the state has been brought.
+  /// All coordinates; at full order the watched dofs, unless the state has been brought.
   const std::vector<double>& displacement() const override;
   const std::vector<double>& velocity() const override;
   void watch(std::span<const LocalIndex> dofs, bool always) override;

@@ -77,4 +77,21 @@ double CoordinateRows::product(std::size_t row, std::span<const double> x) const
   return sum;
 }
 
+CoordinateRows mean_rows(std::span<const ResolvedProbe* const> probes, const LinearSystem& system,
+                         const Trace& trace) {
+  CoordinateRows rows(3 * probes.size(), system);
+  std::size_t place = 0;
+  for (std::size_t p = 0; p < probes.size(); ++p) {
+    const std::size_t nodes = probes[p]->nodes.size();
+    for (std::size_t k = 0; k < 9 * nodes; ++k) {
+      const double weight = probes[p]->weight(k / 9, k / 3 % 3)[k % 3];
+      if (weight == 0) continue;
+      rows.add(3 * p + k / 3 % 3, weight, trace, place + k / 9 * 3 + k % 3,
+               static_cast<double>(nodes));
+    }
+    place += 3 * nodes;
+  }
+  return rows;
+}
+
 }  // namespace pounding

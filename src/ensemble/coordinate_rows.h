@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/batch_step.h"
+#include "mesh/probe_set.h"
 #include "system/linear_system.h"
 #include "system/trace.h"
 
@@ -49,5 +50,9 @@ class CoordinateRows {
   std::vector<double> values_;  ///< of these, shape (rows, width)
   std::vector<Entry> entries_;  ///< at full order
 };
+
+/// Means of probes on one structure, whose places `trace` has, as rows: those of probe_means.
+CoordinateRows mean_rows(std::span<const ResolvedProbe* const> probes, const LinearSystem& system,
+                         const Trace& trace);
 
 }  // namespace pounding

@@ -135,8 +135,9 @@ class BatchRecorder {
 };
 
 /// Up to eight members of an ensemble from t_0 to the end time, stepped together: the structures in
-/// batches (BatchStep) where that pays, interactions and outputs member by member (MemberRun). A member's results
-/// depend neither on its place nor on its companions. Local: nothing is communicated.
+/// batches (BatchStep) where that pays, interactions and outputs member by member (MemberRun). A
+/// member's results depend neither on its place nor on its companions. Local: nothing is
+/// communicated.
 class MemberBatch {
  public:
   /// All arguments must outlive this object. `members`: at most eight.

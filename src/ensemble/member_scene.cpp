@@ -32,8 +32,8 @@ void require_lasting_pairs(const Contact& contact) {
 /// Elements have the numbers of all members: no factor on their stiffness, nor on damping that
 /// others than the whole structure have.
 void require_shared_elements(const Structure& structure, const MemberTable& table) {
-  const auto refuse_column = [&](const char* what, const char* why) {
-    const std::string column = structure.name + what;
+  const auto refuse_column = [&](const char* option, const char* why) {
+    const std::string column = structure.name + option;
     if (std::ranges::count(table.columns, column) == 0) return;
     throw UserError("column " + column + ": structure " + structure.name + " is at full order" +
                     why +

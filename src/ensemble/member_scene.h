@@ -24,8 +24,8 @@ struct MemberScene {
   std::vector<double> stiffness_factors;  ///< per structure
 };
 
-/// Refuses scenes that cannot be stepped together: pairs that are found anew, records beside those of
-/// probes. Throws UserError.
+/// Refuses scenes that cannot be stepped together: pairs that are found anew, records beside those
+/// of probes. Throws UserError.
 void require_ensemble_scene(const Scene& scene);
 
 /// The scene of a member; `shared`: that of the ensemble, whose options are `scene`. Throws
@@ -45,12 +45,12 @@ double set_gap(const Scene& scene, std::span<const interactions::GivenGap> gaps,
 /// Model that the members share on a rank.
 struct EnsembleModel {
   const Model* model = nullptr;  ///< of the ensemble's scene, on this rank alone
-  /// Of every reduced structure, with rows, without a factor; empty at full order.
+  /// Bases of reduced structures, with rows, without a factor; empty at full order.
   std::vector<std::optional<ModalBasis>> bases;
-  /// K in eight runs of structures at full order that are stepped in batches; see multiply_together.
+  /// K in eight runs of structures at full order that batches step; see multiply_together.
   std::vector<std::unique_ptr<stiffness::BatchStiffness>> elements;
 
-  /// Every run steps the structure by itself: where most elements stand in rows, which are as fast
+  /// Every run steps the structure by itself: where most elements lie in rows, which are as fast
   /// by themselves; with mass that is coupled, laws of elements, damping beside Rayleigh's, or a
   /// sparse matrix.
   bool steps_alone(std::size_t structure) const;

@@ -104,8 +104,8 @@ BeamElements::BeamElements(const std::vector<Beam>& beams, LocalIndex idle) {
   }
 }
 
-/// What beams do: displacements and rotations of both nodes become forces and moments, the force
-/// on the second node being minus that on the first. `number`: a number of theirs in a value.
+/// Displacements and rotations of both nodes become forces and moments, the force on the second
+/// node being minus that on the first. `number`: a number of theirs in a value.
 template <typename Value>
 void BeamElements::product(const Batch& b, const auto& number, VectorsOf<Value> (&ends)[4]) {
   const auto& [u1, r1_global, u2, r2_global] = ends;

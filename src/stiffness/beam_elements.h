@@ -49,7 +49,7 @@ class BeamElements {
 
   /// q += K w; both arrays hold all slots. Allocates nothing.
   void apply(const double* w, double* q) const;
-  /// The same in eight runs, one beam after the other.
+  /// q += K w in eight runs, one beam after the other.
   void apply(const BatchValue* w, BatchValue* q) const;
 
  private:

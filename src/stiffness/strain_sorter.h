@@ -30,7 +30,7 @@ struct GeneralElements {
     quadrangles.apply(w, q);
     triangles.apply(w, q);
   }
-  /// In eight runs, see StrainElements.
+  /// q += K w in eight runs, see StrainElements.
   void apply(const BatchValue* w, BatchValue* q, LocalIndex idle) const {
     hexahedra.apply(w, q, idle);
     for (const auto& elements : extruded) elements.apply(w, q, idle);

@@ -43,7 +43,7 @@ class StrainElements {
   /// q += K w on owned dofs; both arrays hold all slots, w three values beyond them. Allocates
   /// nothing.
   void apply(const double* w, double* q) const;
-  /// The same in eight runs, one element after the other, on a rank that has no ghosts; -1 in
+  /// q += K w in eight runs, one element after the other, on a rank that has no ghosts; -1 in
   /// DofSlots is the slot `idle`, whose w are zero.
   void apply(const BatchValue* w, BatchValue* q, LocalIndex idle) const;
 
