@@ -13,7 +13,7 @@ from pounding import UserError
 from pounding.files import written_beside
 from pounding.results import UNREADABLE, Result
 from pounding.spans import MOTIONS
-from pounding.struck import of_run as struck_of_run
+from pounding.struck import VALUES, of_run as struck_of_run
 
 
 FILE = "ensemble.h5"
@@ -24,6 +24,8 @@ ARRAYS = {"spectra/pseudo_acceleration": "spectra", "impacts/episodes": "episode
           "peaks/acceleration": "acceleration", "energy/residual": "residual", "pairs/initial_gap": "pair_gap",
           "pairs/least_gap": "pair_least", "pairs/time": "pair_time", "pairs/displacement": "pair_moved",
           "spans/peak": "span_peak", "spans/time": "span_time", "struck/largest": "struck"}
+NOT_ALWAYS = {"span_peak": lambda contacts: (0, len(MOTIONS)), "span_time": lambda contacts: (0, len(MOTIONS)),
+              "struck": lambda contacts: (contacts, 0, VALUES)}  # shapes of none, by the number of contacts
 FORCES = "forces/history"  # of members that have them: left in the file
 # What all members share.
 LABELS = {"spectra/frequency": "frequency", "spectra/damping": "damping", "spectra/channels": "channels",
@@ -138,8 +140,8 @@ def collect(files: list, members: list, columns: list) -> tuple:
             if labels["channels"] != shared["channels"] or not np.allclose(labels["frequency"], shared["frequency"]):
                 raise UserError(f"{path}: other probes or frequencies than in the other parts")
             for dataset, name in ARRAYS.items():
-                lacks = name.startswith("span_") and dataset not in file  # of members without spans
-                values = np.empty((len(rows), 0, len(MOTIONS))) if lacks else file[dataset][()][rows]
+                lacks = name in NOT_ALWAYS and dataset not in file
+                values = np.empty((len(rows), *NOT_ALWAYS[name](len(labels["contacts"])))) if lacks else file[dataset][()][rows]
                 target = found.setdefault(name, np.empty((len(order), *values.shape[1:])))
                 target[[order.index(index) for index in mine]] = values
     if shared and "force_names" in shared:
