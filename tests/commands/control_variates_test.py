@@ -94,8 +94,9 @@ class BothOrders(StudyCommand):
         self.assertEqual(len(members), 2 * numbers["count"])
         rows = {row["quantity"]: row for row in program.rows_of(out / "both_orders.csv") if row["gap [m]"] != "apart"}
         row = rows["mean of left_roof x, 2 Hz [m/s2]"]
-        [single] = plan.parent.glob("single-*/ensemble.h5")
-        dear, cheap = (self.spectra_of(files, members) for files in ([single], out.glob("runs/*/ensemble-*/ensemble.h5")))
+        files = list(out.glob("runs/*/ensemble-*/ensemble.h5"))
+        dear, cheap = (self.spectra_of([file for file in files if (plan.parent in file.parents) is is_dear], members)
+                       for is_dear in (True, False))
         first, end = numbers["pilot"], numbers["pilot"] + numbers["both"]
         y, x = np.array([dear[k] for k in range(end)]), np.array([cheap[k] for k in range(numbers["count"])])
         a = np.cov(x[:first], y[:first])[0, 1] / np.var(x[:first], ddof=1) * (len(x) - end) / (len(x) - first)

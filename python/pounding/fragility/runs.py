@@ -188,52 +188,54 @@ class Runner:
 
     def run(self, part: tuple, members: list, full: list) -> str:
         """Runs part i of n of members, and of some at full order; returns how members were run. Throws UserError."""
-        share, repeats = members[part[0] - 1::part[1]], full[part[0] - 1::part[1]]
         name = f"{part[0]}-of-{part[1]}"
-        kind = self.kind
-        _, missing = self.found(share)
+        kind = self._some(members[part[0] - 1::part[1]], True, name)
+        self._some(full[part[0] - 1::part[1]], False, name)
+        return kind
+
+    def _some(self, share: list, reduced: bool, name: str) -> str:
+        """Runs what is missing of members of one order; returns how. Throws UserError."""
+        kind, missing = self.kind, self.found(share, reduced)[1] if share else []
         if missing and kind != "single":
-            refusal = self._ensemble(share, name)
-            if refusal and kind == "auto" and "ensemble" in refusal:
+            refusal = self._ensemble(share, reduced, name)
+            if refusal and (kind == "auto" and "ensemble" in refusal or not reduced):
                 print(f"note: no ensemble, each member is a run of its own: {refusal}", flush=True)
             elif refusal:
                 raise UserError(refusal)
-            _, missing = self.found(share)
+            _, missing = self.found(share, reduced)
         if missing:
-            self._singles([share[index] for index in missing], True, name)
+            self._singles([share[index] for index in missing], reduced, name)
             kind = "single"
-        missing = self.found(repeats, False)[1] if repeats else []
-        if missing:
-            self._singles([repeats[index] for index in missing], False, name)
         return kind
 
-    def _ensemble(self, share: list, name: str) -> str:
+    def _ensemble(self, share: list, reduced: bool, name: str) -> str:
         """Goes on with ensembles of this part that were stopped, then starts one of what is missing: '' if all members
         came to their end, else the program's line."""
-        base = self.bases[True]
+        base = self.bases[reduced]
         for place in sorted(base.glob(f"ensemble-{name}-*")):
-            _, missing = self.found(share)
+            _, missing = self.found(share, reduced)
             try:
                 with open(place / "members.csv", newline="", encoding="utf-8") as file:
                     rows = {tuple(row) for row in csv.reader(file)}
             except (OSError, ValueError, csv.Error):  # stopped before its table was there, or damaged
                 rows = set()
-            failure = self._at_once(place) if any(share[index].values in rows for index in missing) else ""
+            failure = self._at_once(place, reduced) if any(share[index].values in rows for index in missing) else ""
             if failure:
                 return failure
-        _, missing = self.found(share)
+        _, missing = self.found(share, reduced)
         if not missing:
             return ""
         values = [share[index].values for index in missing]
         place = base / f"ensemble-{name}-{_digest(values)[:6]}"
         place.mkdir(parents=True, exist_ok=True)
         write_rows(place / "members.csv", self.design.columns, values, exact=True)
-        return self._at_once(place)
+        return self._at_once(place, reduced)
 
-    def _at_once(self, place: Path) -> str:
+    def _at_once(self, place: Path, reduced: bool) -> str:
         ranks = f"{self.ranks} rank{'s' if self.ranks > 1 else ''}"
-        print(f"fragility: ensemble {place.name} on {ranks}; progress in {place / LOG}", flush=True)
-        words = ["-options_file", str(self.scene(True).absolute()), "-equipment", "none", *([] if self.study.stability else ["-forces", "none"]),
+        order = "" if reduced else " at full order"
+        print(f"fragility: ensemble {place.name}{order} on {ranks}; progress in {place / LOG}", flush=True)
+        words = ["-options_file", str(self.scene(reduced).absolute()), "-equipment", "none", *([] if self.study.stability else ["-forces", "none"]),
                  "-ensemble", str((place / "members.csv").absolute())]
         return finish(lambda: Job(words, place.absolute(), self.ranks, Path.cwd(), self.variables))
 
