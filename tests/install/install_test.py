@@ -75,7 +75,7 @@ class Installed(unittest.TestCase):
     def test_tools_are_named_and_say_what_they_cannot(self):
         listed = self.tool().stdout.split()
         self.assertEqual(listed[1::2], ["column", "compare", "fragility", "import", "incoherent", "law", "match", "new", "plant", "plot", "seal", "section", "shake",
-                                        "soil", "spans", "stability", "sweep", "tradeoff"])
+                                        "soil", "spans", "stability", "struck", "sweep", "tradeoff"])
         for name in listed[1::2]:
             said = self.tool(name, "--help").stdout
             self.assertIn(f"pounding-tools {name}", said)
