@@ -38,7 +38,7 @@ BatchRows::BatchRows(std::span<const interactions::Constraint> rows,
 void BatchRows::add_to(std::vector<BatchValue>& sums, std::span<const StatesOfRuns> states,
                        const std::vector<BatchValue>& supports) {
   for (std::size_t s = 0; s < of_structures_.size(); ++s) {
-    of_structures_[s].multiply_displacements(states[s], products_.data());
+    of_structures_[s].multiply(states[s], displacements, products_.data());
     for (std::size_t row = 0; row < size(); ++row) sums[row] += products_[row];
   }
   if (carried_.empty()) return;

@@ -6,27 +6,13 @@
 #include "common/row_products.h"
 
 namespace pounding {
-namespace {
-
-BatchValue gathered(const StatesOfRuns& states, const std::vector<double> StructureState::*part,
-                    std::size_t i) {
+BatchValue StatesOfRuns::value(const StatePart& part, std::size_t i) const {
+  if (batch != nullptr) return (batch->state().*part.of_batch)[i];
   BatchValue value{};
-  for (std::size_t run = 0; run < batch_size && states.own[run] != nullptr; ++run) {
-    value[run] = (states.own[run]->*part)[i];
+  for (std::size_t run = 0; run < batch_size && own[run] != nullptr; ++run) {
+    value[run] = (own[run]->*part.of_run)[i];
   }
   return value;
-}
-
-}  // namespace
-
-BatchValue StatesOfRuns::displacement(std::size_t i) const {
-  return batch != nullptr ? batch->state().displacement[i]
-                          : gathered(*this, &StructureState::displacement, i);
-}
-
-BatchValue StatesOfRuns::velocity(std::size_t i) const {
-  return batch != nullptr ? batch->state().velocity[i]
-                          : gathered(*this, &StructureState::velocity, i);
 }
 
 CoordinateRows::CoordinateRows(std::size_t rows, const LinearSystem& system)
@@ -46,26 +32,18 @@ void CoordinateRows::add(std::size_t row, double factor, const Trace& trace, std
   }
 }
 
-void CoordinateRows::multiply_entries(const auto& value, BatchValue* products) const {
+void CoordinateRows::multiply(const StatesOfRuns& states, const StatePart& part,
+                              BatchValue* products) const {
+  if (width_ > 0) {
+    const std::vector<BatchValue>& x = states.batch->state().*part.of_batch;
+    multiply_rows(values_.data(), rows_, width_, x.data(), products);
+    return;
+  }
   std::fill(products, products + rows_, BatchValue{});
   for (const Entry& entry : entries_) {
-    products[entry.row] += value(static_cast<std::size_t>(entry.dof)) * entry.coefficient;
+    products[entry.row] +=
+        states.value(part, static_cast<std::size_t>(entry.dof)) * entry.coefficient;
   }
-}
-
-void CoordinateRows::multiply_displacements(const StatesOfRuns& states,
-                                            BatchValue* products) const {
-  if (width_ == 0) {
-    return multiply_entries([&](std::size_t i) { return states.displacement(i); }, products);
-  }
-  multiply_rows(values_.data(), rows_, width_, states.batch->state().displacement.data(), products);
-}
-
-void CoordinateRows::multiply_velocities(const StatesOfRuns& states, BatchValue* products) const {
-  if (width_ == 0) {
-    return multiply_entries([&](std::size_t i) { return states.velocity(i); }, products);
-  }
-  multiply_rows(values_.data(), rows_, width_, states.batch->state().velocity.data(), products);
 }
 
 double CoordinateRows::product(std::size_t row, std::span<const double> x) const {

@@ -11,14 +11,22 @@
 
 namespace pounding {
 
+/// A vector of a state, of a batch and of one run.
+struct StatePart {
+  std::vector<BatchValue> StateOf<BatchValue>::*of_batch;
+  std::vector<double> StructureState::*of_run;
+};
+constexpr StatePart displacements{&StateOf<BatchValue>::displacement,
+                                  &StructureState::displacement};
+constexpr StatePart velocities{&StateOf<BatchValue>::velocity, &StructureState::velocity};
+
 /// The states of one structure in up to eight runs, wherever they are stepped.
 struct StatesOfRuns {
   const BatchStep* batch = nullptr;                     ///< null: each run steps its own
   std::array<const StructureState*, batch_size> own{};  ///< null beyond the last run
 
-  /// u_n of a coordinate in every run, or v-.
-  BatchValue displacement(std::size_t i) const;
-  BatchValue velocity(std::size_t i) const;
+  /// Value of a coordinate in every run.
+  BatchValue value(const StatePart& part, std::size_t i) const;
 };
 
 /// Rows over the coordinates of one structure, of displacements at places of its mesh: of
@@ -31,9 +39,8 @@ class CoordinateRows {
 
   /// row += factor * (known point k of a trace) / divisor.
   void add(std::size_t row, double factor, const Trace& trace, std::size_t k, double divisor = 1);
-  /// products := rows times displacements, or velocities. Allocates nothing.
-  void multiply_displacements(const StatesOfRuns& states, BatchValue* products) const;
-  void multiply_velocities(const StatesOfRuns& states, BatchValue* products) const;
+  /// products := rows times a part of the states. Allocates nothing.
+  void multiply(const StatesOfRuns& states, const StatePart& part, BatchValue* products) const;
   /// One row times the coordinates `x` of one run.
   double product(std::size_t row, std::span<const double> x) const;
 
@@ -43,8 +50,6 @@ class CoordinateRows {
     LocalIndex dof = 0;
     double coefficient = 0;
   };
-  void multiply_entries(const auto& value, BatchValue* products) const;
-
   std::size_t rows_;
   std::size_t width_ = 0;       ///< generalised coordinates; 0 at full order
   std::vector<double> values_;  ///< of these, shape (rows, width)

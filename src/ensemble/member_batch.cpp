@@ -219,7 +219,7 @@ BatchRecorder::BatchRecorder(const Model& model, const Times& times)
 
 void BatchRecorder::restart(std::span<const StatesOfRuns> states,
                             const std::vector<BatchValue>& supports) {
-  take_velocities(states, supports);
+  multiply(states, velocities, supports);
   last_velocity_ = values_;
   displacement_.assign(channels_, BatchValue{});
   apart_.assign(3 * ends_.size(), BatchValue{});
@@ -232,18 +232,10 @@ void BatchRecorder::add_step(double duration, const std::array<BatchValue, 3>& a
   for (std::size_t d = 0; d < 3; ++d) ground_[d] += acceleration[d] * all_eight(duration);
 }
 
-void BatchRecorder::take_velocities(std::span<const StatesOfRuns> states,
-                                    const std::vector<BatchValue>& supports) {
-  take_values(
-      [&](const Rows& rows) {
-        rows.values.multiply_velocities(states[rows.structure], products_.data());
-      },
-      supports);
-}
-
-void BatchRecorder::take_values(const auto& multiply, const std::vector<BatchValue>& supports) {
+void BatchRecorder::multiply(std::span<const StatesOfRuns> states, const StatePart& part,
+                             const std::vector<BatchValue>& supports) {
   for (const Rows& rows : rows_) {
-    multiply(rows);
+    rows.values.multiply(states[rows.structure], part, products_.data());
     for (std::size_t r = 0; r < rows.channels.size(); ++r) values_[rows.channels[r]] = products_[r];
     if (rows.carried.empty()) continue;
     multiply_rows(rows.carried.data(), rows.channels.size(), supports.size(), supports.data(),
@@ -258,11 +250,7 @@ void BatchRecorder::take_displacements(std::span<const StatesOfRuns> states,
                                        const std::vector<BatchValue>& supports) {
   const bool counts = records_ >= first_;
   if (!counts && records_ > 0) return;
-  take_values(
-      [&](const Rows& rows) {
-        rows.values.multiply_displacements(states[rows.structure], products_.data());
-      },
-      supports);
+  multiply(states, displacements, supports);
   note_spans(static_cast<double>(records_) * interval_, counts);
   if (!counts) return;
   for (std::size_t c = 0; c < channels_; ++c) {
@@ -296,7 +284,7 @@ void BatchRecorder::fill_spans(std::size_t member, MemberResult& result) const {
 
 void BatchRecorder::record(std::span<const StatesOfRuns> states,
                            const std::vector<BatchValue>& supports) {
-  take_velocities(states, supports);
+  multiply(states, velocities, supports);
   BatchValue* const out = &block_[blocked_ * channels_];
   for (std::size_t c = 0; c < channels_; ++c) {
     out[c] = (values_[c] - last_velocity_[c] + ground_[c % 3]) / interval_;

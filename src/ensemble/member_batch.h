@@ -103,10 +103,9 @@ class BatchRecorder {
   };
   /// Looks how far the ends of spans are apart at `time` [s]. `counts`: for the largest.
   void note_spans(double time, bool counts);
-  /// values_ := rows times the coordinates by `multiply`, and the way with the supports.
-  void take_values(const auto& multiply, const std::vector<BatchValue>& supports);
-  void take_velocities(std::span<const StatesOfRuns> states,
-                       const std::vector<BatchValue>& supports);
+  /// values_ := rows times a part of the states, and the way with the supports.
+  void multiply(std::span<const StatesOfRuns> states, const StatePart& part,
+                const std::vector<BatchValue>& supports);
   /// Brings the records of the block to the histories.
   void flush();
 
