@@ -16,6 +16,7 @@ from .runs import program as program_of
 
 G = 9.80665  # [m/s2]
 STRONG = (5.0, 75.0)  # part of the Arias intensity between which a motion is strong [%]
+WORDS = {"unit": "--unit", "column": "--columns", "time_step": "--time-step"}  # options of a record for pounding-spectra
 
 
 class MotionError(UserError):
@@ -139,6 +140,11 @@ def read_signals(words: list, program: Path | None = None) -> list:
     cuts = [k for k in range(1, len(time)) if time[k] <= time[k - 1] or labels[k] != labels[k - 1]]
     pieces = np.split(np.array(values), cuts)
     return [Signal(_short(name), step, piece) for name, step, piece in zip(names, steps, pieces, strict=True)]
+
+
+def read_record(path: Path | str, options: dict) -> Signal:
+    """Signal of a record, whose `options` are some of WORDS. Throws MotionError."""
+    return read_signals([word for key, value in options.items() for word in (WORDS[key], value)] + [path])[0]
 
 
 def _short(name: str) -> str:

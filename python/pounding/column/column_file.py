@@ -61,8 +61,6 @@ class Ground:
 
 def _number(reader: Reader, key: str, default=None) -> float:
     low, high, unit = RANGES[key]
-    if isinstance(reader.values.get(key), str):  # as 2.6e8, which is none in YAML
-        reader.values[key] = reader.numbers(key)[0]
     value = reader.number(key, default)
     if not low <= value < high:
         reader.fail(key, f"is not from {low:g} to {high:g} {unit}?")

@@ -14,13 +14,11 @@ import yaml
 from pounding import faces, incoherent, mats
 from pounding.coherency import CoherencyError
 from pounding.files import file_name
-from pounding.motion_signals import read_signals
+from pounding.motion_signals import WORDS, read_record
 from pounding.results import DIRECTIONS
 from pounding.scenes import write_scene
 
 from .process import parser_of
-
-WORDS = {"unit": "--unit", "column": "--columns", "time_step": "--time-step"}  # of pounding-spectra
 
 
 def read(path: Path, seed: int | None) -> tuple:
@@ -51,8 +49,7 @@ def read(path: Path, seed: int | None) -> tuple:
 
 def records_of(motion: dict, folder: Path) -> tuple:
     """Accelerations [m/s2] per axis, as long as the longest of them, and their step [s]. Throws CoherencyError or MotionError."""
-    found = {axis: read_signals([word for key, value in WORDS.items() if key in one for word in (value, one[key])] +
-                                [folder / one["record"]])[0] for axis, one in motion.items()}
+    found = {axis: read_record(folder / one["record"], {key: one[key] for key in WORDS if key in one}) for axis, one in motion.items()}
     steps = [signal.step for signal in found.values()]
     if max(steps) > (1 + 1e-6) * min(steps):
         raise CoherencyError("motion: the records have different steps, " +

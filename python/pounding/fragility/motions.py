@@ -43,10 +43,11 @@ def _duration(axis: Axis) -> float:
 
 
 class Motions:
-    """Accelerograms (samples), made by the program when they are first asked for and kept in a folder."""
+    """Accelerograms (samples), made by the program when they are first asked for and kept in a folder. `study`: has the axes;
+    `command`: tells of progress, none if empty."""
 
-    def __init__(self, study: Study, folder: Path, jobs: int):
-        self.study, self.folder, self.jobs = study, folder, jobs
+    def __init__(self, study, folder: Path, jobs: int, command: str = "fragility"):
+        self.study, self.folder, self.jobs, self.command = study, folder, jobs, command
         self.variables = environment()
 
     def name(self, axis: str, motion) -> str:
@@ -75,8 +76,8 @@ class Motions:
 
         def ended(pair: tuple, job: Job, waiting: list, _running: list) -> None:
             failure = job.outcome()
-            if (len(todo) - len(waiting)) % SHOWN == 0:
-                print(f"fragility: {len(todo) - len(waiting)} of {len(todo)} motions made{of}", flush=True)
+            if self.command and (len(todo) - len(waiting)) % SHOWN == 0:
+                print(f"{self.command}: {len(todo) - len(waiting)} of {len(todo)} motions made{of}", flush=True)
             if failure:
                 failures.append(f"motion {pair[1]} along {pair[0]}: {failure}")
                 return
