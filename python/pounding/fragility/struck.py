@@ -10,8 +10,8 @@ from pounding import UserError
 from pounding.struck import STRENGTHS, Strengths, Window, beside, placed, read_strengths
 from pounding.tables import write_csv
 
-from .spans import motions_of, place_of
-from .study_file import Reader
+from .spans import motions_of
+from .study_file import Reader, place_of
 
 KEYS = ("areas", "edges", "level", "contacts", *STRENGTHS)
 CAPTION = "Places that are struck: largest mean pressure over areas of the faces and force along edges, beside their strengths"
