@@ -168,9 +168,9 @@ def members_of(found: study.Study, folder: Path, options: argparse.Namespace,
         return None
     if not options.collect:
         began = time.monotonic()
-        if numbers:
-            controlled.run(runner, numbers, options.part or (1, 1))
-        how = runner.run(options.part or (1, 1), plan.members, [plan.members[index] for index in plan.repeated])
+        share = options.part or (1, 1)
+        how = controlled.run(runner, numbers, share) if numbers else \
+            runner.run(share, plan.members, [plan.members[index] for index in plan.repeated])
         print(f"fragility: runs ended after {time.monotonic() - began:.0f} s ({how})", flush=True)
         if options.part:
             return None
@@ -186,7 +186,7 @@ def members_of(found: study.Study, folder: Path, options: argparse.Namespace,
     notes += [note] if note else []
     analysis = Analysis(found, plan, gathered, runner.equipment, notes, runner.scouted[True].inputs, runner, runner.mats)
     notes += stability.doubts(analysis) + struck.doubts(analysis)
-    at_both = controlled.Controlled(runner, numbers) if numbers else None
+    at_both = controlled.Controlled(runner, numbers, analysis) if numbers else None
     page, text = report.write(analysis, full, ruled, notes, folder, at_both)
     print("\n" + text)
     print(f"see {page}")

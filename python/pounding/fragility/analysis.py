@@ -66,6 +66,12 @@ class Analysis:
         """Number of the study's damping ratio that is nearest."""
         return int(abs(self.outcomes.damping - ratio).argmin())
 
+    def frequencies_shown(self, default) -> list:
+        """Numbers of the frequencies that are nearest to those of `show`, or to others [Hz]."""
+        given = self.study.show.get("frequencies", default)
+        given = [float(one) for one in given.split(",")] if isinstance(given, str) else given
+        return sorted({int(abs(self.outcomes.frequency - one).argmin()) for one in given})
+
     # Spectra.
 
     def spectra_rows(self, gap: float | None, level: float) -> list:

@@ -126,8 +126,7 @@ def _order(values: np.ndarray, p: np.ndarray) -> np.ndarray:
     ordered = np.sort(values, axis=0)
     place = np.clip(p * len(values) - 0.5, 0, len(values) - 1)
     low = np.minimum(place.astype(int), len(values) - 2)
-    ends = (np.take_along_axis(ordered, one[None], 0)[0] for one in (low, low + 1))
-    first, second = ends
+    first, second = (np.take_along_axis(ordered, one[None], 0)[0] for one in (low, low + 1))
     return np.where((p > 0) & (p < 1), first + (place - low) * (second - first), np.nan)
 
 

@@ -41,7 +41,7 @@ class Numbers:
 
 def at_full_order(design: Design, first: int, end: int) -> list:
     """Members of samples with numbers from `first` to before `end`, in the study's joints and apart."""
-    return [one for one in design.plain if first <= one.sample < end]
+    return [one for one in design.members if one.is_plain and first <= one.sample < end]
 
 
 def settle(runner, may_run: bool) -> Numbers:
@@ -58,6 +58,7 @@ def settle(runner, may_run: bool) -> Numbers:
         print(f"fragility: pilot of {asked.pilot} samples at both orders", flush=True)
         pilot = at_full_order(runner.design, 0, asked.pilot)
         costs = _measured(runner, pilot, pilot)
+        runner.run((1, 1), pilot, pilot)
         reduced, full = (np.concatenate(_planned(_analysis(runner, asked.pilot, reduced)), axis=1) for reduced in (True, False))
         moving = full.mean(0) > 0
         found = control.plan((full.std(0, ddof=1) / full.mean(0))[moving], _cautious(control.correlation(full, reduced), asked.pilot)[moving],
@@ -71,19 +72,18 @@ def _cautious(rho: np.ndarray, count: int) -> np.ndarray:
     return np.sqrt(np.clip(1 - (1 - rho**2) * (count - 1) / (count - 2), 0, 1))
 
 
-def run(runner, numbers: Numbers, part: tuple) -> None:
-    """Runs what is missing of the study's samples at both orders, of a part i of n. Throws UserError."""
+def run(runner, numbers: Numbers, part: tuple) -> str:
+    """Runs what is missing of the study's samples at both orders, of a part i of n; returns how. Throws UserError."""
     full = at_full_order(runner.design, numbers.pilot, numbers.pilot + numbers.both)
     members, full = (some[part[0] - 1::part[1]] for some in (runner.design.members, full))
     if full:
         _measured(runner, members, full)
-    else:
-        runner.run((1, 1), members, [])
+    return runner.run((1, 1), members, full)
 
 
 def _measured(runner, members: list, full: list) -> tuple:
-    """Runs members by the reduction and some at full order, and returns the time that one of each takes [s], as it was first
-    measured."""
+    """Time that a member takes by the reduction and at full order [s], as it was first measured: by running what is missing of
+    these, where it was not yet."""
     kept = runner.bases[False] / COSTS
     if not kept.is_file():
         costs = []
@@ -94,7 +94,6 @@ def _measured(runner, members: list, full: list) -> tuple:
                 runner.run((1, 1), some if reduced else [], [] if reduced else some)
             costs.append((time.monotonic() - began) / len(missing) if missing else _timed(runner, some[0], reduced))
         write_text(kept, json.dumps(costs))
-    runner.run((1, 1), members, full)
     return tuple(json.loads(kept.read_text(encoding="utf-8")))
 
 
@@ -122,9 +121,7 @@ def _analysis(runner, count: int, reduced: bool) -> Analysis:
 def _shown(analysis: Analysis) -> list:
     """Numbers of the frequencies whose spectra are planned and listed."""
     frequency = analysis.outcomes.frequency
-    given = analysis.study.show.get("frequencies", SHOWN)
-    given = [float(one) for one in given.split(",")] if isinstance(given, str) else given
-    return sorted({int(abs(frequency - one).argmin()) for one in given if frequency[0] <= one <= frequency[-1]})
+    return analysis.frequencies_shown([one for one in SHOWN if frequency[0] <= one <= frequency[-1]])
 
 
 def _planned(analysis: Analysis) -> list:
@@ -139,11 +136,11 @@ def _planned(analysis: Analysis) -> list:
 class Controlled:
     """The study's numbers at full order, with reduced runs as controls."""
 
-    def __init__(self, runner, numbers: Numbers):
-        self.numbers, self.study = numbers, runner.study
+    def __init__(self, runner, numbers: Numbers, reduced: Analysis):
+        """`reduced`: of all samples. Throws UserError where a member at full order is missing."""
+        self.numbers, self.study, self.reduced = numbers, runner.study, reduced
         costs = json.loads((runner.bases[False] / COSTS).read_text(encoding="utf-8"))
         self.ratio = costs[1] / costs[0]
-        self.reduced = _analysis(runner, numbers.count, True)
         self.full = _analysis(runner, numbers.pilot + numbers.both, False)
 
     def draws(self, value_of) -> control.Draws:

@@ -29,6 +29,11 @@ class Member:
     exchanged: bool = False
     factors: tuple = OWN_FIELD
 
+    @property
+    def is_plain(self) -> bool:
+        """As the study has it: neither disturbed, nor in the joints of others or in other fields."""
+        return not self.disturbed and not self.exchanged and self.factors == OWN_FIELD
+
 
 @dataclass
 class Design:
@@ -37,11 +42,6 @@ class Design:
     samples: np.ndarray  # (samples, variables)
     motions: list  # of each sample the number of its motion
     repeated: list  # indices of members to be repeated at full order
-
-    @property
-    def plain(self) -> list:
-        """Members as the study has them: not disturbed, nor in the joints of others or in other fields."""
-        return [one for one in self.members if not one.disturbed and not one.exchanged and one.factors == OWN_FIELD]
 
     def first(self, count: int) -> "Design":
         """That of so many samples."""
@@ -120,8 +120,7 @@ def field_columns(study: Study, joint: Joint) -> tuple:
 def choose(study: Study, members: list) -> list:
     """Indices of members to be repeated at full order, spread over all cells by the seed; those apart, in the joints of
     others, and in other fields, are left out."""
-    cells = [index for index, one in enumerate(members)
-             if one.gap is not None and not one.exchanged and one.factors == OWN_FIELD]
+    cells = [index for index, one in enumerate(members) if one.gap is not None and one.is_plain]
     wanted = int(np.ceil(study.share * len(cells) - 1e-9))
     generator = np.random.default_rng([study.seed, 1])
     strata = np.array_split(np.array(cells), wanted) if wanted else []

@@ -39,9 +39,7 @@ class Envelope:
     @property
     def frequencies(self) -> list:
         """Numbers of the shown frequencies among those of the study."""
-        given = self.study.show.get("frequencies", SHOWN)
-        given = [float(one) for one in given.split(",")] if isinstance(given, str) else given
-        return sorted({int(abs(self.first.outcomes.frequency - one).argmin()) for one in given})
+        return self.first.frequencies_shown(SHOWN)
 
     def governing(self, values) -> tuple:
         """The largest of a value of each condition, and the places of that condition."""
