@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "common/batch_value.h"
-
 namespace pounding::stiffness {
 
 void AssembledRows::Pattern::add(std::span<const LocalIndex> slots) {
@@ -64,25 +62,21 @@ void AssembledRows::add_entry(Part& part, LocalIndex row, LocalIndex column, dou
   part.values[std::lower_bound(begin, end, column) - part.columns.begin()] += value;
 }
 
-template <typename Number>
-void AssembledRows::add_product(const Part& part, const Number* w, Number* q) {
+void AssembledRows::add_product(const Part& part, const double* w, double* q) {
   for (std::size_t r = 0; r < part.rows.size(); ++r) {
     const LocalIndex* const column = part.columns.data();
     const double* const value = part.values.data();
     const std::size_t end = part.start[r + 1];
-    Number even{};
-    Number odd{};
+    double even = 0;
+    double odd = 0;
     std::size_t k = part.start[r];
     for (; k + 1 < end; k += 2) {
-      even += w[column[k]] * value[k];
-      odd += w[column[k + 1]] * value[k + 1];
+      even += value[k] * w[column[k]];
+      odd += value[k + 1] * w[column[k + 1]];
     }
-    if (k < end) even += w[column[k]] * value[k];
+    if (k < end) even += value[k] * w[column[k]];
     q[part.rows[r]] += even + odd;
   }
 }
-
-template void AssembledRows::add_product(const Part&, const double*, double*);
-template void AssembledRows::add_product(const Part&, const BatchValue*, BatchValue*);
 
 }  // namespace pounding::stiffness

@@ -33,12 +33,16 @@ class AssembledRows {
   const std::vector<LocalIndex>& owned_rows() const { return owned_part_.rows; }
   const std::vector<LocalIndex>& ghost_rows() const { return ghost_part_.rows; }
 
-  /// q += the part that owned values, or ghosts, contribute.
-  /// `Number`: double, or BatchValue of eight runs.
-  template <typename Number>
-  void add_owned(const Number* owned, Number* q) const {
-    add_product(owned_part_, owned, q);
+  /// Calls `visit(row, columns, values)` for each row with entries on owned columns.
+  void each_owned(const auto& visit) const {
+    for (std::size_t r = 0; r < owned_part_.rows.size(); ++r) {
+      const std::size_t begin = owned_part_.start[r], count = owned_part_.start[r + 1] - begin;
+      visit(owned_part_.rows[r], std::span(&owned_part_.columns[begin], count),
+            std::span(&owned_part_.values[begin], count));
+    }
   }
+  /// q += the part that owned values, or ghosts, contribute.
+  void add_owned(const double* owned, double* q) const { add_product(owned_part_, owned, q); }
   void add_ghosts(const double* ghosts, double* q) const { add_product(ghost_part_, ghosts, q); }
 
  private:
@@ -48,8 +52,7 @@ class AssembledRows {
     std::vector<LocalIndex> columns;    ///< sorted within a row
     std::vector<double> values;
   };
-  template <typename Number>
-  static void add_product(const Part& part, const Number* w, Number* q);
+  static void add_product(const Part& part, const double* w, double* q);
   static void add_entry(Part& part, LocalIndex row, LocalIndex column, double value);
 
   LocalIndex owned_dofs_;

@@ -1,38 +1,103 @@
 #include "stiffness/batch_stiffness.h"
 
 #include <algorithm>
+#include <bit>
+#include <span>
 
 #include "mesh/halo.h"
 #include "stiffness/element_shapes.h"
 #include "stiffness/element_sorter.h"
 #include "stiffness/strain_sorter.h"
+#include "stiffness/strains/batch_elements.h"
 
 namespace pounding::stiffness {
 namespace {
 
-constexpr std::size_t dofs_per_node = 6;
-constexpr std::size_t dofs_at_once = 96;  ///< handed over: whole nodes or not, all are final
+/// Rows of a sparse matrix, each applied in the window of its lowest column.
+class BatchRows {
+ public:
+  explicit BatchRows(const AssembledRows& matrix) {
+    matrix.each_owned([&](LocalIndex row, auto columns, auto values) {
+      rows_.push_back({row, {columns.begin(), columns.end()}, {values.begin(), values.end()}});
+    });
+    std::ranges::stable_sort(rows_, {}, lowest);
+  }
+  void add_to(BatchWindows& windows) const {
+    for (const Row& row : rows_) windows.add(lowest(row), std::max(row.dof, row.columns.back()));
+  }
+  void place_in(const BatchWindows& windows) {
+    ends_ = ends_in(windows, rows_, lowest);
+    for (Row& row : rows_) {
+      row.dof = static_cast<LocalIndex>(windows.place(row.dof));
+      for (LocalIndex& column : row.columns) column = windows.place(column);
+    }
+  }
+  void apply(std::size_t window, const BatchValue* w, BatchValue* q) const {
+    for (std::size_t r = window == 0 ? 0 : ends_[window - 1]; r < ends_[window]; ++r) {
+      const Row& row = rows_[r];
+      BatchValue sum = q[row.dof];
+      for (std::size_t k = 0; k < row.columns.size(); ++k) {
+        sum += w[row.columns[k]] * row.values[k];
+      }
+      q[row.dof] = sum;
+    }
+  }
+
+ private:
+  /// Columns are sorted, the row itself is one of them.
+  struct Row {
+    LocalIndex dof;
+    std::vector<LocalIndex> columns;
+    std::vector<double> values;
+  };
+  static LocalIndex lowest(const Row& row) { return row.columns.front(); }
+
+  std::vector<Row> rows_;
+  std::vector<std::size_t> ends_;  ///< of each window
+};
 
 }  // namespace
 
+struct BatchStiffness::Elements {
+  explicit Elements(const ElementSorter& sorter, LocalIndex dofs)
+      : general(sorter.general_elements<BatchElements>(false)),
+        beams(sorter.batch_beams()),
+        rows(sorter.assembled_rows()),
+        windows(dofs) {
+    each(*this, [&](const auto& elements) { elements.add_to(windows); });
+    windows.finish();
+    each(*this, [&](auto& elements) { elements.place_in(windows); });
+  }
+  static void each(auto& all, const auto& visit) {
+    visit(all.rows);
+    GeneralElementsOf<BatchElements>::each(all.general, visit);
+    visit(all.beams);
+  }
+
+  GeneralElementsOf<BatchElements> general;
+  BatchElements<BeamShape> beams;
+  BatchRows rows;
+  BatchWindows windows;
+};
+
 BatchStiffness::BatchStiffness(const Structure& structure, const Mesh& mesh)
-    : dofs_(static_cast<std::size_t>(mesh.owned_dofs)),
-      argument_(dofs_ + dofs_per_node, BatchValue{}),
-      force_(argument_) {
+    : dofs_(static_cast<LocalIndex>(mesh.owned_dofs)) {
   const Halo halo(mesh.comm, mesh.first_owned_dof, mesh.owned_dofs, {});
   const ElementShapes shapes(mesh);
   ElementSorter sorter(structure, mesh, shapes, halo, {.bricks = false, .rectangles = false});
   sorter.sort();
-  general_ = std::make_unique<GeneralElements>(sorter.general_elements(false));
-  beams_ = std::make_unique<BeamElements>(sorter.beam_elements(false, mesh.owned_dofs));
-  sparse_ = std::make_unique<AssembledRows>(sorter.assembled_rows());
+  elements_ = std::make_unique<Elements>(sorter, dofs_);
+  argument_.assign(static_cast<std::size_t>(elements_->windows.ring) + 1, BatchValue{});
+  force_ = argument_;
 }
 
+BatchStiffness::~BatchStiffness() = default;
+
 double BatchStiffness::memory(const Mesh& mesh) {
-  double bytes = 2.0 * static_cast<double>(mesh.owned_dofs) * sizeof(BatchValue);
+  const std::size_t ring = std::bit_ceil(static_cast<std::size_t>(mesh.owned_dofs) + 1);
+  double bytes = 2.0 * static_cast<double>(ring * sizeof(BatchValue));
   for (const ElementBlock& block : mesh.blocks) {
-    const ElementLayout layout = element_layout(block.type);
-    const std::size_t size = layout.size();
+    const std::size_t size = element_layout(block.type).size();
     std::size_t numbers = size * size;
     switch (traits_of(block.type).kernel) {
       case ElementKernel::brick:
@@ -52,18 +117,22 @@ double BatchStiffness::memory(const Mesh& mesh) {
   return bytes;
 }
 
-BatchStiffness::~BatchStiffness() = default;
-
 void BatchStiffness::apply(const ArgumentOf<BatchValue>& w,
                            ReceiverOf<BatchValue>& receiver) const {
-  for (std::size_t i = 0; i < dofs_; ++i) argument_[i] = w[i];
-  sparse_->add_owned(argument_.data(), force_.data());
-  general_->apply(argument_.data(), force_.data(), static_cast<LocalIndex>(dofs_));
-  beams_->apply(argument_.data(), force_.data());
-  for (std::size_t begin = 0; begin < dofs_; begin += dofs_at_once) {
-    const std::size_t end = std::min(begin + dofs_at_once, dofs_);
-    receiver.receive(static_cast<LocalIndex>(begin), static_cast<LocalIndex>(end), &force_[begin]);
-    std::fill(&force_[begin], &force_[end], BatchValue{});
+  const BatchWindows& windows = elements_->windows;
+  LocalIndex formed = 0;
+  for (std::size_t window = 0; window < windows.reach.size(); ++window) {
+    for (; formed < windows.reach[window]; ++formed) {
+      argument_[windows.place(formed)] = w[formed];
+      force_[windows.place(formed)] = BatchValue{};
+    }
+    Elements::each(*elements_, [&](const auto& elements) {
+      elements.apply(window, argument_.data(), force_.data());
+    });
+    force_.back() = BatchValue{};
+    const LocalIndex begin = static_cast<LocalIndex>(window) * BatchWindows::dofs;
+    const LocalIndex end = std::min(begin + BatchWindows::dofs, dofs_);
+    receiver.receive(begin, end, &force_[windows.place(begin)]);
   }
 }
 

@@ -11,34 +11,33 @@
 
 namespace pounding::stiffness {
 
-class AssembledRows;
-class BeamElements;
-struct GeneralElements;
-
-/// K of a structure in eight runs at once, one element after the other: the rows of its dofs, eight
-/// values in each, are whole vectors, and the numbers of the element are those of all runs. Boxes
-/// and rectangles count as elements of general shape. Local: this rank has the whole structure.
+/// K of a structure in eight runs at once. Boxes and rectangles count as elements of general shape.
+/// Local: this rank has the whole structure.
+///
+///     per window of dofs (BatchWindows):
+///     w, as far as its elements reach -> elements, rows -> the window's forces are handed over
+///
+/// So state and forces of a dof go through the memory once, whatever the number of its elements.
 class BatchStiffness {
  public:
-  using Values = std::vector<BatchValue, LargePageAllocator<BatchValue>>;
-
   BatchStiffness(const Structure& structure, const Mesh& mesh);
   ~BatchStiffness();
 
   /// Memory of one, at most [bytes].
   static double memory(const Mesh& mesh);
 
-  /// K w [N, N m], handed over range by range. Allocates nothing.
+  /// K w [N, N m], handed over window by window. Allocates nothing.
   void apply(const ArgumentOf<BatchValue>& w, ReceiverOf<BatchValue>& receiver) const;
 
  private:
-  std::size_t dofs_;
-  std::unique_ptr<GeneralElements> general_;
-  std::unique_ptr<BeamElements> beams_;
-  std::unique_ptr<AssembledRows> sparse_;
-  /// Dofs, and six that stay at rest for clamped nodes.
+  struct Elements;
+  using Values = std::vector<BatchValue, LargePageAllocator<BatchValue>>;
+
+  LocalIndex dofs_;
+  std::unique_ptr<Elements> elements_;
+  /// Places of the ring, and one after it for clamped dofs, which stay at rest.
   mutable Values argument_;
-  mutable Values force_;  ///< of dofs zero between products
+  mutable Values force_;
 };
 
 }  // namespace pounding::stiffness

@@ -2,23 +2,21 @@
 
 #include <cstddef>
 
-#include "common/wide_lanes.h"
+#include "common/matrix3.h"
 #include "elements/beam2.h"
 #include "elements/local_frame.h"
+#include "stiffness/strains/batch_product.h"
 
 namespace pounding::stiffness {
 namespace {
 
 constexpr std::size_t beams_at_once = sizeof(Lanes) / sizeof(double);
 
-using Vectors = VectorsOf<Lanes>;
-
-inline Vectors gather(const double* w, const std::array<LocalIndex, 4>& start, int first) {
-  const auto component = [&](int c) {
-    return Lanes{w[start[0] + c], w[start[1] + c], w[start[2] + c], w[start[3] + c]};
-  };
-  return {component(first), component(first + 1), component(first + 2)};
-}
+/// Three components of four beams, or of one beam in several runs.
+template <typename Value>
+struct VectorsOf {
+  Value x, y, z;
+};
 
 template <typename Value>
 VectorsOf<Value> to_local(const auto& axes, const VectorsOf<Value>& v) {
@@ -35,8 +33,9 @@ VectorsOf<Value> to_global(const auto& axes, const VectorsOf<Value>& v) {
 }
 
 /// Adds forces and moments to the nodes of four beams, one after the other: they may be the same.
-inline void scatter(const Vectors& force, const Vectors& moment,
-                    const std::array<LocalIndex, 4>& start, double* q) {
+inline void scatter(const Lanes* values, const std::array<LocalIndex, 4>& start, double* q) {
+  const VectorsOf<Lanes> force{values[0], values[1], values[2]};
+  const VectorsOf<Lanes> moment{values[3], values[4], values[5]};
   const Lanes xy_low = __builtin_shufflevector(force.x, force.y, 0, 4, 2, 6);
   const Lanes xy_high = __builtin_shufflevector(force.x, force.y, 1, 5, 3, 7);
   const Lanes zx_low = __builtin_shufflevector(force.z, moment.x, 0, 4, 2, 6);
@@ -55,34 +54,29 @@ inline void scatter(const Vectors& force, const Vectors& moment,
   }
 }
 
-template <typename Value>
-VectorsOf<Value> minus(const VectorsOf<Value>& v) {
-  return {-v.x, -v.y, -v.z};
-}
-
 }  // namespace
 
-BeamElements::Beam BeamElements::make(const std::array<LocalIndex, 2>& start,
-                                      std::span<const double> coordinates,
-                                      const ElementProperties& properties) {
+std::array<double, BeamShape::number_count> BeamShape::numbers(
+    std::span<const double> coordinates, const ElementProperties& properties) {
   const auto [direction, length] = segment_between(coordinates);
   const double young = properties.young;
   const double shear = young / (2 * (1 + properties.poisson));
-  const auto bending = [young, length = length](double inertia, double phi) {
+  std::array<double, number_count> result{};
+  const auto bend = [&, length = length](std::size_t offset, double inertia, double phi) {
     const double rigidity = young * inertia / length;
-    return std::array<double, 4>{12 * rigidity / (length * length) / (1 + phi),
-                                 6 * rigidity / length / (1 + phi), 2 * rigidity,
-                                 (2 - phi) / (2 * (1 + phi))};
+    result[offset] = 12 * rigidity / (length * length) / (1 + phi);
+    result[offset + 1] = 6 * rigidity / length / (1 + phi);
+    result[offset + 2] = 2 * rigidity;
+    result[offset + 3] = (2 - phi) / (2 * (1 + phi));
   };
   const ShearFlexibility phi = shear_flexibility(properties, length);
-  Beam beam;
-  beam.start = start;
-  beam.axes = local_frame(direction, properties.z_axis);
-  beam.stretch = young * properties.area / length;
-  beam.twist = shear * properties.torsion / length;
-  beam.bending_y = bending(properties.inertia_z, phi.y);
-  beam.bending_z = bending(properties.inertia_y, phi.z);
-  return beam;
+  const Matrix3 frame = local_frame(direction, properties.z_axis);
+  for (std::size_t k = 0; k < 9; ++k) result[axes + k] = frame[k / 3][k % 3];
+  result[stretch] = young * properties.area / length;
+  result[twist] = shear * properties.torsion / length;
+  bend(bending_y, properties.inertia_z, phi.y);
+  bend(bending_z, properties.inertia_y, phi.z);
+  return result;
 }
 
 BeamElements::BeamElements(const std::vector<Beam>& beams, LocalIndex idle) {
@@ -94,82 +88,60 @@ BeamElements::BeamElements(const std::vector<Beam>& beams, LocalIndex idle) {
     Batch& batch = batches_.back();
     const Beam& beam = beams[i];
     for (std::size_t node = 0; node < 2; ++node) batch.start[node][lane] = beam.start[node];
-    for (std::size_t k = 0; k < 9; ++k) batch.axes[k][lane] = beam.axes[k / 3][k % 3];
-    batch.stretch[lane] = beam.stretch;
-    batch.twist[lane] = beam.twist;
-    for (std::size_t k = 0; k < 4; ++k) {
-      batch.bending_y[k][lane] = beam.bending_y[k];
-      batch.bending_z[k][lane] = beam.bending_z[k];
-    }
+    for (std::size_t k = 0; k < beam.numbers.size(); ++k) batch.numbers[k][lane] = beam.numbers[k];
   }
 }
 
-/// Displacements and rotations of both nodes become forces and moments, the force on the second
-/// node being minus that on the first. `number`: a number of theirs in a value.
-template <typename Value>
-void BeamElements::product(const Batch& b, const auto& number, VectorsOf<Value> (&ends)[4]) {
-  const auto& [u1, r1_global, u2, r2_global] = ends;
-  const auto axes = [&](std::size_t k) { return number(b.axes[k]); };
-  const auto about_y = [&](std::size_t k) { return number(b.bending_y[k]); };
-  const auto about_z = [&](std::size_t k) { return number(b.bending_z[k]); };
-  const VectorsOf<Value> d = to_local<Value>(axes, {u1.x - u2.x, u1.y - u2.y, u1.z - u2.z});
-  const VectorsOf<Value> r1 = to_local(axes, r1_global);
-  const VectorsOf<Value> r2 = to_local(axes, r2_global);
+template <typename Numbers, typename Value>
+void BeamShape::product(Numbers number, Value* values) {
+  using Vectors = VectorsOf<Value>;
+  const auto vectors = [&](std::size_t i) {
+    return Vectors{values[i], values[i + 1], values[i + 2]};
+  };
+  const auto put = [&](std::size_t i, const Vectors& v) {
+    values[i] = v.x, values[i + 1] = v.y, values[i + 2] = v.z;
+  };
+  const auto of_axes = [&](std::size_t k) -> Value { return number[axes + k]; };
+  const auto about_y = [&](std::size_t k) -> Value { return number[bending_y + k]; };
+  const auto about_z = [&](std::size_t k) -> Value { return number[bending_z + k]; };
+  const Vectors u1 = vectors(0), u2 = vectors(6);
+  const Vectors d = to_local<Value>(of_axes, {u1.x - u2.x, u1.y - u2.y, u1.z - u2.z});
+  const Vectors r1 = to_local(of_axes, vectors(3));
+  const Vectors r2 = to_local(of_axes, vectors(9));
   const Value sum_y = r1.y + r2.y;
   const Value sum_z = r1.z + r2.z;
-  const Value twist = number(b.twist) * (r1.x - r2.x);
-  const VectorsOf<Value> force{number(b.stretch) * d.x, about_y(0) * d.y + about_y(1) * sum_z,
-                               about_z(0) * d.z - about_z(1) * sum_y};
+  const Value torque = number[twist] * (r1.x - r2.x);
+  const Vectors force{number[stretch] * d.x, about_y(0) * d.y + about_y(1) * sum_z,
+                      about_z(0) * d.z - about_z(1) * sum_y};
   // (4 + Phi) r_1 + (2 - Phi) r_2 = 2 (1 + Phi) (r_1 + (2 - Phi) / (2 (1 + Phi)) (r_1 + r_2))
   const Value turn_y = about_z(3) * sum_y;
   const Value turn_z = about_y(3) * sum_z;
   const Value shear_y = about_y(1) * d.y;
   const Value shear_z = about_z(1) * d.z;
-  const VectorsOf<Value> moment1{twist, about_z(2) * (r1.y + turn_y) - shear_z,
-                                 about_y(2) * (r1.z + turn_z) + shear_y};
-  const VectorsOf<Value> moment2{-twist, about_z(2) * (r2.y + turn_y) - shear_z,
-                                 about_y(2) * (r2.z + turn_z) + shear_y};
-  const VectorsOf<Value> global = to_global(axes, force);
-  ends[0] = global;
-  ends[1] = to_global(axes, moment1);
-  ends[2] = minus(global);
-  ends[3] = to_global(axes, moment2);
+  const Vectors moment1{torque, about_z(2) * (r1.y + turn_y) - shear_z,
+                        about_y(2) * (r1.z + turn_z) + shear_y};
+  const Vectors moment2{-torque, about_z(2) * (r2.y + turn_y) - shear_z,
+                        about_y(2) * (r2.z + turn_z) + shear_y};
+  const Vectors global = to_global(of_axes, force);
+  put(0, global);
+  put(3, to_global(of_axes, moment1));
+  put(6, {-global.x, -global.y, -global.z});
+  put(9, to_global(of_axes, moment2));
 }
+
+template void BatchElements<BeamShape>::apply(std::size_t, const BatchValue*, BatchValue*) const;
 
 void BeamElements::apply(const double* w, double* q) const {
   for (const Batch& b : batches_) {
-    Vectors ends[4] = {gather(w, b.start[0], 0), gather(w, b.start[0], 3), gather(w, b.start[1], 0),
-                       gather(w, b.start[1], 3)};
-    product(
-        b, [](const Lanes& of) -> const Lanes& { return of; }, ends);
-    scatter(ends[0], ends[1], b.start[0], q);
-    scatter(ends[2], ends[3], b.start[1], q);
-  }
-}
-
-void BeamElements::apply(const BatchValue* w, BatchValue* q) const {
-  for (const Batch& b : batches_) {
-    for (std::size_t lane = 0; lane < beams_at_once; ++lane) {
-      for (std::size_t run = 0; run < batch_size; run += wide_lane_count) {
-        VectorsOf<WideLanes> ends[4];
-        const auto at_ends = [&](const auto& visit) {
-          for (std::size_t e = 0; e < 4; ++e) {
-            const std::size_t dof = static_cast<std::size_t>(b.start[e / 2][lane]) + e % 2 * 3;
-            visit(dof, ends[e].x);
-            visit(dof + 1, ends[e].y);
-            visit(dof + 2, ends[e].z);
-          }
-        };
-        at_ends([&](std::size_t dof, WideLanes& value) { load(&w[dof].values[run], value); });
-        product(
-            b, [lane](const Lanes& of) { return all_wide(of[lane]); }, ends);
-        at_ends([&](std::size_t dof, const WideLanes& value) {
-          WideLanes sum;
-          load(&q[dof].values[run], sum);
-          store(&q[dof].values[run], sum + value);
-        });
-      }
+    Lanes values[12];
+    for (std::size_t i = 0; i < 12; ++i) {
+      const auto& start = b.start[i / 6];
+      const std::size_t c = i % 6;
+      values[i] = Lanes{w[start[0] + c], w[start[1] + c], w[start[2] + c], w[start[3] + c]};
     }
+    BeamShape::product(&b.numbers[0], values);
+    scatter(values, b.start[0], q);
+    scatter(values + 6, b.start[1], q);
   }
 }
 

@@ -4,18 +4,34 @@
 #include <span>
 #include <vector>
 
-#include "common/batch_value.h"
 #include "common/lanes.h"
-#include "common/matrix3.h"
 #include "common/types.h"
 #include "elements/element_traits.h"
 
 namespace pounding::stiffness {
 
-/// Three components of four beams, or of one beam in several runs.
-template <typename Value>
-struct VectorsOf {
-  Value x, y, z;
+/// Numbers of a beam between two nodes, and its product by them.
+struct BeamShape {
+  static constexpr std::size_t node_count = 2;
+  static constexpr std::size_t components = 6;
+
+  // Offsets of the numbers.
+  static constexpr std::size_t axes = 0;             ///< rows x, y, z
+  static constexpr std::size_t stretch = axes + 9;   ///< E A / L
+  static constexpr std::size_t twist = stretch + 1;  ///< G J / L
+  /// Stiffness of u_y and r_z: 12 E I_z / (L^3 (1 + Phi)), 6 E I_z / (L^2 (1 + Phi)),
+  /// 2 E I_z / L, and the pure number (2 - Phi) / (2 + 2 Phi).
+  static constexpr std::size_t bending_y = twist + 1;
+  static constexpr std::size_t bending_z = bending_y + 4;  ///< the same of I_y: u_z, r_y
+  static constexpr std::size_t number_count = bending_z + 4;
+
+  /// Numbers of a beam with node coordinates of shape (2, 3) [m].
+  static std::array<double, number_count> numbers(std::span<const double> coordinates,
+                                                  const ElementProperties& properties);
+  /// Forces and moments in the place of displacements and rotations, node by node, of four beams
+  /// or of one in several runs. The force on the second node is minus that on the first.
+  template <typename Numbers, typename Value>
+  static void product(Numbers numbers, Value* values);
 };
 
 /// Beams, four at a time, from their ten local stiffnesses and their axes instead of 12 x 12
@@ -32,37 +48,20 @@ class BeamElements {
   struct Beam {
     /// Slots of the six dofs in a row of each node.
     std::array<LocalIndex, 2> start{};
-    Matrix3 axes{};  ///< rows x, y, z
-    double stretch = 0;
-    double twist = 0;
-    /// Stiffness of u_y and r_z: 12 E I_z / (L^3 (1 + Phi)), 6 E I_z / (L^2 (1 + Phi)),
-    /// 2 E I_z / L, and the pure number (2 - Phi) / (2 + 2 Phi).
-    std::array<double, 4> bending_y{};
-    std::array<double, 4> bending_z{};  ///< the same of I_y: u_z, r_y
+    std::array<double, BeamShape::number_count> numbers{};
   };
-  /// A beam with node coordinates of shape (2, 3) [m].
-  static Beam make(const std::array<LocalIndex, 2>& start, std::span<const double> coordinates,
-                   const ElementProperties& properties);
 
   /// `idle`: slot of six dofs that no node uses, for the lanes of the last batch.
   BeamElements(const std::vector<Beam>& beams, LocalIndex idle);
 
   /// q += K w; both arrays hold all slots. Allocates nothing.
   void apply(const double* w, double* q) const;
-  /// q += K w in eight runs, one beam after the other.
-  void apply(const BatchValue* w, BatchValue* q) const;
 
  private:
   struct Batch {
     std::array<std::array<LocalIndex, 4>, 2> start{};
-    Lanes axes[9] = {};
-    Lanes stretch = {};
-    Lanes twist = {};
-    Lanes bending_y[4] = {};
-    Lanes bending_z[4] = {};
+    Lanes numbers[BeamShape::number_count] = {};
   };
-  template <typename Value>
-  static void product(const Batch& beams, const auto& number, VectorsOf<Value> (&ends)[4]);
 
   std::vector<Batch> batches_;
 };

@@ -189,14 +189,30 @@ std::vector<std::unique_ptr<ElementLines>> ElementSorter::element_lines(bool out
 BeamElements ElementSorter::beam_elements(bool outer, LocalIndex idle) const {
   std::vector<BeamElements::Beam> beams;
   for (const Element& element : beams_[outer ? 1 : 0]) {
-    const auto [b, e] = element;
-    const ElementBlock& block = mesh_.blocks[b];
     const auto slot = slots(element);
-    beams.push_back(BeamElements::make({slot[0] < 0 ? idle : slot[0], slot[6] < 0 ? idle : slot[6]},
-                                       gather_coordinates(mesh_, block, e, work_),
-                                       element_properties(structure_.regions[block.region])));
+    beams.push_back(
+        {{slot[0] < 0 ? idle : slot[0], slot[6] < 0 ? idle : slot[6]}, beam_numbers(element)});
   }
   return {beams, idle};
+}
+
+BatchElements<BeamShape> ElementSorter::batch_beams() const {
+  std::vector<BatchElements<BeamShape>::Numbers> shapes;
+  std::vector<BatchElements<BeamShape>::Element> elements;
+  for (const Element& element : beams_.front()) {
+    auto& entry = elements.emplace_back();
+    entry.shape = shapes.size();
+    std::ranges::copy_n(slots(element).begin(), entry.dofs.size(), entry.dofs.begin());
+    shapes.push_back(beam_numbers(element));
+  }
+  return {shapes, std::move(elements)};
+}
+
+std::array<double, BeamShape::number_count> ElementSorter::beam_numbers(
+    const Element& element) const {
+  const auto [b, e] = element;
+  return BeamShape::numbers(gather_coordinates(mesh_, mesh_.blocks[b], e, work_),
+                            element_properties(structure_.regions[mesh_.blocks[b].region]));
 }
 
 std::vector<LocalIndex> ElementSorter::beam_dofs(bool outer) const {

@@ -31,11 +31,16 @@ class ElementSorter {
   /// Results of `sort`; `outer`: elements that touch a ghost. Call in this order; rows are formed
   /// here, and elements that fit in none join the others.
   std::vector<std::unique_ptr<ElementLines>> element_lines(bool outer);
-  GeneralElements general_elements(bool outer) const { return general_.elements(outer, slots_); }
+  template <template <typename> typename Of>
+  GeneralElementsOf<Of> general_elements(bool outer) const {
+    return general_.elements<Of>(outer, slots_);
+  }
   /// Owned dofs of those, some more than once.
   std::vector<LocalIndex> general_dofs(bool outer) const { return general_.dofs(outer, slots_); }
   /// Beams between nodes that are free or clamped in all six components; `idle` as there.
   BeamElements beam_elements(bool outer, LocalIndex idle) const;
+  /// Beams of a rank without ghosts, for eight runs.
+  BatchElements<BeamShape> batch_beams() const;
   /// Owned dofs of those beams, some more than once.
   std::vector<LocalIndex> beam_dofs(bool outer) const;
   AssembledRows assembled_rows() const;
@@ -61,6 +66,7 @@ class ElementSorter {
   void add_general(const Element& element);
   template <std::size_t lines>
   ElementRows<lines> form_rows(RowSet<lines>& set);
+  std::array<double, BeamShape::number_count> beam_numbers(const Element& element) const;
   bool touches_ghost(const Element& element) const;
   Slots slots(const Element& element) const;
 

@@ -76,7 +76,8 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
     for (const bool outer : {false, true}) {
       Part& part = outer ? outer_ : inner_;
       part.lines = sorter.element_lines(outer);
-      part.general = std::make_unique<GeneralElements>(sorter.general_elements(outer));
+      part.general =
+          std::make_unique<GeneralElements>(sorter.general_elements<StrainElements>(outer));
       part.beams = std::make_unique<BeamElements>(sorter.beam_elements(outer, idle));
       part.dofs = sorter.beam_dofs(outer);
       const std::vector<LocalIndex> dofs = sorter.general_dofs(outer);

@@ -125,9 +125,9 @@ std::size_t StrainSorter::shape_of(Collection<Shape>& collection, std::size_t b)
   return fresh_number;
 }
 
-template <typename Shape>
-StrainElements<Shape> StrainSorter::in_order(const Collection<Shape>& collection, bool outer,
-                                             const DofSlots& slots) const {
+template <typename Elements, typename Shape>
+Elements StrainSorter::in_order(const Collection<Shape>& collection, bool outer,
+                                const DofSlots& slots) const {
   const auto& elements = collection.elements[outer ? 1 : 0];
   const SpaceCurve curve(mesh_);
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
@@ -153,14 +153,18 @@ DofSlots StrainSorter::seen_along(std::size_t axis, const DofSlots& slots) {
   return seen;
 }
 
-GeneralElements StrainSorter::elements(bool outer, const DofSlots& slots) const {
-  return {
-      in_order(hexahedra_, outer, slots),
-      {in_order(extruded_[0], outer, seen_along(0, slots)),
-       in_order(extruded_[1], outer, seen_along(1, slots)), in_order(extruded_[2], outer, slots)},
-      in_order(quadrangles_, outer, slots),
-      in_order(triangles_, outer, slots)};
+template <template <typename> typename Of>
+GeneralElementsOf<Of> StrainSorter::elements(bool outer, const DofSlots& slots) const {
+  const auto extruded = [&](std::size_t axis) {
+    return in_order<Of<HexahedronStrains<true>>>(extruded_[axis], outer, seen_along(axis, slots));
+  };
+  return {in_order<Of<HexahedronStrains<false>>>(hexahedra_, outer, slots),
+          {extruded(0), extruded(1), extruded(2)},
+          in_order<Of<QuadrangleStrains>>(quadrangles_, outer, slots),
+          in_order<Of<TriangleStrains>>(triangles_, outer, slots)};
 }
+template GeneralElementsOf<StrainElements> StrainSorter::elements(bool, const DofSlots&) const;
+template GeneralElementsOf<BatchElements> StrainSorter::elements(bool, const DofSlots&) const;
 
 std::vector<LocalIndex> StrainSorter::dofs(bool outer, const DofSlots& slots) const {
   std::vector<LocalIndex> dofs;

@@ -10,32 +10,35 @@
 #include "stiffness/element_loop.h"
 #include "stiffness/element_shapes.h"
 #include "stiffness/rows/product.h"
+#include "stiffness/strains/batch_elements.h"
 #include "stiffness/strains/hexahedron_strains.h"
 #include "stiffness/strains/shell_strains.h"
 #include "stiffness/strains/strain_elements.h"
 
 namespace pounding::stiffness {
 
-/// Elements of every kind that is applied by its strains.
-struct GeneralElements {
-  StrainElements<HexahedronStrains<false>> hexahedra;
-  std::array<StrainElements<HexahedronStrains<true>>, 3> extruded;  ///< along x, y, z
-  StrainElements<QuadrangleStrains> quadrangles;
-  StrainElements<TriangleStrains> triangles;
+/// Elements of every kind that is applied by its strains; `Of`: StrainElements or BatchElements.
+template <template <typename> typename Of>
+struct GeneralElementsOf {
+  Of<HexahedronStrains<false>> hexahedra;
+  std::array<Of<HexahedronStrains<true>>, 3> extruded;  ///< along x, y, z
+  Of<QuadrangleStrains> quadrangles;
+  Of<TriangleStrains> triangles;
 
+  /// Calls `visit` with those of each kind.
+  static void each(auto& all, const auto& visit) {
+    visit(all.hexahedra);
+    for (auto& elements : all.extruded) visit(elements);
+    visit(all.quadrangles);
+    visit(all.triangles);
+  }
+};
+
+/// Applied to one run.
+struct GeneralElements : GeneralElementsOf<StrainElements> {
   /// q += K w; both arrays hold all slots. Allocates nothing.
   void apply(const double* w, double* q) const {
-    hexahedra.apply(w, q);
-    for (const auto& elements : extruded) elements.apply(w, q);
-    quadrangles.apply(w, q);
-    triangles.apply(w, q);
-  }
-  /// q += K w in eight runs, see StrainElements.
-  void apply(const BatchValue* w, BatchValue* q, LocalIndex idle) const {
-    hexahedra.apply(w, q, idle);
-    for (const auto& elements : extruded) elements.apply(w, q, idle);
-    quadrangles.apply(w, q, idle);
-    triangles.apply(w, q, idle);
+    each(*this, [&](const auto& elements) { elements.apply(w, q); });
   }
 };
 
@@ -50,7 +53,8 @@ class StrainSorter {
   bool add(std::size_t block, std::size_t element, bool outer);
 
   /// Results of `add`.
-  GeneralElements elements(bool outer, const DofSlots& slots) const;
+  template <template <typename> typename Of>
+  GeneralElementsOf<Of> elements(bool outer, const DofSlots& slots) const;
   /// Owned dofs of the elements, some more than once.
   std::vector<LocalIndex> dofs(bool outer, const DofSlots& slots) const;
   /// Elements that this rank counts.
@@ -73,9 +77,8 @@ class StrainSorter {
   std::size_t shape_of(Collection<Shape>& collection, std::size_t block);
   void find_coordinates(std::size_t block, std::size_t element);
   static DofSlots seen_along(std::size_t axis, const DofSlots& slots);
-  template <typename Shape>
-  StrainElements<Shape> in_order(const Collection<Shape>& collection, bool outer,
-                                 const DofSlots& slots) const;
+  template <typename Elements, typename Shape>
+  Elements in_order(const Collection<Shape>& collection, bool outer, const DofSlots& slots) const;
 
   const Structure& structure_;
   const Mesh& mesh_;

@@ -17,14 +17,14 @@ inline constexpr std::size_t element_lane_count = wide_lane_count;
 
 using ElementLanes = WideLanes;
 
-/// Numbers of one element of a batch, each in all lanes: for its products in several runs at once.
+/// Numbers of one element, each in all lanes: for its products in several runs at once.
 struct NumbersOfOne {
-  const double* first;  ///< the element's lane of the batch's numbers
+  const double* first;
 
   __attribute__((always_inline)) ElementLanes operator[](std::size_t k) const {
-    return all_wide(first[k * element_lane_count]);
+    return all_wide(first[k]);
   }
-  NumbersOfOne operator+(std::size_t k) const { return {first + k * element_lane_count}; }
+  NumbersOfOne operator+(std::size_t k) const { return {first + k}; }
 };
 
 #ifdef __AVX512F__

@@ -5,6 +5,7 @@
 
 #include "common/matrix3.h"
 #include "elements/gauss_rule.h"
+#include "stiffness/strains/batch_product.h"
 
 namespace pounding::stiffness {
 namespace {
@@ -305,9 +306,11 @@ std::array<double, HexahedronStrains<extruded>::number_count> HexahedronStrains<
 template struct HexahedronStrains<false>;
 template struct HexahedronStrains<true>;
 template void HexahedronStrains<false>::product(const ElementLanes*, ElementLanes*);
-template void HexahedronStrains<false>::product(NumbersOfOne, ElementLanes*);
 template void HexahedronStrains<true>::product(const ElementLanes*, ElementLanes*);
-template void HexahedronStrains<true>::product(NumbersOfOne, ElementLanes*);
+template void BatchElements<HexahedronStrains<false>>::apply(std::size_t, const BatchValue*,
+                                                             BatchValue*) const;
+template void BatchElements<HexahedronStrains<true>>::apply(std::size_t, const BatchValue*,
+                                                            BatchValue*) const;
 
 std::optional<Extrusion> Extrusion::find(std::span<const double> coordinates) {
   double extent = 0;

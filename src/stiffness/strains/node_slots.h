@@ -27,9 +27,7 @@ class NodeSlots {
 
   /// `owned_dofs` as in DofSlots.
   NodeSlots(LocalIndex owned_dofs, std::size_t nodes)
-      : owned_dofs_(owned_dofs), slot_of_node_(nodes, 0), start_(1, -1), dofs_(1) {
-    dofs_.front().fill(-1);
-  }
+      : owned_dofs_(owned_dofs), slot_of_node_(nodes, 0), start_(1, -1) {}
 
   /// Start of a node's slot; `dofs` as in DofSlots.
   std::uint32_t start_of(std::size_t node, const std::array<LocalIndex, 6>& dofs) {
@@ -43,7 +41,6 @@ class NodeSlots {
     if (moves && slot == 0) {
       slot = static_cast<std::uint32_t>(start_.size());
       start_.push_back(whole ? dofs[0] : -1);
-      std::copy_n(dofs.begin(), components, dofs_.emplace_back().begin());
       for (std::size_t c = 0; !whole && c < components; ++c) {
         if (dofs[c] >= 0) single_.push_back({dofs[c], slot * stride + c});
       }
@@ -132,18 +129,12 @@ class NodeSlots {
     (std::make_index_sequence<element_lane_count>());
   }
 
-  /// The dofs of the node whose slot starts there; -1: clamped.
-  const std::array<LocalIndex, components>& dofs_at(std::uint32_t start) const {
-    return dofs_[start / stride];
-  }
-
  private:
   static constexpr std::size_t stride = components == 3 ? 4 : 8;
 
   LocalIndex owned_dofs_;
-  std::vector<std::uint32_t> slot_of_node_;               ///< while slots are given out
-  std::vector<LocalIndex> start_;                         ///< per slot: first dof if all follow it
-  std::vector<std::array<LocalIndex, components>> dofs_;  ///< per slot
+  std::vector<std::uint32_t> slot_of_node_;  ///< while slots are given out
+  std::vector<LocalIndex> start_;            ///< per slot: first dof if all follow it
   std::vector<std::pair<LocalIndex, std::size_t>> single_;  ///< other dofs and their copies
   mutable LaneArray values_;
   mutable LaneArray forces_;  ///< zero between products

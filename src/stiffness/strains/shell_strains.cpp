@@ -1,5 +1,6 @@
 #include "stiffness/strains/shell_strains.h"
 
+#include "stiffness/strains/batch_product.h"
 #include "stiffness/strains/shell_fields.h"
 
 namespace pounding::stiffness {
@@ -285,8 +286,10 @@ std::array<double, TriangleStrains::number_count> TriangleStrains::numbers(
 }
 
 template void QuadrangleStrains::product(const ElementLanes*, ElementLanes*);
-template void QuadrangleStrains::product(NumbersOfOne, ElementLanes*);
 template void TriangleStrains::product(const ElementLanes*, ElementLanes*);
-template void TriangleStrains::product(NumbersOfOne, ElementLanes*);
+template void BatchElements<QuadrangleStrains>::apply(std::size_t, const BatchValue*,
+                                                      BatchValue*) const;
+template void BatchElements<TriangleStrains>::apply(std::size_t, const BatchValue*,
+                                                    BatchValue*) const;
 
 }  // namespace pounding::stiffness

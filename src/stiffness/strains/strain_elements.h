@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "common/batch_value.h"
 #include "common/lanes.h"
 #include "common/memory.h"
 #include "common/types.h"
@@ -43,9 +42,6 @@ class StrainElements {
   /// q += K w on owned dofs; both arrays hold all slots, w three values beyond them. Allocates
   /// nothing.
   void apply(const double* w, double* q) const;
-  /// q += K w in eight runs, one element after the other, on a rank that has no ghosts; -1 in
-  /// DofSlots is the slot `idle`, whose w are zero.
-  void apply(const BatchValue* w, BatchValue* q, LocalIndex idle) const;
 
  private:
   /// Shapes with so many elements have lanes of their own; others share their lanes.
@@ -54,7 +50,6 @@ class StrainElements {
   struct Batch {
     std::array<typename NodeSlots<Shape::components>::Starts, Shape::node_count> start{};
     std::size_t numbers = 0;  ///< where they begin, in ElementLanes
-    std::size_t used = 0;     ///< lanes with an element
   };
 
   void begin_numbers(std::span<const Numbers* const> lanes);
@@ -90,7 +85,7 @@ StrainElements<Shape>::StrainElements(const std::vector<Numbers>& shapes,
     begin_numbers(same);
     const std::size_t begin = numbers_.size() - Shape::number_count;
     for (std::size_t e = 0; e < alike.size(); ++e) {
-      if (e % element_lane_count == 0) batches_.push_back({{}, begin, 0});
+      if (e % element_lane_count == 0) batches_.push_back({{}, begin});
       put(*alike[e], e % element_lane_count, of_node);
     }
   }
@@ -102,7 +97,7 @@ StrainElements<Shape>::StrainElements(const std::vector<Numbers>& shapes,
       begin_numbers(lanes);
       const std::size_t begin = numbers_.size() - Shape::number_count;
       for (std::size_t e = 0; e < count; ++e) {
-        batches_.push_back({{}, begin, 0});
+        batches_.push_back({{}, begin});
         for (std::size_t lane = 0; lane < used; ++lane) {
           put(*of_shape[alike[first + lane]][e], lane, of_node);
         }
@@ -128,7 +123,6 @@ void StrainElements<Shape>::put(const Element& element, std::size_t lane,
     const auto node = static_cast<std::size_t>(element.nodes[a]);
     batches_.back().start[a][lane] = slots_.start_of(node, of_node[node]);
   }
-  batches_.back().used = lane + 1;
 }
 
 template <typename Shape>
@@ -146,33 +140,6 @@ void StrainElements<Shape>::apply(const double* w, double* q) const {
     }
   }
   slots_.add_to(q);
-}
-
-template <typename Shape>
-void StrainElements<Shape>::apply(const BatchValue* w, BatchValue* q, LocalIndex idle) const {
-  constexpr std::size_t count = Shape::node_count * Shape::components;
-  std::array<std::size_t, count> at{};  // dofs of the element
-  ElementLanes values[count];
-  for (const Batch& batch : batches_) {
-    const auto* const numbers = reinterpret_cast<const double*>(&numbers_[batch.numbers]);
-    for (std::size_t lane = 0; lane < batch.used; ++lane) {
-      for (std::size_t a = 0; a < Shape::node_count; ++a) {
-        const auto& dofs = slots_.dofs_at(batch.start[a][lane]);
-        for (std::size_t c = 0; c < Shape::components; ++c) {
-          at[a * Shape::components + c] = static_cast<std::size_t>(dofs[c] < 0 ? idle : dofs[c]);
-        }
-      }
-      for (std::size_t run = 0; run < batch_size; run += element_lane_count) {
-        for (std::size_t i = 0; i < count; ++i) load(&w[at[i]].values[run], values[i]);
-        Shape::product(NumbersOfOne{numbers + lane}, values);
-        for (std::size_t i = 0; i < count; ++i) {
-          ElementLanes sum;
-          load(&q[at[i]].values[run], sum);
-          store(&q[at[i]].values[run], sum + values[i]);
-        }
-      }
-    }
-  }
 }
 
 }  // namespace pounding::stiffness
