@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,12 @@ const ResultFile struck_table{"struck_areas.csv",
                               "contact,length,height,force,time,x,y,z"};
 
 constexpr double endless = 1e9;  ///< height of a window that is as high as the face [m]
+
+/// A row and the mean force of its patch [N].
+struct Pressed {
+  const interactions::Constraint* row = nullptr;
+  double force = 0;
+};
 
 /// Largest mean force within windows that lie anywhere on the face of a contact: squares of
 /// `struck_areas`, and lengths along its first tangent axis, `struck_edges`, over its whole height.
@@ -44,13 +51,9 @@ class StruckAreas final : public Observer {
   std::span<const double> kept() const override { return found_; }
 
  private:
-  /// A row and the mean force of its patch [N].
-  struct Pressed {
-    const interactions::Constraint* row = nullptr;
-    double force = 0;
-  };
   static constexpr std::size_t width = 5;
   static constexpr double more = 1 + 1e-9;  ///< a force that is larger by less is the same
+  static constexpr double slightly_more = 1 + 5e-10;  ///< beyond the round-off of a sum
 
   /// Looks at the blocks that are there.
   void look();
@@ -66,6 +69,10 @@ class StruckAreas final : public Observer {
   std::vector<double> found_;
 };
 
+double low_end(const Pressed* one) {
+  return one->row->patch[0][0];
+}
+
 /// Part of a patch that lies in a window from `low` on.
 double part_in(const interactions::Patch& patch, const std::array<double, 2>& low,
                const std::array<double, 2>& sides) {
@@ -77,6 +84,25 @@ double part_in(const interactions::Patch& patch, const std::array<double, 2>& lo
                       : (from >= low[d] && from <= end ? 1.0 : 0.0);
   }
   return part;
+}
+
+/// The pressed patches that windows which share a side with `patch`
+/// along each axis may hold. `sorted`: all, by their low ends along the first axis, along which
+/// none is longer than `longest`.
+void find_near(const interactions::Patch& patch, const std::array<double, 2>& sides,
+               std::span<const Pressed* const> sorted, double longest,
+               std::vector<const Pressed*>& near) {
+  interactions::Patch reach{};
+  for (std::size_t d = 0; d < 2; ++d) {
+    const auto [from, to] = patch[d];
+    reach[d] = {std::min(from, to - sides[d]), std::max(from, to - sides[d]) + sides[d]};
+  }
+  near.clear();
+  for (auto one = std::ranges::lower_bound(sorted, reach[0][0] - longest, {}, low_end);
+       one != sorted.end() && low_end(*one) <= reach[0][1]; ++one) {
+    const auto [from, to] = (*one)->row->patch[1];
+    if (to >= reach[1][0] && from <= reach[1][1]) near.push_back(*one);
+  }
 }
 
 }  // namespace
@@ -128,23 +154,32 @@ void StruckAreas::look() {
 
 void StruckAreas::look_at(std::span<const Pressed> pressed, std::size_t window,
                           double* found) const {
-  double all = 0;
-  for (const Pressed& one : pressed) all += one.force;
-  if (!(all > found[0] * more)) return;
   const std::array<double, 2>& sides = windows_[window];
+  std::vector<const Pressed*> sorted, near;
+  double longest = 0;
+  for (const Pressed& one : pressed) {
+    sorted.push_back(&one);
+    longest = std::max(longest, (one.row->patch[0][1] - low_end(&one)) * more);
+  }
+  std::ranges::sort(sorted, {}, low_end);
   for (const Pressed& corner : pressed) {
+    const interactions::Patch& patch = corner.row->patch;
+    find_near(patch, sides, sorted, longest, near);
+    const double all = std::accumulate(near.begin(), near.end(), 0.0,
+                                       [](double sum, auto* one) { return sum + one->force; });
+    if (all <= found[0] * slightly_more) continue;
+    std::ranges::sort(near);  // as the rows are, so that a sum has one order
     for (const int from : {0, 1, 2, 3}) {
       std::array<double, 2> low{};
       for (std::size_t d = 0; d < 2; ++d) {
-        low[d] =
-            (from >> d) % 2 == 0 ? corner.row->patch[d][0] : corner.row->patch[d][1] - sides[d];
+        low[d] = (from >> d) % 2 == 0 ? patch[d][0] : patch[d][1] - sides[d];
       }
       double sum = 0;
       Vector3 moment{};
-      for (const Pressed& one : pressed) {
-        const double force = one.force * part_in(one.row->patch, low, sides);
+      for (const Pressed* const one : near) {
+        const double force = one->force * part_in(one->row->patch, low, sides);
         sum += force;
-        for (std::size_t d = 0; d < 3; ++d) moment[d] += force * one.row->at[d];
+        for (std::size_t d = 0; d < 3; ++d) moment[d] += force * one->row->at[d];
       }
       if (!(sum > found[0] * more)) continue;
       found[0] = sum;
