@@ -25,7 +25,7 @@ TIGHT = [*[(0, y, z, .03) for y in (0, 2, 4) for z in (0, 2, 4, 6, 8) if (y, z) 
 def survey(points, head="x,y,z,gap"):
     path = os.path.join(tempfile.mkdtemp(prefix="pounding-survey-"), "survey.csv")
     with open(path, "w") as file:
-        file.write("\n".join([head, *(",".join(repr(float(v)) for v in point) for point in points)]) + "\n")
+        file.write("\n".join([head, *(",".join(v if isinstance(v, str) else repr(float(v)) for v in point) for point in points)]) + "\n")
     return path
 
 
@@ -77,6 +77,21 @@ class GapSurvey(unittest.TestCase):
             self.assertAlmostEqual(found[y], gap, delta=1e-12)
         self.assertIn("2 pairs lie beyond the points, by at most 1 m", done.stdout)
 
+    def test_one_file_for_several_contacts(self):
+        """Rows go to the contact that they name, whatever lies between them; both joints are those of files of their own."""
+        scene = os.path.join(program.SOURCE, "petsc-options", "new", "two-buildings", "two-buildings.yaml")
+        first, second = ([(6, y, z, gap) for y, gap in zip((3, .5, 2), gaps)] for z, gaps in ((3, (.02, .01, .04)), (6, (.03, .015, .02))))
+        mixed = survey([("floor1" if point in first else "floor2", *point) for pair in zip(second, first) for point in pair], "contact,x,y,z,gap")
+
+        def gaps(*files):
+            words = ["-options_file", scene, *(word for floor, file in zip(("floor1", "floor2"), files) for word in
+                                               (f"-{floor}_gap", "geometry", f"-{floor}_survey", file)), *clock(1e-5, 1e-5), "-modes", 0, "-csv_digits", 17]
+            with tempfile.TemporaryDirectory() as folder:
+                program.must_end(self, [*words, "-output", folder])
+                return program.read_csv(os.path.join(folder, "joint_pairs.csv"))["initial_gap"]
+
+        self.assertEqual(gaps(mixed, mixed), gaps(survey(first), survey(second)))
+
     def test_less_a_closing_by_elevation(self):
         plain, _ = self.gaps("-joint_survey", survey(CORNERS))
         found, _ = self.gaps("-joint_survey", survey(CORNERS), "-joint_static_closing", "2:.001,6:.005")
@@ -119,11 +134,15 @@ class GapSurvey(unittest.TestCase):
                                ([(x, y, z, 1e3 * g) for x, y, z, g in CORNERS], "half of its gaps are 60 m or more; gaps are in metres"),
                                (CORNERS[:2], "fewer than three points"),
                                ([(0, 0, z, .04) for z in (0, 3, 8)], "lie on one line"),
-                               ([*CORNERS, CORNERS[1]], "points 2 and 5 are the same place"),
+                               ([*CORNERS, CORNERS[1]], "lines 3 and 6 are the same place"),
                                ([*CORNERS[:3], (0, 0, 8, -.01)], "line 5", "a gap below 0")):
             program.must_refuse(self, [*BLOCKS, "-dry_run", "-end_time", 1e-4, "-joint_survey", survey(points)], "-joint_survey", *parts)
         words = [*BLOCKS, "-dry_run", "-end_time", 1e-4]
         program.must_refuse(self, [*words, "-joint_survey", survey(CORNERS, "x,y,z,gap_mm")], "no column 'gap'")
+        for names, part in ((["joint", "joint", "joint", "joints"], "line 5: 'joints' is no contact of the scene"),
+                            (["joint", "", "joint", "joint"], "line 3: '(no value)' is no contact of the scene")):
+            mixed = survey([(name, *corner) for name, corner in zip(names, CORNERS)], "contact,x,y,z,gap")
+            program.must_refuse(self, [*words, "-joint_survey", mixed], part)
         program.must_refuse(self, [*words, "-joint_survey", "nothing.csv"], "-joint_survey nothing.csv", "no such file")
         program.must_refuse(self, [*words, "-joint_survey", survey(CORNERS), "-joint_gap", .02], "-joint_survey", "not beside -joint_gap")
         program.must_refuse(self, [*words, "-joint_static_closing", "3:.1,2:.2"], "-joint_static_closing", "elevations must rise")

@@ -283,7 +283,7 @@ def _joints(reader: Reader) -> dict:
             one.fail("shape", "has neither one value nor two or four")
         survey, closing = _survey(one)
         if survey:
-            shape = (min(least for _, least in survey_points(one, survey)) - max(taken for _, taken in closing),)
+            shape = (min(least for _, least in survey_points(one, survey, name)) - max(taken for _, taken in closing),)
         drawn = _variable(one.part("deviation", SPREAD), f"{name}_gap") if one.values.get("deviation") else None
         found[name] = Joint(shape, drawn, _field(one), survey, closing)
     if len({bool(joint.survey) for joint in found.values()}) > 1:
@@ -312,16 +312,17 @@ def _survey(one: Reader) -> tuple:
     return path, tuple(points)
 
 
-def survey_points(one: Reader, path: str) -> list:
-    """Elevation and gap of the points of a survey [m]; the program checks the rest of the file."""
+def survey_points(one: Reader, path: str, contact: str) -> list:
+    """Elevation and gap of the points of a contact in a survey [m]; the program checks the rest of the file."""
     try:
         with open(path, newline="", encoding="utf-8-sig") as file:
             lines = [line for line in file if line.strip() and not line.startswith("#")]
         separator = ";" if ";" in lines[0] else ","
-        return [(float(row["z"]), float(row["gap"])) for row in
-                csv.DictReader(lines, delimiter=separator, skipinitialspace=True)]
-    except (OSError, ValueError, KeyError, TypeError, IndexError):
+        found = [(float(row["z"]), float(row["gap"])) for row in csv.DictReader(lines, delimiter=separator, skipinitialspace=True)
+                 if row.get("contact", contact).strip() == contact]
+    except (OSError, ValueError, KeyError, TypeError, IndexError, AttributeError):
         return one.fail("survey", "is no table of points with the columns x, y, z and gap")
+    return found or one.fail("survey", f"has no point of contact {contact}")
 
 
 def _field(reader: Reader) -> tuple:

@@ -25,7 +25,8 @@ namespace {
 class PairFinder {
  public:
   PairFinder(const Scene& scene, std::span<const GlobalMesh> meshes, int contact)
-      : contact_(scene.contacts[contact]),
+      : contacts_(scene.contacts),
+        contact_(scene.contacts[contact]),
         number_(contact),
         sides_(find_sides(scene, meshes, contact_)) {
     report_.contact = contact_.name;
@@ -297,7 +298,9 @@ class PairFinder {
   }
 
   void set_gaps(std::span<Constraint> constraints, std::span<Constraint> watched) {
-    if (!contact_.gap.survey.empty()) lay_survey(contact_, constraints, watched, report_);
+    if (!contact_.gap.survey.empty()) {
+      lay_survey(contacts_, contact_, constraints, watched, report_);
+    }
     const GivenGap gap(contact_);
     std::array<double, 2> low{1e300, 1e300};
     std::array<double, 2> high{-1e300, -1e300};
@@ -361,6 +364,7 @@ class PairFinder {
     }
   }
 
+  std::span<const Contact> contacts_;
   const Contact& contact_;
   int number_;
   bool watches_ = false;       ///< rows that are found are only looked at

@@ -54,8 +54,9 @@ bool circle_holds(const std::vector<Place>& x, const Triangle& corners, const Pl
   return sum > noise * size;
 }
 
-/// Points of a survey with their gaps.
+/// Points of a survey with their gaps, and their lines in its file.
 struct Survey {
+  std::vector<int> lines;
   std::vector<Vector3> points;
   std::vector<double> gaps;
 };
@@ -64,30 +65,39 @@ struct Survey {
 class SurveyFile {
  public:
   explicit SurveyFile(const Contact& contact)
-      : option_("option -" + contact.name + "_survey"), path_(contact.gap.survey) {}
+      : contact_(contact.name),
+        option_("option -" + contact.name + "_survey"),
+        path_(contact.gap.survey) {}
 
   [[noreturn]] void refuse(const std::string& why, int line = 0) const {
     throw UserError(option_ + " " + path_ + (line > 0 ? ", line " + std::to_string(line) : "") +
                     ": " + why);
   }
 
-  Survey read() const {
+  /// All points or, with a column `contact`, those of this one.
+  Survey read(std::span<const Contact> contacts) const {
     const MemberTable table = read_table(option_, path_);
+    const auto column = [&](const char* name) {
+      return static_cast<std::size_t>(std::ranges::find(table.columns, name) -
+                                      table.columns.begin());
+    };
     std::array<std::size_t, 4> columns{};
     constexpr std::array<const char*, 4> names{"x", "y", "z", "gap"};
     for (std::size_t k = 0; k < names.size(); ++k) {
-      const auto found = std::ranges::find(table.columns, names[k]);
-      if (found == table.columns.end()) {
+      columns[k] = column(names[k]);
+      if (columns[k] == table.columns.size()) {
         refuse(std::string("no column '") + names[k] +
                "'; the first line names x, y, z and gap, in metres");
       }
-      columns[k] = static_cast<std::size_t>(found - table.columns.begin());
     }
-    if (table.members() < 3) {
-      refuse("fewer than three points, between which nothing is linear; give more, or -..._gap");
-    }
+    const std::size_t owner = column("contact");
     Survey survey;
     for (std::size_t point = 0; point < table.members(); ++point) {
+      if (owner < table.columns.size() && table.value(point, owner) != contact_) {
+        const std::string& name = table.value(point, owner);
+        if (std::ranges::find(contacts, name, &Contact::name) != contacts.end()) continue;
+        refuse("'" + shown_value(name) + "' is no contact of the scene", table.lines[point]);
+      }
       std::array<double, 4> values{};
       for (std::size_t k = 0; k < values.size(); ++k) {
         const std::string& word = table.value(point, columns[k]);
@@ -98,13 +108,19 @@ class SurveyFile {
       if (values[3] < 0) {
         refuse("a gap below 0; faces that touch have one of 0", table.lines[point]);
       }
+      survey.lines.push_back(table.lines[point]);
       survey.points.push_back({values[0], values[1], values[2]});
       survey.gaps.push_back(values[3]);
+    }
+    if (survey.points.size() < 3) {
+      refuse("fewer than three points of contact " + contact_ +
+             ", between which nothing is linear; give more, or -..._gap");
     }
     return survey;
   }
 
  private:
+  std::string contact_;
   std::string option_;
   std::string path_;
 };
@@ -234,10 +250,11 @@ std::array<double, 2> in_plane(const Vector3& x, const Vector3& normal,
   return {x[a] + longer * normal[a], x[b] + longer * normal[b]};
 }
 
-void lay_survey(const Contact& contact, std::span<Constraint> rows, std::span<Constraint> watched,
+void lay_survey(std::span<const Contact> contacts, const Contact& contact,
+                std::span<Constraint> rows, std::span<Constraint> watched,
                 InterfaceReport& report) {
   const SurveyFile file(contact);
-  const Survey survey = file.read();
+  const Survey survey = file.read(contacts);
   require_on_face(file, survey, rows, report);
   std::vector<Place> places;
   for (const Vector3& point : survey.points) {
@@ -259,7 +276,8 @@ void lay_survey(const Contact& contact, std::span<Constraint> rows, std::span<Co
     places[i] = scaled(places[i]);
     for (std::size_t j = 0; j < i; ++j) {
       if (squared(side(places[i], places[j])) > one_point * one_point) continue;
-      file.refuse(sentence("points {} and {} are the same place of the face", {j + 1, i + 1}));
+      file.refuse(sentence("lines {} and {} are the same place of the face",
+                           {survey.lines[j], survey.lines[i]}));
     }
   }
   const LinearField field(places, survey.gaps);

@@ -42,10 +42,10 @@ class LinearField {
 std::array<double, 2> in_plane(const Vector3& x, const Vector3& normal,
                                const std::array<int, 2>& axes);
 
-/// Reads the survey of a contact, notes the gap that it has at each row and in the report how it
-/// lies on the face. Throws UserError: no such table, too few points, points that are not on the
-/// face, gaps of another unit. Serial, rank 0.
-void lay_survey(const Contact& contact, std::span<Constraint> rows, std::span<Constraint> watched,
-                InterfaceReport& report);
+/// Reads the survey of a contact, one of `contacts`, notes the gap that it has at each row and in
+/// the report how it lies on the face. Throws UserError: no such table, too few points, points that
+/// are not on the face, or of no contact, gaps of another unit. Serial, rank 0.
+void lay_survey(std::span<const Contact> contacts, const Contact& contact,
+                std::span<Constraint> rows, std::span<Constraint> watched, InterfaceReport& report);
 
 }  // namespace pounding::interactions
