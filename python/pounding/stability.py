@@ -19,6 +19,7 @@ WATER = 1000.0 * 9.81  # weight of water unless the user gives the buoyancy [N/m
 ROUND_OFF = 1e-9  # of the weight, with a side of the mat as its arm: what drives less drives nothing
 ALL_HELD = 0.999  # part of the weight that forces under a structure carry at rest, at least, where nothing of it is clamped
 CARRIED = 0.5  # and below which something else carries it
+MOTIONS = ("settlement", "settlement at most", "stays moved")  # of a base
 KEYS = ("friction", "passive", "buoyancy", "water", "edges", "level", "weight", "weight_at", "contact")
 
 
@@ -333,15 +334,24 @@ def _motion(run: Result, given: Given, place: str) -> dict:
     if given.contact:
         if given.contact not in run.contacts:
             raise UserError(f"{place}: mats: {given.name}: {given.contact} is no contact of the run; it has {', '.join(run.contacts) or 'none'}")
-        mine = np.asarray(run.impacts.get("contact", []), str) == given.contact
         if "slip" not in run.impacts:
             raise ResultError(f"{run.folder}: no impacts.csv with slips")
-        motion["slid [m]"] = float(np.asarray(run.impacts["slip"])[mine].sum())
-    ways = [run.base(given.name, way) for way in "xyz"]
-    if all(ways):
-        x, y, z = (values - values[0] for _, values in ways)
-        motion |= {"settlement [m]": float(-z[-1]), "settlement at most [m]": float(-z.min()), "stays moved [m]": float(np.hypot(x[-1], y[-1]))}
-    return motion
+        motion["slid"] = slip_of(run, given.contact)
+    return motion | dict(zip(MOTIONS, base_motion(run, given.name)))
+
+
+def slip_of(run: Result, contact: str) -> float:
+    """Slips of the episodes of a contact, added up [m]."""
+    return float(np.asarray(run.impacts["slip"])[np.asarray(run.impacts["contact"], str) == contact].sum())
+
+
+def base_motion(run: Result, structure: str) -> list:
+    """MOTIONS of a base [m] since the start; empty where none was recorded."""
+    ways = [run.base(structure, way) for way in "xyz"]
+    if not all(ways):
+        return []
+    x, y, z = (values - values[0] for _, values in ways)
+    return [float(-z[-1]), float(-z.min()), float(np.hypot(x[-1], y[-1]))]
 
 
 def tables_of(found_of: list, names: list, asked: float) -> tuple:
@@ -352,8 +362,8 @@ def tables_of(found_of: list, names: list, asked: float) -> tuple:
             if np.isfinite(one.factor[c, 0]):
                 rows.append({"mat": name, "criterion": criterion, "asked": asked, "least": float(one.factor[c, 0]), "time [s]": float(one.time[c, 0]),
                              "holds": "yes" if one.factor[c, 0] >= asked else "no"})
-        more = motion | ({"slides by Newmark's block [m]": one.slid} if one else {})
-        rows += [{"mat": name, "criterion": key.removesuffix(" [m]"), "value [m]": value} for key, value in more.items()]
+        more = motion | ({"slides by Newmark's block": one.slid} if one else {})
+        rows += [{"mat": name, "criterion": key, "value [m]": value} for key, value in more.items()]
         instants += instant_rows(mat, one) if mat else []
     return rows, instants
 

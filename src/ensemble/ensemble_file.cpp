@@ -55,6 +55,9 @@ std::vector<Quantity> quantities(const EnsembleLayout& layout) {
     list.push_back({"spans/peak", "m, rad", {layout.spans.size(), 8}, &MemberResult::span_peak});
     list.push_back({"spans/time", "s", {layout.spans.size(), 8}, &MemberResult::span_time});
   }
+  if (!layout.bases.empty()) {
+    list.push_back({"bases/settled", "m", {layout.bases.size(), 3}, &MemberResult::settled});
+  }
   if (!layout.forces.empty()) {
     list.push_back({"forces/history",
                     "N, N m",
@@ -66,6 +69,7 @@ std::vector<Quantity> quantities(const EnsembleLayout& layout) {
   if (const std::size_t windows = layout.struck.areas.size() + layout.struck.edges.size()) {
     list.push_back({"struck/largest", "N, s, m", {contacts, windows, 5}, &MemberResult::struck});
   }
+  if (layout.friction) list.push_back({"impacts/slip", "m", {contacts}, &MemberResult::slip});
   list.insert(list.end(),
               {{"impacts/episodes", "-", {contacts}, &MemberResult::episodes},
                {"impacts/first_time", "s", {contacts}, &MemberResult::first_time},
@@ -135,6 +139,7 @@ void create(const std::string& path, const EnsembleLayout& layout) {
   file.write_strings(identity_name, layout.identity);  // where there are groups for them
   file.write_strings("spectra/channels", layout.channels);
   if (!layout.spans.empty()) file.write_strings("spans/names", layout.spans);
+  if (!layout.bases.empty()) file.write_strings("bases/names", layout.bases);
   if (!layout.forces.empty()) {
     file.write_strings("forces/names", layout.forces);
     file.write_array("forces/time", 0, layout.force_times);
@@ -295,8 +300,8 @@ void write_ensemble_table(const std::string& path, const EnsembleLayout& layout,
   const std::vector<bool> done = file.done();
   std::vector<Quantity> list = quantities(layout);
   std::erase_if(list, [](const Quantity& quantity) {  // they have no place in a line
-    constexpr std::array<std::string_view, 5> left{"spectra/", "pairs/", "spans/", "forces/",
-                                                   "struck/"};
+    constexpr std::array<std::string_view, 6> left{"spectra/", "pairs/",  "spans/",
+                                                   "bases/",   "forces/", "struck/"};
     return std::ranges::any_of(
         left, [&](auto group) { return std::string_view(quantity.name).starts_with(group); });
   });

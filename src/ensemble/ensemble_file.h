@@ -24,6 +24,8 @@ struct EnsembleLayout {
   /// Lines of the sources of the results: a file of other ones is of another ensemble.
   std::vector<std::string> identity;
   std::vector<std::string> spans;
+  std::vector<std::string> bases;   ///< structures whose base can move
+  bool friction = false;            ///< contacts have slip
   std::vector<std::string> forces;  ///< columns of recorded forces
   std::vector<double> force_times;  ///< of their records [s]
   StruckPlaces struck;

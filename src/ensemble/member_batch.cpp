@@ -160,11 +160,11 @@ MemberResult MemberBatch::result(std::size_t member) {
   runs_[member]->fill(result);
   passes_.fill(member, result);
   recorder_.fill_spans(member, result);
+  recorder_.fill_bases(member, result);
   const double frequency = stated_frequency(scene_, recorder_.interval());
   for (std::size_t c = 0; c < recorder_.channels(); ++c) {
     const std::span<const double> history = recorder_.acceleration(c, member);
-    const std::span<const double> counted =
-        history.subspan(std::min(recorder_.first(), history.size()));
+    const auto counted = history.subspan(std::min(recorder_.first(), history.size()));
     for (const auto& spectrum :
          response_spectra(counted, recorder_.interval(), scene_.spectra.frequencies,
                           scene_.spectra.damping_ratios, AfterRecord::ignored)) {
@@ -189,7 +189,8 @@ BatchRecorder::BatchRecorder(const Model& model, const Times& times)
       interval_(times.time_step * times.stride),
       first_(first_record_from(times.start, times.time_step, interval_)),
       capacity_(records_of(times)) {
-  const std::vector<ResolvedProbe>& recorded = model.recorded;
+  std::vector<ResolvedProbe> recorded = model.recorded;
+  recorded.insert(recorded.end(), model.storey_bases.begin(), model.storey_bases.end());
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
     std::vector<TracePoint> places;
     std::vector<const ResolvedProbe*> here;
@@ -208,10 +209,12 @@ BatchRecorder::BatchRecorder(const Model& model, const Times& times)
     rows.carried = probe_means(here, [&](std::size_t k) { return trace.carried(k); });
     rows_.push_back(std::move(rows));
   }
-  for (std::size_t p = model.probes.size(); p < recorded.size(); ++p) {
+  for (std::size_t p = model.probes.size(); p < model.recorded.size(); ++p) {
     ends_.push_back({3 * static_cast<std::size_t>(recorded[p].of), 3 * p});
   }
   values_.assign(3 * recorded.size(), BatchValue{});
+  bases_at_start_.resize(3 * model.storey_bases.size());
+  bases_moved_ = bases_at_start_;
   products_.assign(values_.size(), BatchValue{});
   block_.assign(block_records * channels_, BatchValue{});
   history_.resize(channels_ * batch_size * capacity_);
@@ -224,6 +227,7 @@ void BatchRecorder::restart(std::span<const StatesOfRuns> states,
   displacement_.assign(channels_, BatchValue{});
   apart_.assign(3 * ends_.size(), BatchValue{});
   largest_.assign(4 * ends_.size(), {});
+  lowest_.assign(bases_at_start_.size() / 3, BatchValue{});
   ground_.fill(BatchValue{});
   blocked_ = records_ = 0;
 }
@@ -249,8 +253,9 @@ void BatchRecorder::multiply(std::span<const StatesOfRuns> states, const StatePa
 void BatchRecorder::take_displacements(std::span<const StatesOfRuns> states,
                                        const std::vector<BatchValue>& supports) {
   const bool counts = records_ >= first_;
-  if (!counts && records_ > 0) return;
+  if (!counts && records_ > 0 && lowest_.empty()) return;
   multiply(states, displacements, supports);
+  note_bases();
   note_spans(static_cast<double>(records_) * interval_, counts);
   if (!counts) return;
   for (std::size_t c = 0; c < channels_; ++c) {
@@ -271,6 +276,23 @@ void BatchRecorder::note_spans(double time, bool counts) {
     const BatchMask more = largest_[k][0] < found;
     if (!counts || !any(more)) continue;
     largest_[k] = {larger(largest_[k][0], found), choose(more, all_eight(time), largest_[k][1])};
+  }
+}
+
+void BatchRecorder::note_bases() {
+  for (std::size_t i = 0; i < bases_moved_.size(); ++i) {
+    const BatchValue& now = values_[values_.size() - bases_moved_.size() + i];
+    if (records_ == 0) bases_at_start_[i] = now;
+    bases_moved_[i] = now - bases_at_start_[i];
+    if (i % 3 == 2) lowest_[i / 3] = larger(lowest_[i / 3], -bases_moved_[i]);
+  }
+}
+
+void BatchRecorder::fill_bases(std::size_t member, MemberResult& result) const {
+  for (std::size_t base = 0; base < lowest_.size(); ++base) {
+    const auto moved = [&](std::size_t d) { return bases_moved_[3 * base + d][member]; };
+    result.settled.insert(result.settled.end(),
+                          {-moved(2), lowest_[base][member], std::hypot(moved(0), moved(1))});
   }
 }
 
@@ -360,6 +382,7 @@ void MemberRun::fill(MemberResult& result) {
     result.contact_residual = {scheme_.contact()->largest_residual()};
   }
   result.first_time.assign(contacts, std::numeric_limits<double>::quiet_NaN());
+  result.slip.assign(contacts, 0.0);
   for (std::size_t c = 0; c < contacts; ++c) {
     const ImpactTotals totals = catalogue.totals(static_cast<int>(c));
     result.episodes.push_back(totals.episodes);
@@ -370,6 +393,7 @@ void MemberRun::fill(MemberResult& result) {
   for (const Impact& impact : catalogue.impacts()) {  // the earliest first
     double& first = result.first_time[impact.contact];
     if (!(first <= impact.start)) first = impact.start;
+    result.slip[impact.contact] += impact.slip;
   }
 }
 

@@ -92,9 +92,12 @@ class BatchRecorder {
   /// How far the second end of each span moved against its first since the start of a run at most,
   /// and when: three displacements and their length, three rotations and theirs.
   void fill_spans(std::size_t member, MemberResult& result) const;
+  /// How far each base of structures lies lower at the end than at the start of a run, how far it
+  /// did at most, and how far it stays moved in plan.
+  void fill_bases(std::size_t member, MemberResult& result) const;
 
  private:
-  /// Probes and rotations of one structure.
+  /// Probes, rotations and base of one structure.
   struct Rows {
     std::size_t structure = 0;
     CoordinateRows values;
@@ -103,6 +106,7 @@ class BatchRecorder {
   };
   /// Looks how far the ends of spans are apart at `time` [s]. `counts`: for the largest.
   void note_spans(double time, bool counts);
+  void note_bases();
   /// values_ := rows times a part of the states, and the way with the supports.
   void multiply(std::span<const StatesOfRuns> states, const StatePart& part,
                 const std::vector<BatchValue>& supports);
@@ -117,7 +121,7 @@ class BatchRecorder {
   std::size_t first_;
   std::size_t capacity_;  ///< records of a run
   std::vector<Rows> rows_;
-  std::vector<BatchValue> values_;         ///< per channel, and behind these of rotations
+  std::vector<BatchValue> values_;         ///< per channel, and behind these of rotations, of bases
   std::vector<BatchValue> products_;       ///< of the channels of one structure
   std::vector<BatchValue> last_velocity_;  ///< per channel
   std::vector<BatchValue> displacement_;   ///< per channel, largest
@@ -126,6 +130,9 @@ class BatchRecorder {
   std::vector<BatchValue> apart_;  ///< per span, six at the start
   /// Eight of each, largest and when; of lengths the square.
   std::vector<std::array<BatchValue, 2>> largest_;
+  std::vector<BatchValue> bases_at_start_;  ///< three per base, as the next ones [m]
+  std::vector<BatchValue> bases_moved_;     ///< since then
+  std::vector<BatchValue> lowest_;          ///< per base, how far it was below at most [m]
   std::array<BatchValue, 3> ground_{};
   std::vector<BatchValue> block_;  ///< shape (block records, channels)
   LargeArray history_;             ///< shape (channels, members, records)

@@ -13,6 +13,7 @@ struct MemberResult {
   std::vector<double> impulse_largest;    ///< of an episode [N s]
   std::vector<double> force_peak;         ///< [N]
   std::vector<double> smallest_gap;       ///< [m]
+  std::vector<double> slip;               ///< sum over the episodes of a contact with friction [m]
   std::vector<double> struck;             ///< see StruckAreas, shape (contacts, windows, 5)
   std::vector<double> pair_initial_gap;   ///< per pair of the contacts, as the next ones [m]
   std::vector<double> pair_least_gap;     ///< of the samples [m]
@@ -25,6 +26,7 @@ struct MemberResult {
   std::vector<double> acceleration;       ///< largest per channel after the low-pass [m/s2]
   std::vector<double> span_peak;          ///< see SpanPeaks, shape (spans, 8) [m, rad]
   std::vector<double> span_time;          ///< of these [s]
+  std::vector<double> settled;            ///< see fill_bases, shape (bases, 3) [m]
   std::vector<double> forces;             ///< shape (records, columns) [N, N m]
   std::vector<double> energy_residual;    ///< one number: largest, relative
   std::vector<double> contact_residual;   ///< one number: of complementarity, largest [-]

@@ -66,7 +66,10 @@ class Ensemble {
   std::string path(const char* name) const { return scene_.output + "/" + name; }
 
   void read_members() {
-    for (const Contact& contact : scene_.contacts) layout_.contacts.push_back(contact.name);
+    for (const Contact& contact : scene_.contacts) {
+      layout_.contacts.push_back(contact.name);
+      layout_.friction = layout_.friction || contact.friction > 0;
+    }
     for (const Span& span : scene_.spans) layout_.spans.push_back(span.name);
     layout_.struck = scene_.struck;
     table_ = read_member_table(comm_, read_.ensemble, scene_);
@@ -154,6 +157,7 @@ class Ensemble {
         layout_.channels.push_back(probe.name + " " + direction);
       }
     }
+    for (const ResolvedProbe& base : shared_.storey_bases) layout_.bases.push_back(base.name);
     for (const interactions::Constraint& row : shared_.interface.constraints) {
       layout_.pair_contacts.push_back(row.contact);
       layout_.pair_places.insert(layout_.pair_places.end(), row.at.begin(), row.at.end());

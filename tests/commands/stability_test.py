@@ -2,6 +2,7 @@
 water and vertical motion, at full order and reduced, on one rank to three; slip of a block with friction and settlement of soil that
 yields in closed form; rows of a study beside single runs; what is refused."""
 import tempfile
+import types
 import unittest
 from pathlib import Path
 
@@ -15,6 +16,9 @@ from study_command import STUDY, StudyCommand
 
 import pounding
 from pounding import stability
+from pounding.fragility import stability as in_study
+from pounding.fragility.conditions import Condition
+from pounding.fragility.study_file import ALONE
 
 PROCESSORS = 2  # it starts runs
 G = 9.81
@@ -205,17 +209,18 @@ class Block(unittest.TestCase):
 
 class InAStudy(StudyCommand):
     MATS = {"left": {"friction": 0.5, "water": 0.4}, "right": {"friction": 0.4, "passive": 2e4, "edges": [6, 9.1, 0, 4]}}
+    OPTIONS = {**STUDY["options"], "left_roof_floor": True}
 
     def test_rows_are_those_of_single_runs(self):
         asked = {"asked": 1.1, "gravity": G, "mats": self.MATS}
-        said = self.fragility(stability=asked, states=None, submittal={"question": "Do they stand?"}).stdout
+        said = self.fragility(stability=asked, options=self.OPTIONS, states=None, submittal={"question": "Do they stand?"}).stdout
         self.assertIn("Doubt: mat left is below the factor of 1.1 that is asked: sliding", said)
         found = {(row["mat"], row["criterion"], row["runs"]): row for row in program.rows_of(self.place / "out" / "stability.csv")}
         instants = program.rows_of(self.place / "out" / "stability_instants.csv")
-        singles = {}
+        singles, self.motions = {}, {}
         for soil, speed in (("best", 150), ("upper", 225)):
             for seed in (1, 2):
-                singles[soil, seed] = self.alone(seed, {"left_soil_vs": speed}, asked)
+                singles[soil, seed], self.motions[soil, seed] = self.alone(seed, {"left_soil_vs": speed}, asked)
         for number, name in enumerate(self.MATS):
             for criterion in ("sliding", "overturning x+"):
                 c = stability.CRITERIA.index(criterion)
@@ -230,6 +235,14 @@ class InAStudy(StudyCommand):
                 five = [row for row in instants if (row["mat"], row["criterion"], row["runs"]) == (name, criterion, "joint of 10 mm")]
                 values = sorted(value for one in singles.values() for value in one[number].factor[c])[:5]
                 np.testing.assert_allclose([float(row["factor"]) for row in five], values, rtol=1e-7)
+        for motion in stability.MOTIONS:
+            row = found["left", motion, "joint of 10 mm"]
+            most = {key: motions[0][motion] for key, motions in self.motions.items()}
+            soil, seed = max(most, key=most.get)
+            self.assertAlmostEqual(float(row["largest [m]"]), most[soil, seed], delta=1e-7 * abs(most[soil, seed]))
+            self.assertEqual((row["soil"], row["motions"]), (soil, str(seed)))
+        self.assertGreater(float(found["left", "stays moved", "joint of 10 mm"]["largest [m]"]), 5e-5)
+        self.assertNotIn(("right", "settlement", "joint of 10 mm"), found)  # it is clamped
         slid = max(one[0].slid for one in singles.values())
         self.assertAlmostEqual(float(found["left", "sliding", "joint of 10 mm"]["would slide at most [m]"]) / slid, 1, delta=1e-6)
         for page in ("fragility.html", "submittal.html"):
@@ -238,14 +251,15 @@ class InAStudy(StudyCommand):
         self.assertLess(text.index("below the factor of 1.1"), text.index("<table"))
 
     def alone(self, seed, options, asked):
-        """Worst instants of the mats in a run of its own."""
+        """Worst instants of the mats in a run of its own, and their motions."""
         forces = {"forces": "a,b", "a_structure": "left", "a_kind": "reactions", "b_structure": "right", "b_kind": "reactions"}
         run = two_buildings.run(self.place / "run", **{
-            **STUDY["options"], "gap": 0.01, "motion_x_seed": seed, "motion_x_pga": 4.0, "motion_x_duration": 6, "motion_x_envelope": "0.3,4",
+            **self.OPTIONS, "gap": 0.01, "motion_x_seed": seed, "motion_x_pga": 4.0, "motion_x_duration": 6, "motion_x_envelope": "0.3,4",
             **{f"{name}_{key}": value for name in ("left", "right") for key, value in STUDY["reduction"][name].items()},
             "spectra_frequencies": "1,100", "time_step": self.time_step(), **forces, **options})
         given = {name: stability.Given(name, **{key: tuple(v) if isinstance(v, list) else v for key, v in one.items()}) for name, one in self.MATS.items()}
-        return [one for _, one, _ in stability.of_run(run, given, asked["gravity"], "test")]
+        mats = stability.of_run(run, given, asked["gravity"], "test")
+        return [one for _, one, _ in mats], [motion for *_, motion in mats]
 
     def time_step(self):
         import h5py
@@ -263,8 +277,29 @@ class InAStudy(StudyCommand):
             self.assertIn(word, said)
         said = self.fragility(stability={"asked": 1.1, "level": 3, "mats": self.MATS}, status=1).stderr
         self.assertIn("stability: level: 3 is none of the study's 4", said)
-        said = self.fragility(stability={"asked": 1.1, "mats": {"left": {"friction": 1, "contact": "floor1"}}}, status=1).stderr
-        self.assertIn("contact is for single runs", said)
+        said = self.fragility(stability={"asked": 1.1, "mats": {"left": {"friction": 1, "contact": "floor3"}}}, states=None, soils=None, status=1).stderr
+        self.assertIn("mats: left: floor3 is no contact of the scene; it has floor1, floor2", said)
+
+    def test_slip_on_contacts_and_settlement_by_hand(self):
+        """Two soils of two samples in a joint and apart: of each motion the mean, 84 % and largest on the soil where they are largest."""
+        def analysis(settled, slip):
+            one = types.SimpleNamespace(bases=["b"], contacts=["top", "base"], settled=np.array(settled)[:, None, :] * [1, 2, 3],
+                                        slip=np.array([[0, value] for value in slip]))
+            mats = {"a": stability.Given("a", 0.3, contact="base"), "b": stability.Given("b", 0.3)}
+            told = types.SimpleNamespace(stability=types.SimpleNamespace(mats=mats), levels=[2.0], joint_named=lambda gap: f"{gap:g} m", axes={})
+            return types.SimpleNamespace(outcomes=one, study=told, of=lambda gap, level: [2, 3] if gap is None else [0, 1], design=types.SimpleNamespace(motions=["m"] * 4))
+
+        soft = analysis([[1.0], [3], [0], [0]], [0.1, 0.2, 0.5, 0])
+        stiff = analysis([[2.5], [2], [0], [1]], [0.1, 0.3, 0, 0])
+        rows = {(row["mat"], row["criterion"], row["runs"]): row for row in in_study.moved_rows(
+            {Condition(name, ALONE, None): one for name, one in (("soft", soft), ("stiff", stiff))}, 0.01)}
+        self.assertEqual(len(rows), 2 + 2 * len(stability.MOTIONS))
+        row = rows["b", "settlement at most", "0.01 m"]
+        self.assertEqual([row[key] for key in ("mean [m]", "largest [m]", "sample", "soil")], [4.5, 6, 1, "soft"])
+        self.assertAlmostEqual(row["84 % [m]"], 2 * 2.68)
+        row = rows["a", "slid", "0.01 m"]
+        self.assertEqual([row[key] for key in ("largest [m]", "sample", "soil")], [0.3, 1, "stiff"])
+        self.assertEqual(rows["a", "slid", "apart"]["largest [m]"], 0.5)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,10 @@
-"""Recorded forces of members: those of the member's single run, on one rank, two and three; and
+"""Recorded forces of members, and how far their bases settled: those of the member's single run, on one rank, two and three; and
 which forces members do not keep."""
+import os
 import tempfile
 import unittest
 
+import h5py
 import numpy as np
 
 import program
@@ -10,6 +12,7 @@ from ensemble_test import MODAL, SCENE, overrides, table, time_step
 from soil_tables import coupled, write_soil
 
 import pounding
+from pounding import stability
 
 COLUMNS = "motion_x_seed,motion_x_pga,floor1_gap,floor2_gap,left_damping_factor"
 ROWS = ["1,3.5,0.01,0.01,1", "2,5,,\"0.008,0.012\",0.5", "3,4,0.012,0.009,2"]
@@ -23,7 +26,7 @@ SOIL = ["-left_clamp", "none", "-left_rigid", "base", "-left_soil_mat", "base"]
 class Members(unittest.TestCase):
     def check(self, *words, ranks=(1,), rows=ROWS, columns=COLUMNS):
         words = [*SCENE, *MODAL, "-end_time", "0.5", "-spectra_damping", "0.05", "-spectra_frequencies", "5", *FORCES, *words]
-        first = None
+        first, none = None, np.zeros((len(rows), 0))
         for count in ranks:
             folder = tempfile.mkdtemp(prefix="pounding-ensemble-")
             program.must_end(self, [*words, "-ensemble", table(rows, columns), "-output", folder], count)
@@ -41,6 +44,9 @@ class Members(unittest.TestCase):
             largest = np.maximum(abs(own[:, :, None]).max(0).T, 1.0)
             self.assertGreater(largest.max(), 1e4)
             self.assertLess((abs(theirs - own) / np.repeat(largest.reshape(-1, 6).max(1), 6)).max(), 1e-9)
+            with h5py.File(os.path.join(folder, "ensemble.h5")) as file:
+                for base, moved in zip(file.get("bases/names", []), file.get("bases/settled", none)[member]):
+                    np.testing.assert_allclose(moved, stability.base_motion(single, base.decode()), rtol=1e-9, atol=1e-12 * abs(moved).max())
 
     def test_on_one_rank_two_and_three(self):
         self.check("-gravity", "9.81", "-preload", "static", ranks=(1, 2, 3))
@@ -51,7 +57,7 @@ class Members(unittest.TestCase):
 
     def test_on_soil_whose_dashpots_brake_all_at_once(self):
         self.check(*SOIL, "-left_soil_size", "6,4", "-left_soil_vs", "200", "-left_soil_density", "1900", "-left_soil_poisson",
-                   "0.35", "-left_soil_frequency_dependence", "false")
+                   "0.35", "-left_soil_frequency_dependence", "false", "-left_roof_floor", "true")
 
     def test_dashpots_of_feet_of_members_of_other_masses(self):
         self.check("-left_clamp", "none", "-left_base_element", "grounded_spring", "-left_base_stiffness", "2e7,2e7,6e7,2e7,2e7,2e7",

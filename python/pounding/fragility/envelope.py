@@ -276,7 +276,7 @@ def write(one: Envelope) -> tuple:
     pages = one.sensitivity_figure + one.spectra_figure + one.span_figure
     parts = [(f"{one.study.width_title} that would be needed [m]".capitalize(), tables["joint"]),
              ("Each soil and state", tables["conditions"]),
-             *([(stability.CAPTION, stability.shown(one.mat_rows))] if one.mat_rows else []),
+             *stability.parts(one.mat_rows),
              *([(struck.CAPTION, struck.shown(one.struck_rows))] if one.struck_rows else []),
              ("What moves the answer", tables["sensitivity"]), ("Largest probability of each event", tables["probability"]),
              ("Capacity of high confidence and low probability of failure (HCLPF)", tables["hclpf"])]

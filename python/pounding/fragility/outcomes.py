@@ -13,6 +13,7 @@ from pounding import UserError
 from pounding.files import written_beside
 from pounding.results import UNREADABLE, Result
 from pounding.spans import MOTIONS
+from pounding.stability import MOTIONS as SETTLED, base_motion, slip_of
 from pounding.struck import VALUES, of_run as struck_of_run
 
 
@@ -23,14 +24,17 @@ ARRAYS = {"spectra/pseudo_acceleration": "spectra", "impacts/episodes": "episode
           "impacts/force_peak": "force_peak", "gaps/smallest": "smallest_gap", "peaks/displacement": "displacement",
           "peaks/acceleration": "acceleration", "energy/residual": "residual", "pairs/initial_gap": "pair_gap",
           "pairs/least_gap": "pair_least", "pairs/time": "pair_time", "pairs/displacement": "pair_moved",
-          "spans/peak": "span_peak", "spans/time": "span_time", "struck/largest": "struck"}
+          "spans/peak": "span_peak", "spans/time": "span_time", "struck/largest": "struck",
+          "bases/settled": "settled", "impacts/slip": "slip"}
 NOT_ALWAYS = {"span_peak": lambda contacts: (0, len(MOTIONS)), "span_time": lambda contacts: (0, len(MOTIONS)),
-              "struck": lambda contacts: (contacts, 0, VALUES)}  # shapes of none, by the number of contacts
+              "struck": lambda contacts: (contacts, 0, VALUES), "settled": lambda contacts: (0, len(SETTLED)),
+              "slip": lambda contacts: (contacts,)}  # shapes of none, by the number of contacts
 FORCES = "forces/history"  # of members that have them: left in the file
 # What all members share.
 LABELS = {"spectra/frequency": "frequency", "spectra/damping": "damping", "spectra/channels": "channels",
-          "impacts/contacts": "contacts", "pairs/contact": "pair_contact", "pairs/place": "pair_place", "spans/names": "spans"}
-TEXTS = ("channels", "contacts", "spans", "force_names")
+          "impacts/contacts": "contacts", "pairs/contact": "pair_contact", "pairs/place": "pair_place", "spans/names": "spans",
+          "bases/names": "bases"}
+TEXTS = ("channels", "contacts", "spans", "bases", "force_names")
 
 
 @dataclass
@@ -39,7 +43,7 @@ class Outcomes:
     (members, channels); pairs of contacts by number of the contact and place (pairs, 3), their gaps at the start, least ones
     and when (members, pairs), and largest relative displacements (members, pairs, 3); largest motions of the ends of
     `spans` against each other, and when (members, spans, 8), in the order of spans.MOTIONS; largest forces on windows of the faces
-    (members, contacts, windows, struck.VALUES); `forces` recorded (members,
+    (members, contacts, windows, struck.VALUES); stability.MOTIONS of `bases` (members, bases, 3); slips (members, contacts); `forces` recorded (members,
     samples, columns) and their names and times; SI units."""
 
     frequency: np.ndarray
@@ -66,6 +70,9 @@ class Outcomes:
     span_peak: np.ndarray
     span_time: np.ndarray
     struck: np.ndarray
+    bases: list
+    settled: np.ndarray
+    slip: np.ndarray
     force_names: list = field(default_factory=list)
     force_time: np.ndarray = field(default_factory=lambda: np.empty(0))
     forces: "np.ndarray | Kept" = field(default_factory=lambda: np.empty((1, 0, 0)))
@@ -141,7 +148,7 @@ def collect(files: list, members: list, columns: list) -> tuple:
                 raise UserError(f"{path}: other probes or frequencies than in the other parts")
             for dataset, name in ARRAYS.items():
                 lacks = name in NOT_ALWAYS and dataset not in file
-                values = np.empty((len(rows), *NOT_ALWAYS[name](len(labels["contacts"])))) if lacks else file[dataset][()][rows]
+                values = np.zeros((len(rows), *NOT_ALWAYS[name](len(labels["contacts"])))) if lacks else file[dataset][()][rows]
                 target = found.setdefault(name, np.empty((len(order), *values.shape[1:])))
                 target[[order.index(index) for index in mine]] = values
     if shared and "force_names" in shared:
@@ -165,6 +172,10 @@ def of_run(result: Result) -> Outcomes:
         return np.array([[impacts.get(name, {}).get(key) or default for name in contacts]], float)
 
     struck = np.asarray(result.impacts.get("contact", []), dtype=str)
+
+    bases = list(dict.fromkeys(name.rsplit(".", 1)[0] for name in result.history.get("bases", [])))
+    settled = np.array([base_motion(result, name) for name in bases]).reshape(1, -1, len(SETTLED))
+    slip = np.array([[slip_of(result, name) if "slip" in result.impacts else 0.0 for name in contacts]])
 
     def of_impacts(column: str, smallest: bool) -> np.ndarray:
         """Smallest or largest of a column by contact; none is nan or 0."""
@@ -190,7 +201,7 @@ def of_run(result: Result) -> Outcomes:
                     np.array(peaks["peak_acceleration"]), np.array([told["energy"]["relative_residual"] or 0.0]),
                     of_pairs["initial_gap"][None], of_pairs["least_gap"][None], of_pairs["time"][None],
                     np.stack([of_pairs[f"d{axis}"] for axis in "xyz"], -1)[None], list(result.spans), of_spans[None, :, 0],
-                    of_spans[None, :, 1], struck_of_run(result)[1][None], list(recorded), result.history["time"][every],
+                    of_spans[None, :, 1], struck_of_run(result)[1][None], bases, settled, slip, list(recorded), result.history["time"][every],
                     result.history.get("force", np.empty((0, 0)))[every][None])
 
 

@@ -122,7 +122,7 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
               enough_summary(enough_rows)), ("Repeats at full order: ln-ratio of the spectra", repeats_summary(tables["full_order"])),
              ("At full order, with reduced runs as control variates", [row for row in tables["both_orders"] if not row["quantity"].startswith(
                  ("mean", "84 %")) or (row["gap [m]"], row["pga [m/s2]"]) == (gap_text(gap), level)])]
-    parts = [(stability.CAPTION, stability.shown(of_mats)), *parts] if of_mats else parts
+    parts = [*stability.parts(of_mats), *parts]
     parts = [(struck.CAPTION, struck.shown(of_places)), *parts] if of_places else parts
     lines = told(analysis, fits, full, tables) + (at_both.told(tables["both_orders"]) if at_both else []) + spans.told(across, level) + notes
     box = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))

@@ -98,7 +98,7 @@ class Runner:
                 self._find_base(reduced, options, key_of(study, options, design), only_look)
         check_names(study, self.scouted[True].probes, self.scouted[True].contacts)
         self._check_elevations(self.scouted[True].heights)
-        self.mats = study.stability.resolve(self.scouted[True].mats) if study.stability else []
+        self.mats = study.stability.resolve(self.scouted[True].mats, self.scouted[True].contacts) if study.stability else []
 
     def _check_elevations(self, heights: list) -> None:
         if heights and self.study.elevations:

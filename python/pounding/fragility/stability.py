@@ -1,5 +1,5 @@
-"""Stability of the mats in a study: their factors over the members of each soil and state, the worst instants of all, doubts where
-one is below what is asked."""
+"""Stability of the mats in a study: their factors over the members of each soil and state, the worst instants of all, settlement
+and slip, doubts where a factor is below what is asked."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -7,13 +7,14 @@ from pathlib import Path
 import numpy as np
 
 from pounding import UserError
-from pounding.stability import CRITERIA, FORCES, WORST, Found, found, instant_rows, read as read_mats, resolve, safe_name
+from pounding.stability import CRITERIA, FORCES, MOTIONS, WORST, Found, found, instant_rows, read as read_mats, resolve, safe_name
 from pounding.tables import write_csv
 
 from .study_file import Reader, place_of
 
 KEYS = ("asked", "level", "gravity", "mats")
 CAPTION = "Mats: least factor over time of sliding, of overturning about the worst edge and of flotation"
+MOVED = "Mats: settlement since the start, slip, and displacement that stays [m]"
 
 
 @dataclass(frozen=True)
@@ -28,15 +29,20 @@ class Stability:
 
     @property
     def options(self) -> dict:
-        """Of the members' scene: the forces under the mats."""
-        options = {"forces": ",".join(map(safe_name, self.mats))}
-        for structure in self.mats:
+        """Of the members' scene: the forces under the mats that stand on no contact."""
+        held = [structure for structure, one in self.mats.items() if not one.contact]
+        options = {"forces": ",".join(map(safe_name, held)) or "none"}
+        for structure in held:
             options |= {f"{safe_name(structure)}_structure": structure, f"{safe_name(structure)}_kind": "reactions"}
         return options
 
-    def resolve(self, facts: dict) -> list:
-        """The mats as factors need them. Throws UserError."""
-        return [resolve(one, facts, self.gravity, f"{self.path}: stability") for one in self.mats.values()]
+    def resolve(self, facts: dict, contacts: list) -> list:
+        """The mats as factors need them, but for those on a contact, which have none. Throws UserError."""
+        place = f"{self.path}: stability"
+        for name, one in self.mats.items():
+            if one.contact and one.contact not in contacts:
+                raise UserError(f"{place}: mats: {name}: {one.contact} is no contact of the scene; it has {', '.join(contacts) or 'none'}")
+        return [resolve(one, facts, self.gravity, place) for one in self.mats.values() if not one.contact]
 
 
 def read_block(reader: Reader, levels: list | None) -> Stability:
@@ -45,11 +51,7 @@ def read_block(reader: Reader, levels: list | None) -> Stability:
     if levels and level not in levels:
         reader.fail("level", f"is none of the study's {', '.join(f'{one:g}' for one in levels)}")
     gravity = reader.number("gravity", None, 0.0) if "gravity" in reader.values else None
-    mats = read_mats(reader)
-    for name, one in mats.items():
-        if levels and one.contact:
-            raise UserError(f"{reader.path}: {reader.place}: mats: {name}: contact is for single runs (run/stability): members keep no slip")
-    return Stability(reader.path, reader.number("asked", None, 0.0), level, gravity, mats)
+    return Stability(reader.path, reader.number("asked", None, 0.0), level, gravity, read_mats(reader))
 
 
 def read(reader: Reader, levels: list, structures: str) -> Stability | None:
@@ -85,10 +87,19 @@ def motions_of(analysis, sample: int) -> str:
     return " ".join(axis.name_of(motion) for axis in analysis.study.axes.values())
 
 
-def shown(rows: list) -> list:
-    """The rows that pages have, without some of their columns: of the edges of a mat the one that it is nearest to tipping over."""
+def parts(rows: list, levels: list | None = None) -> list:
+    """(Caption, rows) of the tables that pages have, of some levels alone where they are given."""
+    rows = [row for row in rows if levels is None or row["pga [m/s2]"] in levels]
+    found = (CAPTION, _factors(rows)), (MOVED, [row for row in rows if "largest [m]" in row])
+    return [(caption, table) for caption, table in found if table]
+
+
+def _factors(rows: list) -> list:
+    """Factors without some of their columns: of the edges of a mat the one that it is nearest to tipping over."""
     edges = {}
     for row in rows:
+        if "least" not in row:
+            continue
         key = row["mat"], row["criterion"].split(" ")[0], row["pga [m/s2]"], row["runs"]
         if key not in edges or row["least"] < edges[key]["least"]:
             edges[key] = row
@@ -123,6 +134,27 @@ def rows_of(analyses: dict, gap: float) -> tuple:
     return rows, instants
 
 
+def moved_rows(analyses: dict, gap: float) -> list:
+    """Of each mat whose base can move or that stands on a contact, and level, in a joint and apart, mean, 84 % and largest over the
+    members of its motions, each on the soil and in the state in which it is largest."""
+    first, rows = next(iter(analyses.values())), []
+    for name, given in first.study.stability.mats.items():
+        motions = {motion: lambda one, k=k: one.settled[:, one.bases.index(name), k] for k, motion in enumerate(MOTIONS) if name in first.outcomes.bases}
+        if given.contact:
+            motions["slid"] = lambda one, contact=given.contact: one.slip[:, one.contacts.index(contact)]
+        for motion, of_members in motions.items():
+            for level in first.study.levels:
+                for cell, words in ((gap, first.study.joint_named(gap)), (None, "apart")):
+                    each = {condition: of_members(one.outcomes)[one.of(cell, level)] for condition, one in analyses.items()}
+                    at = max(each, key=lambda condition: each[condition].max())
+                    sample = int(each[at].argmax())
+                    rows.append({"mat": name, "criterion": motion, "pga [m/s2]": level, "runs": words,
+                                 "mean [m]": float(max(values.mean() for values in each.values())),
+                                 "84 % [m]": float(max(np.quantile(values, 0.84) for values in each.values())),
+                                 "largest [m]": float(each[at][sample]), "sample": sample, "motions": motions_of(analyses[at], sample), **place_of(at)})
+    return rows
+
+
 def _worst_of(analyses: dict, each: dict, number: int, c: int, place: dict) -> list:
     """The worst instants of all members of a cell, with their numbers."""
     all_rows = []
@@ -137,9 +169,10 @@ def _worst_of(analyses: dict, each: dict, number: int, c: int, place: dict) -> l
 
 def write(analyses: dict, folder: Path, gap: float) -> list:
     """stability.csv and stability_instants.csv; returns the rows of the first, none of a study that asks for no stability."""
-    if not next(iter(analyses.values())).mats:
+    if not next(iter(analyses.values())).study.stability:
         return []
     rows, instants = rows_of(analyses, gap)
+    rows += moved_rows(analyses, gap)
     write_csv(folder / "stability.csv", rows)
     write_csv(folder / "stability_instants.csv", instants)
     return rows
