@@ -87,7 +87,7 @@ double part_in(const interactions::Patch& patch, const std::array<double, 2>& lo
 }
 
 /// The pressed patches that windows which share a side with `patch` along each axis may hold.
-/// `sorted`: all, by their low ends along the first axis, along which none is longer than `longest`.
+/// `sorted`: all by their low ends along the first axis, where none is longer than `longest`.
 void find_near(const interactions::Patch& patch, const std::array<double, 2>& sides,
                std::span<const Pressed* const> sorted, double longest,
                std::vector<const Pressed*>& near) {
