@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ensemble/coordinate_rows.h"
-#include "ensemble/member_result.h"
+#include "observers/member_result.h"
 #include "ensemble/member_scene.h"
 #include "mesh/mesh.h"
 #include "observers/run_statistics.h"

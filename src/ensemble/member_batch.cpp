@@ -10,7 +10,6 @@
 #include "driver/time_loop.h"
 #include "motion/response_spectrum.h"
 #include "observers/floor_spectra.h"
-#include "observers/impact_catalogue.h"
 #include "observers/kinds.h"
 #include "observers/recorder.h"
 
@@ -46,35 +45,6 @@ const std::vector<double>& displacement_of_supports(const CdLagrange& stepper) {
 const std::vector<double>& velocity_of_supports(const CdLagrange& stepper) {
   return stepper.state().supports.velocity;
 }
-
-/// The smallest recorded gap of each pair.
-class SmallestGaps final : public Observer {
- public:
-  SmallestGaps(const ObservedRun& run, std::vector<PairMotion>& pairs)
-      : scheme_(run.scheme),
-        record_stride_(record_stride(run.scene, run.model)),
-        gap_stride_(gap_stride(run.scene, run.model)),
-        pairs_(pairs) {}
-
-  std::int64_t next_due(std::int64_t step) const override {
-    return next_multiple(step, gap_stride_);
-  }
-  StepNeeds begin(const CdLagrange& /*stepper*/) override { return {.gaps = true}; }
-  bool follows() const override { return true; }
-  void follow(const CdLagrange& stepper) override {
-    if (!scheme_.interface_known() || (stepper.state().step - 1) % record_stride_ != 0) return;
-    const std::vector<double>& gaps = scheme_.contact()->gaps();
-    for (std::size_t row = 0; row < gaps.size(); ++row) {
-      pairs_[row].note(gaps[row], stepper.time());
-    }
-  }
-
- private:
-  const ModelScheme& scheme_;
-  std::int64_t record_stride_;  ///< steps between two records
-  std::int64_t gap_stride_;     ///< and between two samples of the gaps, a multiple of it
-  std::vector<PairMotion>& pairs_;
-};
 
 }  // namespace
 
@@ -338,13 +308,11 @@ MemberRun::MemberRun(const MemberScene& member, const EnsembleModel& shared, con
     : scheme_(parts_in_batch(member, shared, model, slot, profile_)),
       run_{MPI_COMM_SELF, member.scene, model, scheme_},
       observers_(make_observers(run_, profile_, true)),
-      pairs_(model.interface.constraints.size()),
       record_stride_(record_stride(member.scene, model)) {
   for (const auto& observer : observers_.list()) {
     const auto columns = observer->columns();
     if (columns && columns->list == "forces") forces_ = columns->values;
   }
-  observers_.add(std::make_unique<SmallestGaps>(run_, pairs_));
   observers_.start(scheme_.stepper(), nullptr);
 }
 
@@ -364,36 +332,12 @@ void MemberRun::close() {
 void MemberRun::fill(MemberResult& result) {
   for (const auto& observer : observers_.list()) {
     observer->finish(true);
-    result.struck.insert(result.struck.end(), observer->kept().begin(), observer->kept().end());
-  }
-  const ImpactCatalogue& catalogue = observers_.impacts();
-  const std::size_t contacts = run_.scene.contacts.size();
-  result.smallest_gap.assign(contacts, std::numeric_limits<double>::infinity());
-  result.pair_initial_gap = run_.model.start_gaps;
-  for (std::size_t row = 0; row < pairs_.size(); ++row) {
-    double& smallest = result.smallest_gap[run_.model.interface.constraints[row].contact];
-    smallest = std::min(smallest, pairs_[row].least_gap);
-    result.pair_least_gap.push_back(pairs_[row].least_gap);
-    result.pair_time.push_back(pairs_[row].time);
+    observer->keep(result);
   }
   result.forces = history_;
   result.energy_residual = {scheme_.stepper().energy().relative_residual()};
   if (scheme_.contact() != nullptr) {
     result.contact_residual = {scheme_.contact()->largest_residual()};
-  }
-  result.first_time.assign(contacts, std::numeric_limits<double>::quiet_NaN());
-  result.slip.assign(contacts, 0.0);
-  for (std::size_t c = 0; c < contacts; ++c) {
-    const ImpactTotals totals = catalogue.totals(static_cast<int>(c));
-    result.episodes.push_back(totals.episodes);
-    result.impulse_sum.push_back(totals.total_impulse);
-    result.impulse_largest.push_back(totals.largest_impulse);
-    result.force_peak.push_back(totals.peak_force);
-  }
-  for (const Impact& impact : catalogue.impacts()) {  // the earliest first
-    double& first = result.first_time[impact.contact];
-    if (!(first <= impact.start)) first = impact.start;
-    result.slip[impact.contact] += impact.slip;
   }
 }
 

@@ -44,7 +44,6 @@ class MemberRun {
   ModelScheme scheme_;
   ObservedRun run_;
   Observers observers_;
-  std::vector<PairMotion> pairs_;   ///< per row, without displacements
   int record_stride_;               ///< steps between two records
   std::span<const double> forces_;  ///< of the last record
   std::vector<double> history_;     ///< of these at all records

@@ -4,6 +4,7 @@
 #include "common/saved_state.h"
 #include "io/csv_file.h"
 #include "observers/impact_catalogue.h"
+#include "observers/member_result.h"
 #include "observers/observed_run.h"
 #include "observers/run_statistics.h"
 
@@ -47,6 +48,7 @@ class ImpactWatch final : public Observer {
     if (rank_of(run_.comm) == root_) catalogue_.save(saved);
   }
   void load(const SavedState& saved) override { catalogue_.load(saved); }
+  void keep(MemberResult& member) const override;
   void report(RunStatistics& statistics) override;
 
  private:
@@ -125,6 +127,7 @@ class ContactHistory final : public Observer {
   void observe(const CdLagrange& stepper) override;
   void save(SavedState& saved) override;
   void load(const SavedState& saved) override;
+  void keep(MemberResult& member) const override;
   void report(RunStatistics& statistics) override;
   std::optional<RecordColumns> columns() const override;
 
@@ -152,6 +155,24 @@ void ImpactWatch::add_contact(const CdLagrange& stepper) {
     step.friction_losses = contact.friction().losses();
   }
   catalogue_.add_step(stepper.time(), stepper.force_duration(), step);
+}
+
+void ImpactWatch::keep(MemberResult& member) const {
+  const std::size_t contacts = run_.scene.contacts.size();
+  for (std::size_t c = 0; c < contacts; ++c) {
+    const ImpactTotals totals = catalogue_.totals(static_cast<int>(c));
+    member.episodes.push_back(totals.episodes);
+    member.impulse_sum.push_back(totals.total_impulse);
+    member.impulse_largest.push_back(totals.largest_impulse);
+    member.force_peak.push_back(totals.peak_force);
+  }
+  member.first_time.assign(contacts, std::numeric_limits<double>::quiet_NaN());
+  member.slip.assign(contacts, 0.0);
+  for (const Impact& impact : catalogue_.impacts()) {  // the earliest first
+    double& first = member.first_time[impact.contact];
+    if (!(first <= impact.start)) first = impact.start;
+    member.slip[impact.contact] += impact.slip;
+  }
 }
 
 void ImpactWatch::report(RunStatistics& statistics) {
@@ -300,6 +321,17 @@ void ContactHistory::load(const SavedState& saved) {
   from_rows(numbers, pairs_, least_gap_members);
 }
 
+void ContactHistory::keep(MemberResult& member) const {
+  member.smallest_gap.assign(run_.scene.contacts.size(), std::numeric_limits<double>::infinity());
+  member.pair_initial_gap = run_.model.start_gaps;
+  for (std::size_t row = 0; row < pairs_.size(); ++row) {
+    double& smallest = member.smallest_gap[contact_of(row)];
+    smallest = std::min(smallest, pairs_[row].least_gap);
+    member.pair_least_gap.push_back(pairs_[row].least_gap);
+    member.pair_time.push_back(pairs_[row].time);
+  }
+}
+
 void ContactHistory::report(RunStatistics& statistics) {
   if (run_.contact_root() < 0) return;
   statistics.closings = closings_;
@@ -308,7 +340,7 @@ void ContactHistory::report(RunStatistics& statistics) {
 }
 
 OutputKind contact_history_output() {
-  return output<ContactHistory>({});
+  return output<ContactHistory>({}, nullptr, true);
 }
 
 }  // namespace pounding

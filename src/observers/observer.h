@@ -40,6 +40,7 @@ struct RecordColumns {
 
 class ImpactCatalogue;
 class Recorder;
+struct MemberResult;
 struct RunStatistics;
 
 /// Results of a step beside the motion, for which an output asks.
@@ -90,8 +91,8 @@ class Observer {
   /// Results that others read of it; null where it has none.
   virtual const ImpactCatalogue* impacts() const { return nullptr; }
   virtual const Recorder* history() const { return nullptr; }
-  /// After `finish`: numbers that an ensemble keeps of a member, of which there are always as many.
-  virtual std::span<const double> kept() const { return {}; }
+  /// After `finish`: adds what an ensemble keeps of a member, of which there is always as much.
+  virtual void keep(MemberResult& /*member*/) const {}
   /// Phase of the profile that its time counts for.
   virtual Phase phase() const { return Phase::output; }
 };

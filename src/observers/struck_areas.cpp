@@ -8,6 +8,7 @@
 #include "common/parallel.h"
 #include "common/saved_state.h"
 #include "io/csv_file.h"
+#include "observers/member_result.h"
 #include "observers/observed_run.h"
 #include "observers/run_statistics.h"
 
@@ -46,9 +47,7 @@ class StruckAreas final : public Observer {
   void save(SavedState& saved) override;
   void load(const SavedState& saved) override;
   void report(RunStatistics& statistics) override;
-  /// Shape (contacts, windows, 5): force [N], middle of its time [s], centre x, y, z of the forces
-  /// in the window [m]; zeros where nothing was struck.
-  std::span<const double> kept() const override { return found_; }
+  void keep(MemberResult& member) const override { member.struck = found_; }
 
  private:
   static constexpr std::size_t width = 5;
@@ -66,6 +65,8 @@ class StruckAreas final : public Observer {
   std::int64_t steps_;                          ///< of a block
   std::int64_t block_ = 0;                      ///< the last one
   std::vector<double> impulses_;                ///< shape (blocks, rows) [N s]
+  /// Shape (contacts, windows, 5): force [N], middle of its time [s], centre x, y, z of the forces
+  /// in the window [m]; zeros where nothing was struck.
   std::vector<double> found_;
 };
 
