@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 from pathlib import Path
 from unittest import mock
 
@@ -204,36 +205,28 @@ class PlotTest(unittest.TestCase):
         np.testing.assert_allclose(flat, 100, rtol=1e-12)  # 900 N s in 9 ms
         self.assertAlmostEqual(values[np.abs(time - 0.0).argmin()], 50, delta=11)  # half of the time lies before it; a sample is 10
 
-    def test_an_interrupted_run_says_where_it_stopped(self):
-        make_folder(self.folder, 2001)
-        (self.folder / "summary.json").unlink()
-        (self.folder / "resolved.yaml").write_text('end_time: "15"\n')
-        done = plot(self.folder)
-        self.assertIn("The run stopped at 4.0 of 15 s: what is shown ends there.", done.stdout)
-        self.assertIn("stopped at 4.0 of 15 s", (self.folder / "report.html").read_text())
-
-    def test_what_is_drawn_is_told(self):
-        make_folder(self.folder, 2001)
-        told = []
-        report.write(results.load(self.folder), "", told.append)
-        self.assertEqual(told[:2], ["picture", "gaps"])
-        self.assertIn("energy_balance", told)
-
-    def test_floors_at_rest_are_drawn(self):
+    def test_floors_at_rest_are_drawn_and_told(self):
         make_folder(self.folder, 2001)
         lines = (self.folder / "spectra.csv").read_text().splitlines()
         rest = [",".join([*line.split(",")[:5], "0,0,0"]) for line in lines[2:]]
         (self.folder / "spectra.csv").write_text("\n".join([*lines[:2], *rest]) + "\n")
-        done = plot(self.folder)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        told = []
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            report.write(results.load(self.folder), "", told.append)
+        self.assertEqual(told[:2], ["picture", "gaps"])
+        self.assertIn("energy_balance", told)
         self.assertTrue((self.folder / "answer.png").exists())
 
-    def test_what_the_folder_lacks_is_skipped_with_a_word(self):
-        make_folder(self.folder)
+    def test_what_an_interrupted_run_lacks_is_skipped_with_a_word(self):
+        make_folder(self.folder, 2001)
         for name in ("energy.csv", "spectra.csv", "impacts.csv", "summary.json"):
             (self.folder / name).unlink()
+        (self.folder / "resolved.yaml").write_text('end_time: "15"\n')
         done = plot(self.folder)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("The run stopped at 4.0 of 15 s: what is shown ends there.", done.stdout)
+        self.assertIn("stopped at 4.0 of 15 s", (self.folder / "report.html").read_text())
         self.assertIn("energy_balance skipped: no energy.csv", done.stdout)
         self.assertIn("response_spectra skipped: no spectra.csv", done.stdout)
         self.assertIn("impact_catalogue skipped: no impacts.csv", done.stdout)
@@ -242,23 +235,32 @@ class PlotTest(unittest.TestCase):
                                 "accelerations_y.png", "accelerations_z.png", "loops.png"})
 
     def test_a_run_without_impacts_nor_contacts_is_drawn(self):
-        make_folder(self.folder)
+        make_folder(self.folder, 2001)
         header = (self.folder / "impacts.csv").read_text().splitlines()[:2]
         (self.folder / "impacts.csv").write_text("\n".join(header) + "\n")
+        lines = (self.folder / "spectra.csv").read_text().splitlines()
+        (self.folder / "spectra.csv").write_text("\n".join([*lines[:2], *(line for line in lines if line.startswith("s1_floor1,x"))]) + "\n")
+        (self.folder / "energy.csv").unlink()
         with h5py.File(self.folder / "history.h5", "a") as file:
-            for name in ("gap", "contact_force", "contacts"):
+            for name in ("gap", "contact_force", "contacts", "links", "link_elongation", "link_force"):
                 del file[name]
-        done = plot(self.folder)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("impact_catalogue skipped: no impact", done.stdout)
+        count, skipped, page = report.write(results.load(self.folder), "", lambda name: None)
+        self.assertGreater(count, 3)
+        self.assertTrue(any("impact_catalogue skipped: no impact" in line for line in skipped), skipped)
         self.assertFalse((self.folder / "gap.png").exists())
-        self.assertTrue((self.folder / "report.html").exists())
+        self.assertTrue(page.exists())
 
     def refused(self, *words):
         done = plot(*words)
         self.assertEqual(done.returncode, 1)
         self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
         return done.stderr
+
+    def unreadable(self):
+        with self.assertRaises(results.ResultError) as caught:
+            results.load(self.folder)
+        self.assertEqual(len(str(caught.exception).splitlines()), 1)
+        return str(caught.exception)
 
     def test_a_missing_or_empty_folder_is_refused_in_one_line(self):
         self.assertIn("is not a folder", self.refused(self.folder / "nowhere"))
@@ -270,23 +272,23 @@ class PlotTest(unittest.TestCase):
         text = summary.read_text()
         summary.write_text(text.replace('"schema": 1', '"schema": 2'))
         self.assertIn("summary.json cannot be read: it is of schema 2, this version reads schema 1: read it with",
-                      self.refused(self.folder))
+                      self.unreadable())
         summary.write_text(text.replace('"schema": 1, ', ''))
-        self.assertIn("it has no schema number, so an earlier version wrote it", self.refused(self.folder))
+        self.assertIn("it has no schema number, so an earlier version wrote it", self.unreadable())
         summary.write_text(text)
         with h5py.File(self.folder / "history.h5", "r+") as file:
             file.attrs["schema"] = 7
-        self.assertIn("history.h5 cannot be read: it is of schema 7", self.refused(self.folder))
+        self.assertIn("history.h5 cannot be read: it is of schema 7", self.unreadable())
 
     def test_a_broken_file_is_refused_by_name(self):
         (self.folder / "summary.json").write_text('{"title": ')
         self.assertIn("summary.json cannot be read", self.refused(self.folder))
         (self.folder / "summary.json").unlink()
         (self.folder / "energy.csv").write_text("time,kinetic\n0,1\n")
-        self.assertIn("energy.csv cannot be read: no column strain", self.refused(self.folder))
+        self.assertIn("energy.csv cannot be read: no column strain", self.unreadable())
         (self.folder / "energy.csv").unlink()
         (self.folder / "history.h5").write_text("not HDF5")
-        self.assertIn("history.h5 cannot be read", self.refused(self.folder))
+        self.assertIn("history.h5 cannot be read", self.unreadable())
 
 
 class LogScaleTest(unittest.TestCase):
