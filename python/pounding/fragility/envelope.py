@@ -221,7 +221,7 @@ class Envelope:
     @cached_property
     def spectra_figure(self) -> list:
         found = self.first.outcomes
-        figure, axes = plt.subplots(figsize=(WIDTH, 3.8))
+        figure, axes = plt.subplots(figsize=(0.75 * WIDTH, 3.8))
         high = [self.high(one) for one in self.analyses.values()]
         for number, (condition, values) in enumerate(zip(self.conditions, high)):
             axes.plot(found.frequency, values, color=figures.COLOURS[number % len(figures.COLOURS)], lw=1, label=condition.title)
@@ -230,7 +230,7 @@ class Envelope:
         log_scale(axes, "y", np.array(high))
         axes.set(xlim=(found.frequency[0], found.frequency[-1]), xlabel="frequency [Hz]", ylabel="pseudo-acceleration [m/s²]",
                  title=f"{found.channels[self.channel]}, {self.study.joint_named(self.gap)}, {self.level / 9.81:.2g} g")
-        axes.legend(loc="upper left", fontsize=7)
+        axes.legend(loc="upper left", fontsize=9)
         g_axis(axes)
         return save(figure, self.folder, "envelope.png", "Floor spectra by soil and state",
                     f"84 % of {self.study.samples} members in each condition, {100 * found.damping[self.damping]:g} % damping, and "

@@ -195,6 +195,6 @@ def judged(study: Study, folder: Path, jobs: int, write: bool = True, kept: Path
     about = f"{study.rules.name}{f' ({source})' if source else ''}"
     if is_accepted(verdicts):
         return [*matching.notes(study), f"The motions are accepted by the rules of {about}, motion_rules.csv."]
-    refused = [f"{one.rule.name}: {one.worst.number:.3g} for {limits_text(one.rule)}, {len(one.refused)} of {one.looked_at} refused, worst "
-               f"{place_text(one.worst)}" for one in verdicts if one.word == "refused"]
+    refused = [f"{one.rule.name}: {one.worst.number:.3g} for {limits_text(one.rule)}, {len(one.refused)} of {one.looked_at} refused"
+               f"{', worst ' * bool(place_text(one.worst))}{place_text(one.worst)}" for one in verdicts if one.word == "refused"]
     return [*matching.notes(study), f"Doubt: motions are refused by the rules of {about}: {'; '.join(refused)} (motion_rules.csv)."]

@@ -216,7 +216,7 @@ def figure(rows: list, analyses: dict, folder: Path, level: float) -> list:
             axes.set_yticks(place, [LENGTHS.get(motion, motion) for motion in (row["motion"].split(" ")[0] for row in some)])
             axes.invert_yaxis()
             axes.grid(axis="y", visible=False)
-            axes.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.17), ncol=2, title=unit, title_fontsize=9)
+            axes.legend(fontsize=9, loc="upper center", bbox_to_anchor=(0.5, -0.17), ncol=2, title=unit, title_fontsize=10, handlelength=1, columnspacing=1)
             axes.set(title=f"{span}: relative {'displacement' if unit == 'mm' else 'rotation'}", xlim=(0, None))
         high = spectra(analyses, ends_of(first, span), level)[:, :2, damping].max(1)
         for values, style, end in zip(high, ("-", "--"), ends_of(first, span)):
@@ -224,7 +224,7 @@ def figure(rows: list, analyses: dict, folder: Path, level: float) -> list:
         log_scale(line[2], "x", first.outcomes.frequency)
         log_scale(line[2], "y", high)
         line[2].set(xlabel="frequency [Hz]", title="horizontal spectra at its ends [m/s²]")
-        line[2].legend(fontsize=7)
+        line[2].legend(fontsize=9)
     return save(drawn, folder, "spans.png", "What spans the joint",
                 f"Motion of the second end of each span against the first, since the start, at {level:g} m/s²: bars 84 % of "
                 f"{first.study.samples} samples, marks the largest; spectra: 84 %, {100 * first.outcomes.damping[damping]:g} % damping, "

@@ -14,7 +14,8 @@ from .study_file import Reader, place_of
 
 KEYS = ("asked", "level", "gravity", "mats")
 CAPTION = "Mats: least factor over time of sliding, of overturning about the worst edge and of flotation"
-MOVED = "Mats: settlement since the start, slip, and displacement that stays [m]"
+MOVED = "Mats: settlement since the start, slip, and displacement that stays, of a micrometre or more [mm]"
+LEAST = 1e-6  # of a motion that pages show [m]
 
 
 @dataclass(frozen=True)
@@ -90,7 +91,9 @@ def motions_of(analysis, sample: int) -> str:
 def parts(rows: list, levels: list | None = None) -> list:
     """(Caption, rows) of the tables that pages have, of some levels alone where they are given."""
     rows = [row for row in rows if levels is None or row["pga [m/s2]"] in levels]
-    found = (CAPTION, _factors(rows)), (MOVED, [row for row in rows if "largest [m]" in row])
+    moved = [{f"{key.removesuffix(' [m]')} [mm]" if key.endswith("[m]") else key: 1e3 * value if key.endswith("[m]") else value
+              for key, value in row.items() if key != "sample"} for row in rows if row.get("largest [m]", 0) >= LEAST]
+    found = (CAPTION, _factors(rows)), (MOVED, moved)
     return [(caption, table) for caption, table in found if table]
 
 

@@ -69,8 +69,17 @@ def rows_of(analyses: dict, gap: float) -> list:
 
 
 def shown(rows: list) -> list:
-    """The rows that pages have: of what is struck."""
-    return [row for row in rows if row["largest"] > 0]
+    """The rows that pages have, of what is struck: in MPa and kN/m, without some of their columns."""
+    found = []
+    for row in rows:
+        if row["largest"] > 0:
+            scale, unit = (1e3, "kN/m") if row["unit"] == "N/m" else (1e6, "MPa")
+            found.append({"contact": row["contact"], "over": row["over"], "unit": unit, "pga [m/s2]": row["pga [m/s2]"],
+                          **{key: row[key] and row[key] / scale for key in ("mean", "84 %", "largest", "strength")},
+                          **{key: row[key] for key in ("largest over strength", "time [s]")},
+                          "at [m]": ", ".join(f"{row[f'{axis} [m]']:.3g}" for axis in "xyz"),
+                          **{key: row[key] for key in ("soil", "state") if key in row}})
+    return found
 
 
 def write(analyses: dict, folder: Path, gap: float) -> list:

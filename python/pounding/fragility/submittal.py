@@ -11,7 +11,7 @@ from pounding.finished import digest
 from pounding.fragility import binomial_interval
 from pounding.joint import draw
 from pounding.plot import design_spectra
-from pounding.plot.markup import answer_box, figure_parts, folded, html_table, paragraphs, write_page
+from pounding.plot.markup import answer_box, figure_parts, html_table, paragraphs, write_page
 from pounding.tables import cells_of, write_csv
 
 from . import spans, stability, struck
@@ -83,7 +83,9 @@ def open_points(one: Envelope) -> list:
     alike = {}
     for line in dict.fromkeys(lines):  # those of other soils and states differ in their numbers
         alike.setdefault(re.sub(r"\d+(\.\d+)?", "", line), []).append(line)
-    return [some[0] + (f" (likewise in {len(some) - 1} others of soil and state)" if len(some) > 1 else "") for some in alike.values()]
+    others = {2: "another soil or state"}
+    return [some[0] if len(some) == 1 else f"{some[0].removesuffix('.')} (likewise in {others.get(len(some), f'{len(some) - 1} other soils and states')})."
+            for some in alike.values()]
 
 
 def spectra_rows(one: Envelope, told: Submittal) -> list:
@@ -98,7 +100,7 @@ def spectra_rows(one: Envelope, told: Submittal) -> list:
             wide = design_spectra.design_spectrum(found.frequency, spectra[place], at)
             rows.append({"floor": found.channels[channel], "level [m/s²]": level,
                          "joint": "apart" if gap is None else study.joint_named(gap).removeprefix("joint "),
-                         **{f"{f:g} Hz": f"{value:.3g}" for f, value in zip(at, wide)}})
+                         **{f"{f:g} Hz": f"{value:.3g}" if value >= 1e-3 else "< 0.001" for f, value in zip(at, wide)}})
     return rows
 
 
@@ -193,8 +195,8 @@ def write(one: Envelope) -> Path | None:
              ("Verification of what is used", html_table("", *cells_of(verification_rows(options, page)), text=(0, 1, 2))),
              ("Annex: files and their hashes", html_table("", ["file", "SHA-256"], sorted(
                  (Path(path).name, found[:16]) for path, found in inputs.items()), text=(0,), hashes=(1,))),
-             ("Annex: options", folded("options of the study beside its scene", [html_table(
-                 "", ["option", "value"], sorted((name, value) for name, value in {**study.options, **study.reduction}.items()), text=(0, 1))]))]
+             ("Annex: options of the study beside its scene", html_table(
+                 "", ["option", "value"], sorted((name, value) for name, value in {**study.options, **study.reduction}.items()), text=(0, 1)))]
     box = answer_box([told.question, *answers(one, told)], touched)
     before = paragraphs(points or ["No doubt and no open check."], "Doubts and open checks", "note")
     return write_page(folder / "submittal.html", f"{study.title}: submittal", parts, answer=box, before=before,
