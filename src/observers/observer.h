@@ -91,7 +91,7 @@ class Observer {
   /// Results that others read of it; null where it has none.
   virtual const ImpactCatalogue* impacts() const { return nullptr; }
   virtual const Recorder* history() const { return nullptr; }
-  /// After `finish`: adds what an ensemble keeps of a member, of which there is always as much.
+  /// After `finish`: adds the numbers that an ensemble keeps of a member, always as many of them.
   virtual void keep(MemberResult& /*member*/) const {}
   /// Phase of the profile that its time counts for.
   virtual Phase phase() const { return Phase::output; }
