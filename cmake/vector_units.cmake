@@ -25,7 +25,7 @@ endif()
 set(POUNDING_KERNEL_FILES
   "^dynamics/"
   "^stiffness/(bricks/brick_(kernel|lines|stencil)|shells/|strains/|rows/chain_line)"
-  "^stiffness/(assembled_rows|batch_stiffness|beam_elements|element_sorter|element_stiffness|stiffness|strain_sorter)[.]"
+  "^stiffness/(assembled_rows|batch_stiffness|beam_elements|element_sorter|element_stiffness|single_stiffness|stiffness|strain_sorter)[.]"
   "^interactions/(solvers/|[a-z_]+[.])"
   "^common/row_products[.]"
   "^ensemble/member_batch"

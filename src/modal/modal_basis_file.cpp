@@ -308,7 +308,8 @@ BasisKey basis_key(const Structure& structure, const GlobalMesh& mesh,
   std::vector<TracePoint> places = request.other_points;
   places.insert(places.end(), request.shown_points.begin(), request.shown_points.end());
   return {{"mesh", hash_of(mesh)},
-          {"elements", hash_of(structure.regions)},
+          {"elements", hash_of(structure.regions) +
+                           (structure.numbers == Numbers::in_single ? " in 32 bits" : "")},
           {"matrices", hash_of_matrices(structure.matrices)},
           {"clamp", clamp.text()},
           {"rigid groups", hash_of(mesh.rigid)},

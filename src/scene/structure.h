@@ -123,6 +123,9 @@ struct AbsorbingFace {
   bool is_base = false;  ///< the motion from below enters through it
 };
 
+/// How the numbers of hexahedra of general shape are kept.
+enum class Numbers { in_double, in_single };
+
 struct Structure {
   std::string name;
   std::string matrices;  ///< folder, see system/matrix_system.h; empty: of its elements
@@ -139,6 +142,7 @@ struct Structure {
   std::optional<UniformDamping> uniform_damping;  ///< in place of Rayleigh damping, which is 0 then
   std::optional<ModalModel> modal;                ///< nothing: the finite-element model itself
   std::optional<Soil> soil;               ///< under its mat; one of the regions is its element
+  Numbers numbers = Numbers::in_double;   ///< K is that of the rounded numbers
   bool p_delta = false;                   ///< forces at rest turn with the columns
   double mass_scaling = 0;                ///< step [s] for which stiff elements get mass; 0: none
   std::optional<StepTarget> step_target;  ///< its step is `mass_scaling` until one is designed
@@ -193,6 +197,7 @@ struct Structure {
     option(&Structure::matrices, "<structure>_matrices", text("folder", "none", "a folder with dofs.csv, stiffness.mtx, mass.mtx, or none"), "its matrices, in place of its elements' own; the mesh says where faces and probes are");
     option("<structure>_model", word("full|modal", "full"), "the finite elements themselves, or a reduction to modes and attachment vectors");
     option.template part<ModalModel>();
+    option(&Structure::numbers, "<structure>_numbers", word("double|single", "double"), "numbers that hexahedra of general shape keep for their products, in 64 or 32 bits: in 32 they are read in half of the time, and frequencies move by some 1e-8");
     option(&Structure::mass_scaling, "<structure>_mass_scaling", real("s", "0", not_negative), "stable time step for which elements that allow less (not tension-only bars), or fast generalised coordinates, get mass in proportion to their stiffness; 0: none");
     option.template part<StepTarget>();
     option(&Structure::initial_displacement, "<structure>_initial_displacement", reals("m", "0,0,0", "three numbers x,y,z"), "of every free node at t = 0");

@@ -159,6 +159,22 @@ void check_p_delta(const OptionReader& options, const Structure& structure) {
   }
 }
 
+/// Hexahedra alone have so many numbers that it pays.
+void check_numbers(const OptionReader& options, const Structure& structure) {
+  constexpr std::string_view pattern = "<structure>_numbers";
+  if (structure.numbers == Numbers::in_double) return;
+  if (!structure.matrices.empty()) {
+    options.refuse(pattern, {structure.name}, "not with -" + structure.name + "_matrices");
+  }
+  const bool has_any = std::ranges::any_of(structure.regions, [](const Region& region) {
+    return traits_of(region.element).kernel == ElementKernel::brick;
+  });
+  if (!has_any) {
+    options.refuse(pattern, {structure.name},
+                   "the structure has no hexahedra, whose numbers it is about");
+  }
+}
+
 /// Matrices do not know the nodes that move together.
 void forbid_rigid_groups(const OptionReader& options, const Structure& structure) {
   for (const RigidGroup& rigid : structure.rigid_groups) {
@@ -250,6 +266,7 @@ Structure read_structure(OptionReader& options, const std::string& name) {
     forbid_damping_of_regions(options, structure);
   }
   check_p_delta(options, structure);
+  check_numbers(options, structure);
   structure.soil = read_soil(options, structure);
   if (structure.soil) structure.regions.push_back(soil_region(*structure.soil));
   make_mat_rigid(structure);

@@ -12,6 +12,7 @@ namespace pounding::stiffness {
 
 /// Numbers of a beam between two nodes, and its product by them.
 struct BeamShape {
+  using Number = double;
   static constexpr std::size_t node_count = 2;
   static constexpr std::size_t components = 6;
 

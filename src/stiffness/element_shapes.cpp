@@ -91,7 +91,6 @@ std::optional<Matrix3> edge_axes(std::span<const double> coordinates) {
 
 constexpr std::size_t most_ranges = 10000;  // per rank; a mesh without equal elements has no use
 
-constexpr double congruence = 1e-10;  // of the shortest edge
 constexpr std::int64_t no_tag = std::numeric_limits<std::int64_t>::max();
 
 /// Shortest distance of a node from the first one of its element, per block over all ranks [m].

@@ -24,6 +24,9 @@ struct Box {
   std::array<int, 8> corner{};
 };
 
+/// Part of its shortest edge to which elements have one shape.
+inline constexpr double congruence = 1e-10;
+
 /// Orthonormal axes (rows) in which boxes of one structure lie. Frame 0: the global axes.
 class ElementFrames {
  public:

@@ -6,6 +6,7 @@
 #include "mesh/element_properties.h"
 #include "stiffness/bricks/brick_stencil.h"
 #include "stiffness/shells/shell_kernel.h"
+#include "stiffness/single_stiffness.h"
 
 namespace pounding::stiffness {
 namespace {
@@ -71,6 +72,7 @@ void ElementSorter::sort_shapes(std::size_t b) {
   const ElementProperties properties =
       element_properties(structure_.regions[mesh_.blocks[b].region]);
   for (std::size_t e = 0; e < block.count(); ++e) {
+    if (general_.add_single(b, e, touches_ghost({b, e}))) continue;
     const bool in_row =
         is_solid(block.type) ? add_brick({b, e}, properties) : add_rectangle({b, e}, properties);
     if (!in_row) add_general({b, e});
@@ -251,6 +253,9 @@ AssembledRows ElementSorter::assembled_rows() const {
     element_matrices(block.type, {work_.coordinates.data(), 3 * nodes},
                      element_properties(structure_.regions[block.region], block.share_of(e)),
                      stiffness, {work_.mass.data(), size});
+    if (structure_.numbers == Numbers::in_single) {
+      round_to_single(block.type, {work_.coordinates.data(), 3 * nodes}, stiffness);
+    }
     if (!block.axial_force.empty()) {
       add_geometric_stiffness(block.type, {work_.coordinates.data(), 3 * nodes},
                               element_properties(structure_.regions[block.region]),
@@ -275,6 +280,7 @@ ElementKinds ElementSorter::kinds() const {
     for (const auto& [key, set] : sets) kinds.rectangles += counted(set.elements);
   }
   kinds.general = general_.counted();
+  kinds.single = general_.counted_single();
   for (const auto& beams : beams_) kinds.beams += counted(beams);
   kinds.other = counted(others_);
   return kinds;

@@ -90,8 +90,8 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
     kinds_ = sorter.kinds();
     plan();
   });
-  for (GlobalIndex* const count :
-       {&kinds_.bricks, &kinds_.rectangles, &kinds_.general, &kinds_.beams, &kinds_.other}) {
+  for (GlobalIndex* const count : {&kinds_.bricks, &kinds_.rectangles, &kinds_.general,
+                                   &kinds_.single, &kinds_.beams, &kinds_.other}) {
     MPI_Allreduce(MPI_IN_PLACE, count, 1, MPI_INT64_T, MPI_SUM, mesh.comm);
   }
 }

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "mesh/element_properties.h"
+#include "stiffness/single_stiffness.h"
 #include "stiffness/strains/hexahedron_strains.h"
 
 namespace pounding::stiffness {
@@ -68,12 +69,36 @@ bool StrainSorter::add(std::size_t block, std::size_t element, bool outer) {
 
 template <typename Shape>
 bool StrainSorter::add_to(Collection<Shape>& collection, std::size_t b, std::size_t e, bool outer) {
-  const ElementBlock& block = mesh_.blocks[b];
   find_coordinates(b, e);
-  typename StrainElements<Shape>::Element entry{shape_of(collection, b), {}};
+  put(collection, b, e, outer, shape_of(collection, b));
+  return true;
+}
+
+template <typename Shape>
+void StrainSorter::put(Collection<Shape>& collection, std::size_t b, std::size_t e, bool outer,
+                       std::size_t shape) {
+  const ElementBlock& block = mesh_.blocks[b];
+  typename StrainElements<Shape>::Element entry{shape, {}};
   std::copy_n(&block.connectivity[e * Shape::node_count], Shape::node_count, entry.nodes.begin());
   collection.elements[outer ? 1 : 0].push_back(entry);
   counted_ += block.counted[e];
+}
+
+/// Takes the coordinates of the mesh themselves: an assembled matrix rounds the very same numbers.
+bool StrainSorter::add_single(std::size_t b, std::size_t e, bool outer) {
+  const ElementBlock& block = mesh_.blocks[b];
+  if (structure_.numbers != Numbers::in_single) return false;
+  const auto coordinates = gather_coordinates(mesh_, block, e, work_);
+  if (!may_round(block.type, coordinates)) return false;
+  const std::size_t size = SingleHexahedron::size;
+  const std::span<double> stiffness(work_.stiffness.data(), size * size);
+  element_matrices(block.type, coordinates, element_properties(structure_.regions[block.region]),
+                   stiffness, {work_.mass.data(), size});
+  const auto numbers = SingleHexahedron::find(coordinates, stiffness);
+  if (!numbers) return false;
+  single_hexahedra_.shapes.push_back(*numbers);
+  put(single_hexahedra_, b, e, outer, single_hexahedra_.shapes.size() - 1);
+  counted_single_ += block.counted[e];
   return true;
 }
 
@@ -159,6 +184,7 @@ GeneralElementsOf<Of> StrainSorter::elements(bool outer, const DofSlots& slots) 
     return in_order<Of<HexahedronStrains<true>>>(extruded_[axis], outer, seen_along(axis, slots));
   };
   return {in_order<Of<HexahedronStrains<false>>>(hexahedra_, outer, slots),
+          in_order<Of<SingleHexahedron>>(single_hexahedra_, outer, slots),
           {extruded(0), extruded(1), extruded(2)},
           in_order<Of<QuadrangleStrains>>(quadrangles_, outer, slots),
           in_order<Of<TriangleStrains>>(triangles_, outer, slots)};
@@ -179,6 +205,7 @@ std::vector<LocalIndex> StrainSorter::dofs(bool outer, const DofSlots& slots) co
     }
   };
   append(hexahedra_, 3);
+  append(single_hexahedra_, 3);
   for (const auto& collection : extruded_) append(collection, 3);
   append(quadrangles_, 6);
   append(triangles_, 6);

@@ -13,6 +13,7 @@
 #include "stiffness/strains/batch_elements.h"
 #include "stiffness/strains/hexahedron_strains.h"
 #include "stiffness/strains/shell_strains.h"
+#include "stiffness/strains/single_hexahedron.h"
 #include "stiffness/strains/strain_elements.h"
 
 namespace pounding::stiffness {
@@ -21,6 +22,7 @@ namespace pounding::stiffness {
 template <template <typename> typename Of>
 struct GeneralElementsOf {
   Of<HexahedronStrains<false>> hexahedra;
+  Of<SingleHexahedron> single_hexahedra;
   std::array<Of<HexahedronStrains<true>>, 3> extruded;  ///< along x, y, z
   Of<QuadrangleStrains> quadrangles;
   Of<TriangleStrains> triangles;
@@ -28,6 +30,7 @@ struct GeneralElementsOf {
   /// Calls `visit` with those of each kind.
   static void each(auto& all, const auto& visit) {
     visit(all.hexahedra);
+    visit(all.single_hexahedra);
     for (auto& elements : all.extruded) visit(elements);
     visit(all.quadrangles);
     visit(all.triangles);
@@ -51,6 +54,8 @@ class StrainSorter {
 
   /// Keeps a linear element of a block; `outer`: it touches a ghost. False for other kinds.
   bool add(std::size_t block, std::size_t element, bool outer);
+  /// Keeps an element whose numbers are rounded to 32 bits; false for others.
+  bool add_single(std::size_t block, std::size_t element, bool outer);
 
   /// Results of `add`.
   template <template <typename> typename Of>
@@ -59,6 +64,7 @@ class StrainSorter {
   std::vector<LocalIndex> dofs(bool outer, const DofSlots& slots) const;
   /// Elements that this rank counts.
   GlobalIndex counted() const { return counted_; }
+  GlobalIndex counted_single() const { return counted_single_; }
 
  private:
   template <typename Shape>
@@ -68,6 +74,10 @@ class StrainSorter {
     std::map<std::pair<std::size_t, std::vector<double>>, std::size_t> shape_numbers;
     std::array<std::vector<typename StrainElements<Shape>::Element>, 2> elements;  ///< inner, outer
   };
+  /// Keeps an element of a shape.
+  template <typename Shape>
+  void put(Collection<Shape>& collection, std::size_t block, std::size_t element, bool outer,
+           std::size_t shape);
   template <typename Shape>
   bool add_to(Collection<Shape>& collection, std::size_t block, std::size_t element, bool outer);
   bool add_hexahedron(std::size_t block, std::size_t element, bool outer);
@@ -85,10 +95,12 @@ class StrainSorter {
   const ElementShapes& element_shapes_;
   ElementWork work_;
   Collection<HexahedronStrains<false>> hexahedra_;
+  Collection<SingleHexahedron> single_hexahedra_;
   std::array<Collection<HexahedronStrains<true>>, 3> extruded_;  ///< along x, y, z
   Collection<QuadrangleStrains> quadrangles_;
   Collection<TriangleStrains> triangles_;
   GlobalIndex counted_ = 0;
+  GlobalIndex counted_single_ = 0;  ///< of these
 };
 
 }  // namespace pounding::stiffness

@@ -7,6 +7,7 @@
 #include "mesh/element_properties.h"
 #include "mesh/location.h"
 #include "stiffness/element_loop.h"
+#include "stiffness/single_stiffness.h"
 
 namespace pounding {
 
@@ -28,6 +29,10 @@ void for_each_element(const Structure& structure, const Mesh& mesh, Wanted&& wan
       try {
         element_matrices(block.type, gather_coordinates(mesh, block, e, work), properties,
                          {work.stiffness.data(), size * size}, {work.mass.data(), size});
+        if (structure.numbers == Numbers::in_single) {
+          stiffness::round_to_single(block.type, gather_coordinates(mesh, block, e, work),
+                                     {work.stiffness.data(), size * size});
+        }
         if (!block.axial_force.empty()) {
           add_geometric_stiffness(block.type, gather_coordinates(mesh, block, e, work), properties,
                                   block.axial_force[e], {work.stiffness.data(), size * size});

@@ -296,11 +296,14 @@ bool multiplies_elements(const Mesh& mesh, StiffnessMethod method) {
           measured_costs::elements_per_shaped * shaped >= elements);
 }
 
-std::string describe(const stiffness::ElementKinds& kinds) {
+std::string describe(const stiffness::ElementKinds& kinds, Numbers numbers) {
+  const std::string single = numbers == Numbers::in_single
+                                 ? ", of these " + std::to_string(kinds.single) + " in 32 bits"
+                                 : "";
   return "element by element (" + std::to_string(kinds.bricks) + " bricks, " +
          std::to_string(kinds.rectangles) + " rectangles, " + std::to_string(kinds.general) +
-         " general, " + std::to_string(kinds.beams) + " beams, " + std::to_string(kinds.other) +
-         " others)";
+         " general" + single + ", " + std::to_string(kinds.beams) + " beams, " +
+         std::to_string(kinds.other) + " others)";
 }
 
 }  // namespace
@@ -320,7 +323,7 @@ LinearSystem build_system(const Structure& structure, const Mesh& mesh, Stiffnes
   if (by_element) {
     auto product =
         std::make_unique<stiffness::ElementStiffness>(structure, mesh, std::move(system.stiffness));
-    system.stiffness_method = describe(product->kinds());
+    system.stiffness_method = describe(product->kinds(), structure.numbers);
     system.stiffness = std::move(product);
   }
   finish_system(mesh, system);

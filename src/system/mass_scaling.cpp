@@ -16,6 +16,7 @@
 #include "elements/element_traits.h"
 #include "laws/law_of.h"
 #include "mesh/element_properties.h"
+#include "stiffness/single_stiffness.h"
 #include "system/block_factorisation.h"
 
 namespace pounding {
@@ -144,6 +145,9 @@ class Decision {
     try {
       element_matrices(set.type, {coordinates_.data(), 3 * nodes.size()}, properties, stiffness,
                        mass);
+      if (structure_.numbers == Numbers::in_single) {
+        stiffness::round_to_single(set.type, {coordinates_.data(), 3 * nodes.size()}, stiffness);
+      }
     } catch (const ElementError&) {
       return false;  // the assembly names it
     }

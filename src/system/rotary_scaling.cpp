@@ -8,6 +8,7 @@
 #include "common/dense_matrix.h"
 #include "common/matrix3.h"
 #include "mesh/element_properties.h"
+#include "stiffness/single_stiffness.h"
 #include "system/mass_scaling.h"
 
 namespace pounding {
@@ -229,6 +230,9 @@ StepPlan plan_step(const Structure& structure, const Mesh& mesh) {
       const std::span<double> mass(work.mass.data(), size);
       element_matrices(block.type, gather_coordinates(mesh, block, e, work),
                        element_properties(region, block.share_of(e)), stiffness, mass);
+      if (structure.numbers == Numbers::in_single) {
+        stiffness::round_to_single(block.type, gather_coordinates(mesh, block, e, work), stiffness);
+      }
       if (is_shell(block.type)) {
         feasible = inertia.add(block, e, work);
       } else if (may_scale(structure, block.type)) {

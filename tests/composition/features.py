@@ -179,6 +179,8 @@ FEATURES = [
     Feature("time step target", "model", {"@_time_step_target": 4e-4, "@_target_change": .1, "@_target_frequency": 5.0}),
     Feature("meshes in pieces", "model", {"mesh_pieces": "$pieces"}, physics=False),
     Feature("assembled matrix", "model", {"stiffness": "assembled"}, physics=False),
+    Feature("numbers in 32 bits", "model", slab("skewed", "hex8", **{"@_numbers": "single"}),
+            spared={"other units": "its numbers are rounded, in other units to others"}),
     Feature("stiffness factor", "model", {"@_stiffness_factor": 1.3},
             spared={"all modes": "the basis keeps the rotary inertia of beams, which follows the stiffness at full order"}),
     Feature("cracked columns", "model", {"@_column_stiffness_factor": .5, "@_column_damping_factor": 1.75},

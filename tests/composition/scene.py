@@ -128,6 +128,7 @@ def houses(name, groups):
 
     made = {
         "slab": lambda: ("hexahedron", bricks),
+        "skewed": lambda: ("hexahedron", bricks),
         "prisms": lambda: ("wedge", [[row[i] for i in part] for row in bricks for part in prisms]),
         "tets": lambda: ("tetrahedron", [[row[i] for i in part] for row in bricks for part in tets]),
         "deck": lambda: level(h),
@@ -160,6 +161,8 @@ def houses(name, groups):
         "curb_foot": lambda: ("line", [[find(.1, .25, top), find(.1, .6, top)]]),
     }
     kept = {group: rows() for group, rows in made.items() if group in groups}
+    if "skewed" in groups:  # no brick of the floor is a box
+        nodes[find(.5, .5 if name == "a" else 0, 2.75)][0] += .2
     used = sorted({i for _, rows in kept.values() for row in rows for i in row})
     place = {old: new for new, old in enumerate(used)}
     return Mesh([nodes[i] for i in used], {g: (kind, [[place[i] for i in row] for row in rows]) for g, (kind, rows) in kept.items()})
@@ -180,7 +183,7 @@ def kept(write, kind):
     return name
 
 
-GROUPS = ("slab prisms tets deck face upside column pier stay brace strut wall base feet west east pad ground pump nib block raft subgrade mast mast_foot "
+GROUPS = ("slab skewed prisms tets deck face upside column pier stay brace strut wall base feet west east pad ground pump nib block raft subgrade mast mast_foot "
           "bottom curb curb_foot").split()
 
 BASE = {

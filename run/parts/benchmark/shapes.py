@@ -20,6 +20,7 @@ plate:
   mesh: {mesh}
   mesh_set: "{parameters}"
   clamp: x_min
+  numbers: {numbers}
   damping: {{alpha: 0.1562, beta: 1.2557e-5}}
   body: {element}
 material: {{concrete: {{young: 30e9, poisson: 0.2, density: 2400}}}}
@@ -44,13 +45,14 @@ class Shape:
     parameters: str = ""
     element: str = SOLID
     mesh: str = "holes.geo"
+    numbers: str = "double"
 
     def model(self, scratch: Path, motion: Path) -> list:
         if self.cells:
             return ["-cells", ",".join(str(n) for n in self.cells)]
         scene = scratch / "shape.yaml"
         scene.write_text(SCENE.format(mesh=SOURCE / "tests" / "meshes" / self.mesh, motion=motion,
-                                      parameters=self.parameters, element=self.element))
+                                      parameters=self.parameters, element=self.element, numbers=self.numbers))
         return ["-scene", scene]
 
 
@@ -64,6 +66,8 @@ SHAPES = {
                       parameters="kind=2,size=0.1"),
     "layers": Shape("the same in four layers", parameters="kind=2,size=0.15,layers=4"),
     "split": Shape("hexahedra made from tetrahedra", parameters="kind=3,size=0.45,thickness=0.5"),
+    "many": Shape("the same, more than the caches hold", parameters="kind=3,size=0.16,thickness=0.5"),
+    "single": Shape("these with numbers in 32 bits", parameters="kind=3,size=0.16,thickness=0.5", numbers="single"),
     "lattice": Shape("beams along three axes", parameters="n=20", element=BEAM, mesh="lattice.geo"),
     "skewed": Shape("beams, each of a length and direction of its own", parameters="n=20,skew=0.1", element=BEAM,
                     mesh="lattice.geo"),

@@ -114,6 +114,7 @@ struct ElementKinds {
   GlobalIndex bricks = 0;      ///< split by their mid-planes, in rows
   GlobalIndex rectangles = 0;  ///< shells likewise
   GlobalIndex general = 0;     ///< other hexahedra, quadrangles, triangles, by their strains
+  GlobalIndex single = 0;      ///< of these, by numbers in 32 bits
   GlobalIndex beams = 0;       ///< from their local stiffnesses
   GlobalIndex other = 0;       ///< in a sparse matrix
 };

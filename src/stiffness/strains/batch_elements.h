@@ -62,7 +62,7 @@ template <typename Shape>
 class BatchElements {
  public:
   static constexpr std::size_t dof_count = Shape::node_count * Shape::components;
-  using Numbers = std::array<double, Shape::number_count>;
+  using Numbers = std::array<typename Shape::Number, Shape::number_count>;
 
   struct Element {
     std::size_t shape;                       ///< which of the shapes

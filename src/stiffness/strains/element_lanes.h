@@ -17,9 +17,40 @@ inline constexpr std::size_t element_lane_count = wide_lane_count;
 
 using ElementLanes = WideLanes;
 
+/// Bytes that memory hands over at once.
+inline constexpr std::size_t cache_line = 64;
+
+// Numbers as doubles, one for each lane. The compiler's own conversion of vectors takes two halves.
+static inline __attribute__((always_inline)) ElementLanes widened(const double* from) {
+  ElementLanes to;
+  load(from, to);
+  return to;
+}
+static inline __attribute__((always_inline)) ElementLanes widened(const float* from) {
+#if defined(__AVX512F__)
+  return _mm512_maskz_cvtps_pd(0xff, _mm256_loadu_ps(from));  // unmasked, g++ 12 sees a false alarm
+#elif defined(__AVX__)
+  return _mm256_cvtps_pd(_mm_loadu_ps(from));
+#else
+  return {from[0], from[1], from[2], from[3]};
+#endif
+}
+
+/// Numbers of the elements of a batch, in 64 or 32 bits.
+template <typename Number>
+struct NumbersOfBatch {
+  const Number* first;
+
+  __attribute__((always_inline)) ElementLanes operator[](std::size_t k) const {
+    return widened(first + k * element_lane_count);
+  }
+  NumbersOfBatch operator+(std::size_t k) const { return {first + k * element_lane_count}; }
+};
+
 /// Numbers of one element, each in all lanes: for its products in several runs at once.
+template <typename Number>
 struct NumbersOfOne {
-  const double* first;
+  const Number* first;
 
   __attribute__((always_inline)) ElementLanes operator[](std::size_t k) const {
     return all_wide(first[k]);

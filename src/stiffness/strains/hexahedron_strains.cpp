@@ -305,8 +305,10 @@ std::array<double, HexahedronStrains<extruded>::number_count> HexahedronStrains<
 
 template struct HexahedronStrains<false>;
 template struct HexahedronStrains<true>;
-template void HexahedronStrains<false>::product(const ElementLanes*, ElementLanes*);
-template void HexahedronStrains<true>::product(const ElementLanes*, ElementLanes*);
+template void HexahedronStrains<false>::product(NumbersOfBatch<double>, ElementLanes*);
+template void HexahedronStrains<false>::product(OfUnitShear<NumbersOfBatch<float>>, ElementLanes*);
+template void HexahedronStrains<false>::product(OfUnitShear<NumbersOfOne<float>>, ElementLanes*);
+template void HexahedronStrains<true>::product(NumbersOfBatch<double>, ElementLanes*);
 template void BatchElements<HexahedronStrains<false>>::apply(std::size_t, const BatchValue*,
                                                              BatchValue*) const;
 template void BatchElements<HexahedronStrains<true>>::apply(std::size_t, const BatchValue*,

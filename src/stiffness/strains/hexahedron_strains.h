@@ -25,6 +25,7 @@ namespace pounding::stiffness {
 /// these numbers are zero then, and the c_m fall into two groups that its mid-plane tells apart.
 template <bool extruded>
 struct HexahedronStrains {
+  using Number = double;
   static constexpr std::size_t node_count = 8;
   static constexpr std::size_t components = 3;
   static constexpr std::size_t size = node_count * components;
@@ -47,10 +48,23 @@ struct HexahedronStrains {
   static std::array<double, number_count> numbers(std::span<const double> coordinates,
                                                   std::span<const double> stiffness);
 
-  /// Forces in the place of displacements, of a batch of elements or, by NumbersOfOne, of several
-  /// runs.
+  /// Forces in the place of displacements, of a batch of elements (NumbersOfBatch) or of one in
+  /// several runs (NumbersOfOne).
   template <typename Numbers>
   static void product(Numbers numbers, ElementLanes* values);
+};
+
+/// Numbers with mu as the unit of energy, in whose place are the last digits of lambda: that is the
+/// same in all elements of a material, and a part lost of it would not average out.
+template <typename In>
+struct OfUnitShear {
+  In numbers;
+
+  __attribute__((always_inline)) ElementLanes operator[](std::size_t k) const {
+    if (k == HexahedronStrains<false>::lame) return numbers[k] + numbers[k + 1];
+    return k == HexahedronStrains<false>::lame + 1 ? all_wide(1) : numbers[k];
+  }
+  In operator+(std::size_t k) const { return numbers + k; }
 };
 
 /// How a hexahedron whose ends are alike, and across a global axis, is seen along that axis.

@@ -55,28 +55,38 @@ class NodeSlots {
     forces_ = values_;
   }
 
-  /// Takes w; three values beyond its last dof are read.
-  void read(const double* w) const {
-    double* to = values_.data();
-    for (const LocalIndex start : start_) {
-      if (start >= 0) {
-        Lanes first;
-        load(w + start, first);
-        store(to, first);
-        if constexpr (components == 6) {
-          HalfLanes rest;
-          load(w + start + 4, rest);
-          store(to + 4, rest);
-        }
-      }
-      to += stride;
-    }
+  /// Slots given out so far.
+  std::size_t count() const { return start_.size(); }
+
+  /// Takes the components of w that do not follow each other: before the slots are begun.
+  void read_single(const double* w) const {
     for (const auto& [dof, at] : single_) values_[at] = w[dof];
   }
 
-  /// Adds the forces of owned dofs to q and starts anew.
+  /// Takes w and begins sums of forces in slots from `begin` to `end`; three values beyond the last
+  /// dof of w are read.
+  void begin(const double* w, std::size_t begin, std::size_t end) const {
+    double* to = values_.data() + stride * begin;
+    double* force = forces_.data() + stride * begin;
+    for (std::size_t slot = begin; slot < end; ++slot, to += stride, force += stride) {
+      store(force, Lanes{});
+      if constexpr (components == 6) store(force + 4, HalfLanes{});
+      const LocalIndex start = start_[slot];
+      if (start < 0) continue;
+      Lanes first;
+      load(w + start, first);
+      store(to, first);
+      if constexpr (components == 6) {
+        HalfLanes rest;
+        load(w + start + 4, rest);
+        store(to + 4, rest);
+      }
+    }
+  }
+
+  /// Adds the forces of owned dofs to q.
   void add_to(double* q) const {
-    double* from = forces_.data();
+    const double* from = forces_.data();
     for (const LocalIndex start : start_) {
       if (start >= 0 && start < owned_dofs_) {
         double* const to = q + start;
@@ -87,7 +97,6 @@ class NodeSlots {
     for (const auto& [dof, at] : single_) {
       if (dof < owned_dofs_) q[dof] += forces_[at];
     }
-    std::fill(forces_.begin(), forces_.end(), 0.0);
   }
 
   /// The components of one node of each of the elements of a batch.
@@ -137,7 +146,7 @@ class NodeSlots {
   std::vector<LocalIndex> start_;            ///< per slot: first dof if all follow it
   std::vector<std::pair<LocalIndex, std::size_t>> single_;  ///< other dofs and their copies
   mutable LaneArray values_;
-  mutable LaneArray forces_;  ///< zero between products
+  mutable LaneArray forces_;
 };
 
 }  // namespace pounding::stiffness

@@ -285,8 +285,8 @@ std::array<double, TriangleStrains::number_count> TriangleStrains::numbers(
   return n;
 }
 
-template void QuadrangleStrains::product(const ElementLanes*, ElementLanes*);
-template void TriangleStrains::product(const ElementLanes*, ElementLanes*);
+template void QuadrangleStrains::product(NumbersOfBatch<double>, ElementLanes*);
+template void TriangleStrains::product(NumbersOfBatch<double>, ElementLanes*);
 template void BatchElements<QuadrangleStrains>::apply(std::size_t, const BatchValue*,
                                                       BatchValue*) const;
 template void BatchElements<TriangleStrains>::apply(std::size_t, const BatchValue*,

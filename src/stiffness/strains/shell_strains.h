@@ -21,6 +21,7 @@ namespace pounding::stiffness {
 /// uncoupled from all others; the quadratic modes that the element condenses change only how u_h,
 /// v_h and the drilling angles work on each other.
 struct QuadrangleStrains {
+  using Number = double;
   static constexpr std::size_t node_count = 4;
   static constexpr std::size_t components = 6;
   static constexpr std::size_t size = node_count * components;
@@ -52,6 +53,7 @@ struct QuadrangleStrains {
 /// the membrane, three curvatures, three drilling angles and the shear along the three edges, as
 /// those of QuadrangleStrains. With p = x_2 - x_1 and r = x_3 - x_1 gradients are exact.
 struct TriangleStrains {
+  using Number = double;
   static constexpr std::size_t node_count = 3;
   static constexpr std::size_t components = 6;
   static constexpr std::size_t size = node_count * components;
