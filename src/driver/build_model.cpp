@@ -61,7 +61,7 @@ void share_meshes(MPI_Comm comm, Scene& scene, Profile& profile,
                   const ContactsKnown& contacts_known, WholeMeshes& whole, Model& model) {
   {
     const ScopedTimer timer(profile, Phase::mesh);
-    on_rank0(comm, [&] { whole = read_whole_meshes(comm, scene, model); });
+    on_rank0(comm, [&] { whole = read_whole_meshes(comm, scene, model, whole.splits); });
     share_findings(comm, scene, whole, contacts_known, model);
   }
   const ScopedTimer timer(profile, Phase::partition);
@@ -104,9 +104,9 @@ void read_meshes(MPI_Comm comm, Scene& scene, Profile& profile, const ContactsKn
 
 /// Every rank gets its part of the meshes. Bases of reduced structures come from the whole ones.
 void build_meshes(MPI_Comm comm, Scene& scene, std::span<const double> stiffness_factors,
-                  Profile& profile, const ContactsKnown& contacts_known, Model& model) {
+                  Profile& profile, const ContactsKnown& contacts_known, int splits, Model& model) {
   const std::size_t count = scene.structures.size();
-  WholeMeshes whole{std::vector<GlobalMesh>(count), std::vector<MatOutline>(count)};
+  WholeMeshes whole{std::vector<GlobalMesh>(count), std::vector<MatOutline>(count), splits};
   (scene.mesh_pieces.empty() ? share_meshes : read_meshes)(comm, scene, profile, contacts_known,
                                                            whole, model);
   for (const Mesh& mesh : model.meshes) {
@@ -273,12 +273,12 @@ void build_structures(MPI_Comm comm, Scene& scene, Profile& profile, Model& mode
 }  // namespace
 
 Model build_model(MPI_Comm comm, Scene& scene, std::span<const double> stiffness_factors,
-                  Profile& profile, const ContactsKnown& contacts_known) {
+                  Profile& profile, const ContactsKnown& contacts_known, int splits) {
   Model model;
   model.buildings.resize(scene.structures.size());
   model.systems.resize(scene.structures.size());
   on_every_rank(comm, [&] { read_histories(scene, model); });
-  build_meshes(comm, scene, stiffness_factors, profile, contacts_known, model);
+  build_meshes(comm, scene, stiffness_factors, profile, contacts_known, splits, model);
   try {
     build_structures(comm, scene, profile, model);
   } catch (const UserError&) {

@@ -19,9 +19,10 @@ using ContactsKnown = std::function<void(const interactions::Interface&)>;
 
 /// Reads, partitions, distributes and assembles; finds modes, omega_max and the time step. Soil
 /// gets its foundation from the mesh, and the scene keeps it. The model borrows from the scene.
-/// `stiffness_factors`: per structure, on the squared frequencies of a reduced one; Throws
-/// UserError on every rank alike, and the errors of `contacts_known`. Collective.
+/// `stiffness_factors`: per structure, on the squared frequencies of a reduced one; `splits`: how
+/// often every element is split, not of meshes cut before. Throws UserError on every rank alike,
+/// and the errors of `contacts_known`. Collective.
 Model build_model(MPI_Comm comm, Scene& scene, std::span<const double> stiffness_factors,
-                  Profile& profile, const ContactsKnown& contacts_known = {});
+                  Profile& profile, const ContactsKnown& contacts_known = {}, int splits = 0);
 
 }  // namespace pounding

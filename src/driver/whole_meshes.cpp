@@ -59,12 +59,12 @@ void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, MeshReader& rea
 
 }  // namespace
 
-WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model) {
+WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model, int splits) {
   const std::size_t count = scene.structures.size();
-  WholeMeshes whole{std::vector<GlobalMesh>(count), std::vector<MatOutline>(count)};
+  WholeMeshes whole{std::vector<GlobalMesh>(count), std::vector<MatOutline>(count), splits};
   std::vector<const Structure*> structures;
   for (const Structure& structure : scene.structures) structures.push_back(&structure);
-  MeshReader reader(std::move(structures), scene.mesh_time_limit);
+  MeshReader reader(std::move(structures), scene.mesh_time_limit, splits);
   for (std::size_t s = 0; s < count; ++s) {
     read_whole_mesh(comm, scene, s, reader, whole, model);
     check_mesh(scene, s, whole.meshes[s], model);

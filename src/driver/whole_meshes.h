@@ -18,6 +18,7 @@ namespace pounding {
 struct WholeMeshes {
   std::vector<GlobalMesh> meshes;  ///< per structure
   std::vector<MatOutline> mats;    ///< likewise, of those on soil
+  int splits = 0;                  ///< how often their elements are split when they are read
 };
 
 /// Hands all that ranks have to know of the whole meshes beside their parts to
@@ -27,9 +28,9 @@ void pass_shared_findings(auto& whole, auto& model, auto&& stream) {
          model.starts);
 }
 
-/// The meshes of all structures, checked, with contacts, probes and forces found in them. Throws
-/// UserError for faults of meshes. Rank 0.
-WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model);
+/// The meshes of all structures, checked, with contacts, probes and forces found in them; every
+/// element is split `splits` times. Throws UserError for faults of meshes. Rank 0.
+WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model, int splits = 0);
 
 /// Per structure the one of `ranks` ranks that has all generalised coordinates of a reduced one,
 /// else -1. No rank takes more than it must; neighbours in the scene's list stay together.

@@ -2,19 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <cstdint>
 #include <limits>
+#include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include "common/facts.h"
-#include "common/parallel.h"
-#include "driver/build_model.h"
-#include "fidelity/inherited_motion.h"
-#include "fidelity/probe_means.h"
-#include "fidelity/window_place.h"
-#include "model/model_scheme.h"
-#include "motion/response_spectrum.h"
+#include "fidelity/mesh_error.h"
+#include "fidelity/stepped_window.h"
+#include "fidelity/window_spectra.h"
 #include "observers/observed_run.h"
 #include "scene/law_kinds.h"
 
@@ -25,175 +22,10 @@ namespace {
 constexpr double least_disturbance = 1e-3;
 constexpr double largest_disturbance = 0.2;
 
-/// The scene of a reduced model with every structure at full order, no mass scaled.
-Scene at_full_order(Scene scene, const Model& model) {
-  for (std::size_t s = 0; s < scene.structures.size(); ++s) {
-    Structure& structure = scene.structures[s];
-    if (structure.uniform_damping) {
-      structure.uniform_damping->reference = model.systems[s].uniform_damping->reference;
-    }
-    structure.modal.reset();
-    structure.mass_scaling = 0;
-    structure.step_target.reset();
-  }
-  if (std::ranges::none_of(scene.structures, &Structure::p_delta)) {
-    scene.preload = false;
-    for (Structure& structure : scene.structures) structure.gravity = {0, 0, 0};
-    for (Contact& contact : scene.contacts) contact.gap_at_rest = false;
-  }
-  scene.modes = 0;
-  scene.write_modes = false;
-  scene.time_step = 0;
-  scene.warnings.clear();
-  scene.forces.clear();
-  scene.loops.clear();
-  scene.fields_interval = 0;
-  scene.export_matrices.clear();
-  return scene;
-}
-
-/// Systems at rest in their place, which nothing but the ground and contact moves.
-void set_free(Model& model) {
-  for (LinearSystem& system : model.systems) {
-    system.initial_displacement = system.initial_velocity = system.gravity = {0, 0, 0};
-    system.start.reset();
-    system.rest_displacement.clear();
-    system.loads.reset();
-  }
-}
-
-/// Sum of the impulses of a run, on the root of its contacts.
-void add_impulses(MPI_Comm comm, ModelScheme& scheme, double& sum) {
-  if (scheme.contact() == nullptr || scheme.contact()->root() != rank_of(comm)) return;
-  if (!scheme.rows_act()) return;
-  for (const double impulse : scheme.row_actions().impulses) sum += impulse;
-}
-
-/// Velocities of the channels at full order at the times of the records, this rank's part.
-std::vector<double> run_window(const Window& window, InheritedMotion& inherited, int stride,
-                               double reduced_step, double step, ProbeMeans& means,
-                               ModelScheme& scheme, const std::function<void()>& after_step) {
-  const std::size_t channels = means.channels();
-  interactions::ContactProblem::Carried carried;
-  std::vector<double> next(inherited.dofs());
-  carried.displacement.resize(next.size());
-  carried.velocity.resize(next.size());
-  inherited.places(0, carried.displacement);
-  if (scheme.contact() != nullptr) scheme.contact()->carry(carried);
-  std::vector<double> records(channels, 0.0);
-  std::vector<double> before(channels, 0.0);
-  std::vector<double> now(channels);
-  double time_before = 0;
-  const std::int64_t wanted = (window.last - window.first) / stride;
-  for (std::int64_t n = 0, made = 1; made <= wanted; ++n) {
-    inherited.places(static_cast<double>(n + 1) * step, next);
-    carried.velocity_before = carried.velocity;
-    for (std::size_t i = 0; i < next.size(); ++i) {
-      carried.velocity[i] = (next[i] - carried.displacement[i]) / step;
-    }
-    if (n == 0) carried.velocity_before = carried.velocity;
-    scheme.stepper().step(true, false);
-    after_step();
-    carried.displacement = next;
-    means.velocities(scheme.stepper().state(), now);
-    const double time = (static_cast<double>(n) + 0.5) * step;
-    for (; made <= wanted; ++made) {
-      const double due = (static_cast<double>(made * stride) - 0.5) * reduced_step;
-      if (due > time) break;
-      const double share = (due - time_before) / (time - time_before);
-      for (std::size_t c = 0; c < channels; ++c) {
-        records.push_back(before[c] + share * (now[c] - before[c]));
-      }
-    }
-    before.swap(now);
-    time_before = time;
-  }
-  return records;
-}
-
-using Spectra = std::vector<std::vector<SpectrumPoint>>;
-
-/// Adds the ranks' parts of the channels' velocities up, in every record. Collective.
-void add_parts(MPI_Comm comm, std::vector<double>& velocities) {
-  constexpr std::size_t most = std::size_t{1} << 27;
-  for (std::size_t i = 0; i < velocities.size(); i += most) {
-    MPI_Allreduce(MPI_IN_PLACE, velocities.data() + i,
-                  static_cast<int>(std::min(most, velocities.size() - i)), MPI_DOUBLE, MPI_SUM,
-                  comm);
-  }
-}
-
-/// Velocities of all channels in records that follow each other, the first of them made in a step.
-struct Records {
-  std::int64_t step = 0;
-  std::span<const double> velocities;  ///< shape (records, channels) [m/s]
-};
-
-/// Spectra of the absolute acceleration of every channel, the mean from record to record, at the
-/// scene's first damping ratio. The ranks share the channels out. Collective.
-Spectra spectra_of(MPI_Comm comm, const Scene& scene, const Model& model,
-                   const GroundMotion& motion, const Records& records) {
-  const std::size_t channels = 3 * model.probes.size();
-  const int stride = record_stride(scene, model);
-  const double interval = model.time_step * stride;
-  Spectra spectra(channels);
-  for (std::size_t c = 0; c < channels; ++c) {
-    if (static_cast<int>(c) % size_of(comm) != rank_of(comm)) continue;
-    const int direction = static_cast<int>(c % 3);
-    std::vector<double> acceleration;
-    std::int64_t step = records.step + 1;
-    for (std::size_t i = channels + c; i < records.velocities.size(); i += channels) {
-      double change = records.velocities[i] - records.velocities[i - channels];
-      for (int k = 0; k < stride; ++k, ++step) {
-        const double time = static_cast<double>(step) * model.time_step;
-        change += model.time_step * motion.acceleration(direction, time);
-      }
-      acceleration.push_back(change / interval);
-    }
-    spectra[c] = response_spectrum(acceleration, interval, scene.spectra.frequencies,
-                                   scene.spectra.damping_ratios.front(), AfterRecord::ignored);
-  }
-  for (std::size_t c = 0; c < channels; ++c) {
-    broadcast_array(comm, spectra[c], static_cast<int>(c) % size_of(comm));
-  }
-  return spectra;
-}
-
-/// The reduced run under a motion: velocities of the channels in all its records. `after_step` is
-/// called after every one. Collective.
-std::vector<double> run_reduced(MPI_Comm comm, const Scene& scene, const Model& model,
-                                const GroundMotion& motion,
-                                const std::function<void(ModelScheme&)>& after_step) {
-  Profile profile;
-  ModelScheme::Parts parts = scheme_parts(comm, scene, model, model.meshes, profile);
-  parts.motion = &motion;
-  ModelScheme scheme(std::move(parts));
-  ProbeMeans means(model.probes, model.systems, model.meshes);
-  const int stride = record_stride(scene, model);
-  std::vector<double> velocities;
-  std::vector<double> now(means.channels());
-  for (std::int64_t n = 0; n <= model.steps; ++n) {
-    scheme.stepper().step(false, false);
-    after_step(scheme);
-    if (n % stride != 0) continue;
-    means.velocities(scheme.stepper().state(), now);
-    velocities.insert(velocities.end(), now.begin(), now.end());
-  }
-  add_parts(comm, velocities);
-  return velocities;
-}
-
-/// Distances of the channels that move.
-std::vector<ChannelDistance> distances(const Model& model, const Spectra& found,
-                                       const Spectra& reference, std::span<const char> moving) {
-  std::vector<ChannelDistance> channels;
-  for (std::size_t c = 0; c < moving.size(); ++c) {
-    if (moving[c] == 0) continue;
-    const std::string name = model.probes[c / 3].name + "." + direction_names[c % 3];
-    channels.push_back(spectral_distance(name, found[c], reference[c]));
-  }
-  return channels;
-}
+/// Part of the error of the reduction from which on that of the step is looked at more closely.
+constexpr double may_govern = 0.5;
+/// Distance of spectra that is none.
+constexpr double round_off = 1e-9;
 
 /// Scaled mass at full order as single elements offer it, and its time for the whole run.
 void offer_scaled_mass(const Model& full, FidelityEstimate& estimate) {
@@ -210,82 +42,30 @@ void offer_scaled_mass(const Model& full, FidelityEstimate& estimate) {
   estimate.scaled_run_time = estimate.full_run_time * cost * full.step_limits.stable / step;
 }
 
-/// Velocities of the sum of the inherited motion and of full order in the records of a window, and
-/// its impulses. Collective.
-std::vector<double> run_full_window(MPI_Comm comm, const Scene& scene, const Model& model,
-                                    const Window& window, const SavedState& state,
-                                    FidelityEstimate& estimate) {
-  Profile profile;
-  InheritedMotion inherited(comm, scene, model, window.first, state, profile);
-  Scene full_scene = at_full_order(scene, model);
-  const std::vector<double> ones(scene.structures.size(), 1.0);
-  Model full = build_model(comm, full_scene, ones, profile);
-  set_free(full);
-  const double start = inherited.start();
-  const GroundMotion driving =
-      model.motion->part(GroundMotion::Part::sets_in, start, start + fade_in).counted_from(start);
-  ModelScheme::Parts parts = scheme_parts(comm, full_scene, full, full.meshes, profile);
-  parts.interface = &model.interface;
-  parts.motion = &driving;
-  parts.loads = nullptr;
-  parts.carried = true;
-  ModelScheme scheme(std::move(parts));
-  ProbeMeans means(full.probes, full.systems, full.meshes);
-  MPI_Barrier(comm);
-  const double began = MPI_Wtime();
-  std::vector<double> velocities =
-      run_window(window, inherited, record_stride(scene, model), model.time_step, full.time_step,
-                 means, scheme, [&] { add_impulses(comm, scheme, estimate.full_impulse); });
-  double seconds = MPI_Wtime() - began;
-  MPI_Bcast(&seconds, 1, MPI_DOUBLE, 0, comm);
-  inherited.finish(window.last);
-  for (std::size_t i = 0; i < velocities.size(); ++i) velocities[i] += inherited.records()[i];
-  add_parts(comm, velocities);
-  estimate.start = start;
-  estimate.end = static_cast<double>(window.last) * model.time_step;
-  estimate.full_dofs = full.dofs();
-  estimate.time_step = full.time_step;
-  estimate.full_run_time = seconds * scene.end_time / (estimate.end - start);
-  offer_scaled_mass(full, estimate);
-  return velocities;
-}
-
-}  // namespace
-
-FidelityEstimate estimate_fidelity(MPI_Comm comm, const Scene& scene, const Model& model,
-                                   const ImpactCatalogue& impacts, const Recorder& recorder,
-                                   double length) {
-  const double began = MPI_Wtime();
-  FidelityEstimate estimate;
-  const Window window = place_window(comm, scene, model, impacts, recorder, length);
-  estimate.reason = window.reason;
-  const std::size_t channels = 3 * model.probes.size();
-  const int stride = record_stride(scene, model);
-
-  SavedState state;  // in which the window begins
-  const auto note_window = [&](ModelScheme& scheme) {
-    const std::int64_t step = scheme.stepper().state().step - 1;
-    if (step == window.first) scheme.stepper().save(state);
-    if (step > window.first && step <= window.last) add_impulses(comm, scheme, estimate.impulse);
-  };
-  const std::vector<double> reduced = run_reduced(comm, scene, model, *model.motion, note_window);
-  const std::vector<double> sum = run_full_window(comm, scene, model, window, state, estimate);
-  for (double* impulse : {&estimate.impulse, &estimate.full_impulse}) {
-    MPI_Allreduce(MPI_IN_PLACE, impulse, 1, MPI_DOUBLE, MPI_SUM, comm);
-  }
-  const auto first = static_cast<std::size_t>(window.first / stride) * channels;
-  const Spectra full = spectra_of(comm, scene, model, *model.motion, {window.first, sum});
-  const Spectra seen = spectra_of(comm, scene, model, *model.motion,
-                                  {window.first, {reduced.data() + first, sum.size()}});
-  const std::vector<char> moving = moving_channels(full);
-  estimate.channels = distances(model, seen, full, moving);
-
+/// Place, impulses, costs and disturbance of a window go to its estimate.
+void compare_window(const SeenWindow& seen, const SteppedWindow& stepped,
+                    const SteppedWindow::Motion& motion, const Scene& scene,
+                    FidelityEstimate& estimate) {
+  estimate.reason = seen.window.reason;
+  estimate.impulse = seen.impulse;
+  estimate.full_impulse = motion.impulse;
+  estimate.start = stepped.start();
+  estimate.end = stepped.end();
+  estimate.full_dofs = stepped.full().dofs();
+  estimate.time_step = stepped.full().time_step;
+  estimate.full_run_time = motion.seconds * scene.end_time / (estimate.end - estimate.start);
+  offer_scaled_mass(stepped.full(), estimate);
   estimate.disturbance = least_disturbance;
   if (estimate.full_impulse > 0) {
     estimate.disturbance = std::clamp(std::abs(estimate.impulse / estimate.full_impulse - 1),
                                       least_disturbance, largest_disturbance);
   }
-  const Spectra whole = spectra_of(comm, scene, model, *model.motion, {0, reduced});
+}
+
+/// Adds the spread of the reduced run to the distances in the window. Collective.
+void add_spread(MPI_Comm comm, const Scene& scene, const Model& model, const SeenWindow& seen,
+                std::span<const char> moving, FidelityEstimate& estimate) {
+  const Spectra whole = spectra_of(comm, scene, model, *model.motion, {0, seen.velocities});
   std::vector<std::vector<ChannelDistance>> spread;
   for (const double sign : {1.0, -1.0}) {
     const GroundMotion motion = model.motion->times(1 + sign * estimate.disturbance);
@@ -302,6 +82,66 @@ FidelityEstimate estimate_fidelity(MPI_Comm comm, const Scene& scene, const Mode
     }
     estimate.spread[b] = rms_of_channels(spread[0], b);
     estimate.rms[b] = rms_of_channels(estimate.channels, b);
+  }
+}
+
+/// The error of a step of full order, by half of it and, where that may be the largest error, by a
+/// quarter. Collective.
+ErrorPart step_error(MPI_Comm comm, const Scene& scene, const Model& model,
+                     const SteppedWindow& stepped, const Spectra& full, std::int64_t first,
+                     std::span<const char> moving, double reduction) {
+  const auto spectra_by = [&](int parts) {
+    return spectra_of(comm, scene, model, *model.motion, {first, stepped.run(parts).velocities});
+  };
+  const Spectra half = spectra_by(2);
+  ErrorPart part{"step", 1, false, distances(model, full, half, moving), {}};
+  const double change = rms_of_channels(part.channels, 0);
+  if (change > round_off && change <= far_apart &&
+      part.extrapolation() * change > may_govern * reduction) {
+    const double next = rms_of_channels(distances(model, half, spectra_by(4), moving), 0);
+    part.order = order_of(change, next);
+    part.measured = true;
+  }
+  part.extrapolate();
+  return part;
+}
+
+}  // namespace
+
+FidelityEstimate estimate_fidelity(MPI_Comm comm, const Scene& scene, const Model& model,
+                                   const ImpactCatalogue& impacts, const Recorder& recorder,
+                                   double length, bool with_mesh, const ErrorPart* mesh) {
+  const double began = MPI_Wtime();
+  FidelityEstimate estimate;
+  const SeenWindow seen =
+      see_window(comm, scene, model, place_window(comm, scene, model, impacts, recorder, length));
+  auto stepped = std::make_unique<const SteppedWindow>(comm, scene, model, seen.window, seen.state);
+  const SteppedWindow::Motion motion = stepped->run(1);
+  const std::int64_t first = seen.window.first;
+  const auto spectra_in_window = [&](std::span<const double> velocities) {
+    return spectra_of(comm, scene, model, *model.motion, {first, velocities});
+  };
+  const Spectra full = spectra_in_window(motion.velocities);
+  const std::int64_t skipped = first / record_stride(scene, model);
+  const std::size_t channels = 3 * model.probes.size();
+  const Spectra reduced = spectra_in_window(
+      std::span(seen.velocities)
+          .subspan(static_cast<std::size_t>(skipped) * channels, motion.velocities.size()));
+  const std::vector<char> moving = moving_channels(full);
+  estimate.channels = distances(model, reduced, full, moving);
+  compare_window(seen, *stepped, motion, scene, estimate);
+  add_spread(comm, scene, model, seen, moving, estimate);
+  estimate.parts.push_back(
+      step_error(comm, scene, model, *stepped, full, first, moving, estimate.rms[0]));
+  stepped.reset();  // the mesh that is split next takes far more
+  estimate.run_time_step = model.time_step;
+  if (mesh != nullptr && std::ranges::equal(mesh->channels, estimate.channels, {},
+                                            &ChannelDistance::name, &ChannelDistance::name)) {
+    estimate.parts.push_back(*mesh);
+  } else if (with_mesh) {
+    add_mesh_error(comm, scene, model, seen, full, moving, motion.seconds, estimate);
+  } else {
+    estimate.mesh = "not asked for (-fidelity_mesh)";
   }
   estimate.wall_time = MPI_Wtime() - began;
   MPI_Bcast(&estimate.wall_time, 1, MPI_DOUBLE, 0, comm);

@@ -35,11 +35,15 @@ std::string without_window(const Scene& scene);
 /// their spectra lie so far from those of the run, rms of the two. Where impacts decide where the
 /// structures meet next this is the larger part.
 ///
+/// Beside these, full order's own errors: of its step, by the window with half the step and, where
+/// that may be the largest error, a quarter, which shows its order; and of its mesh
+/// (mesh_error.h) `with_mesh`, or `mesh`, where that is not null and has the same channels.
+///
 /// `model`: the reduced one that was run, `impacts` and `recorder` of that run. The structures are
 /// built anew at full order; the reduced run is made once more, and those two. Throws UserError.
 /// Collective.
 FidelityEstimate estimate_fidelity(MPI_Comm comm, const Scene& scene, const Model& model,
                                    const ImpactCatalogue& impacts, const Recorder& recorder,
-                                   double length);
+                                   double length, bool with_mesh, const ErrorPart* mesh);
 
 }  // namespace pounding

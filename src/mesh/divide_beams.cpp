@@ -42,8 +42,8 @@ std::set<Edge> edges_of_surfaces(const RawMesh& mesh) {
 
 class BeamDivider {
  public:
-  BeamDivider(const Structure& structure, RawMesh& mesh)
-      : structure_(structure), mesh_(mesh), edges_(edges_of_surfaces(mesh)) {
+  BeamDivider(const Structure& structure, RawMesh& mesh, int splits)
+      : structure_(structure), mesh_(mesh), splits_(splits), edges_(edges_of_surfaces(mesh)) {
     for (std::size_t i = 0; i < mesh_.node_tags.size(); ++i) places_[mesh_.node_tags[i]] = i;
     if (!places_.empty()) last_node_ = places_.rbegin()->first;
     for (const RawEntity& entity : mesh_.entities) {
@@ -98,7 +98,8 @@ class BeamDivider {
   std::size_t parts_of(const Region& region, std::int64_t first, std::int64_t last) const {
     if (region.parts > 0) return static_cast<std::size_t>(region.parts);
     const double length = norm(minus(position(last), position(first)));
-    const double parts = std::ceil(beams_per_half_wave * length / half_wave_of(region));
+    const double beams = std::ldexp(beams_per_half_wave, splits_);
+    const double parts = std::ceil(beams * length / half_wave_of(region));
     if (!(parts <= most_parts)) {
       throw UserError("option -" + structure_.name + "_" + region.group +
                       "_divide auto: a line would become more than a thousand beams up to the "
@@ -173,6 +174,7 @@ class BeamDivider {
 
   const Structure& structure_;
   RawMesh& mesh_;
+  int splits_;
   const std::set<Edge> edges_;
   std::map<std::int64_t, std::size_t> places_;        ///< of the nodes of the file, by tag
   std::map<Edge, std::vector<std::int64_t>> chains_;  ///< nodes of the beams that lines became
@@ -182,11 +184,11 @@ class BeamDivider {
 
 }  // namespace
 
-std::vector<DividedLines> divide_beams(const Structure& structure, RawMesh& mesh) {
+std::vector<DividedLines> divide_beams(const Structure& structure, RawMesh& mesh, int splits) {
   const bool asked = std::ranges::any_of(structure.regions, [](const Region& region) {
     return is_beam(region.element) && region.parts != 1;
   });
-  return asked ? BeamDivider(structure, mesh).divide() : std::vector<DividedLines>{};
+  return asked ? BeamDivider(structure, mesh, splits).divide() : std::vector<DividedLines>{};
 }
 
 }  // namespace pounding

@@ -29,6 +29,7 @@ inline constexpr int beams_per_half_wave = 4;
 /// but the first part of a line; every group that has the line, or one between the same nodes
 /// without elements, has all of it. Lines are left whole that are edges of surfaces or belong to
 /// other regions as well. Serial. Throws UserError where more than a thousand parts are needed.
-std::vector<DividedLines> divide_beams(const Structure& structure, RawMesh& mesh);
+/// `splits`: how often the lines were split before, of which parts by bending are as much finer.
+std::vector<DividedLines> divide_beams(const Structure& structure, RawMesh& mesh, int splits = 0);
 
 }  // namespace pounding

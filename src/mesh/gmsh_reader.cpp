@@ -9,6 +9,7 @@
 #include "mesh/geometry_file.h"
 #include "mesh/gmsh_process.h"
 #include "mesh/mesh_builder.h"
+#include "mesh/split_mesh.h"
 
 namespace pounding {
 namespace {
@@ -83,7 +84,8 @@ std::vector<std::string> doubts_of(const Structure& structure, const RawAnswer& 
 /// A mesh being read; the error of its beginning, if there is one, belongs to its end.
 class MeshReader::Reading {
  public:
-  Reading(const Structure& structure, double time_limit) : structure_(structure) {
+  Reading(const Structure& structure, double time_limit, int splits)
+      : structure_(structure), splits_(structure.matrices.empty() ? splits : 0) {
     try {
       run_ = begin_raw_mesh(structure, time_limit);
     } catch (...) {
@@ -96,7 +98,8 @@ class MeshReader::Reading {
     RawAnswer answer = finish_raw_mesh(structure_, *run_);
     merge_shared_elements(answer.mesh);
     const std::vector<std::string> doubts = doubts_of(structure_, answer);
-    const std::vector<DividedLines> divided = divide_beams(structure_, answer.mesh);
+    for (int i = 0; i < splits_; ++i) split_mesh(structure_, answer.mesh);
+    const std::vector<DividedLines> divided = divide_beams(structure_, answer.mesh, splits_);
     MeshFiles files{files_beside(structure_.mesh, answer.mesh.files), answer.landlock};
     MeshRead read{build_mesh(structure_, std::move(answer.mesh)), std::move(files), divided};
     read.mesh.doubts.insert(read.mesh.doubts.begin(), doubts.begin(), doubts.end());
@@ -105,18 +108,19 @@ class MeshReader::Reading {
 
  private:
   const Structure& structure_;
+  int splits_;
   std::unique_ptr<GmshRun> run_;
   std::exception_ptr failure_;
 };
 
-MeshReader::MeshReader(std::vector<const Structure*> structures, double time_limit)
-    : structures_(std::move(structures)), time_limit_(time_limit) {}
+MeshReader::MeshReader(std::vector<const Structure*> structures, double time_limit, int splits)
+    : structures_(std::move(structures)), time_limit_(time_limit), splits_(splits) {}
 
 MeshReader::~MeshReader() = default;
 
 std::unique_ptr<MeshReader::Reading> MeshReader::begin(std::size_t s) const {
   if (s >= structures_.size()) return nullptr;
-  return std::make_unique<Reading>(*structures_[s], time_limit_);
+  return std::make_unique<Reading>(*structures_[s], time_limit_, splits_);
 }
 
 MeshRead MeshReader::next() {

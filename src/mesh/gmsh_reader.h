@@ -31,8 +31,9 @@ struct MeshRead {
 class MeshReader {
  public:
   /// `structures` in the order in which they are asked for, alive while this object is used;
-  /// `time_limit`: of Gmsh for each [s].
-  MeshReader(std::vector<const Structure*> structures, double time_limit);
+  /// `time_limit`: of Gmsh for each [s]; `splits`: how often every element is split (split_mesh.h),
+  /// but for structures of matrices, which are for the nodes of their file.
+  MeshReader(std::vector<const Structure*> structures, double time_limit, int splits = 0);
   MeshReader(const MeshReader&) = delete;
   MeshReader& operator=(const MeshReader&) = delete;
   ~MeshReader();
@@ -49,6 +50,7 @@ class MeshReader {
 
   std::vector<const Structure*> structures_;
   double time_limit_;
+  int splits_;
   std::size_t taken_ = 0;
   std::unique_ptr<Reading> ahead_;  ///< of the structure that is taken next
 };

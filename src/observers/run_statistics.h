@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -44,6 +45,26 @@ struct PhaseReport {
 /// Time and memory that the ranks noted. Collective.
 PhaseReport report_phases(MPI_Comm comm, const Profile& profile, std::size_t dofs);
 
+/// Error of a run's floor spectra by its step or its mesh, from their change when that is
+/// halved: ln S_h - ln S_h/2 is 1 - 2^-p of it where it falls with the order p.
+struct ErrorPart {
+  std::string name;                       ///< "step", "mesh"
+  double order = 2;                       ///< p, that it was taken to have
+  bool measured = false;                  ///< that order is one of three that were compared
+  std::vector<ChannelDistance> channels;  ///< those of the estimate
+  std::array<double, compared_bands.size()> rms{};  ///< of all channels, per band [-]
+
+  double extrapolation() const { return 1 / (1 - std::exp2(-order)); }
+  /// Makes the errors of the changes that the channels have, and `rms` of all.
+  void extrapolate() {
+    for (ChannelDistance& channel : channels) {
+      for (double& value : channel.rms) value *= extrapolation();
+      channel.largest *= extrapolation();
+    }
+    for (std::size_t b = 0; b < rms.size(); ++b) rms[b] = rms_of_channels(channels, b);
+  }
+};
+
 /// Error of a reduced run's floor spectra beside full order, see
 /// fidelity/full_order_window.h; the same on every rank, but for the words.
 struct FidelityEstimate {
@@ -57,6 +78,7 @@ struct FidelityEstimate {
                                           ///< squares of the two parts [-]
   Bands window{};                         ///< of the part of the window [-]
   Bands spread{};                         ///< and of the run's answer to a small disturbance [-]
+  std::vector<ErrorPart> parts;           ///< errors of full order itself
   double disturbance = 0;                 ///< part by which the ground's motion was changed [-]
   double impulse = 0;                     ///< in the window, of the reduced run [N s]
   double full_impulse = 0;                ///< and of full order [N s]
@@ -68,6 +90,27 @@ struct FidelityEstimate {
   /// where stiff elements do not hold the step.
   std::vector<double> scaled_steps;
   double scaled_run_time = 0;  ///< that the whole run would take so [s]
+
+  double run_time_step = 0;    ///< of the run itself [s]
+  std::size_t split_dofs = 0;  ///< on the mesh split once; 0: it was not judged
+  double split_time = 0;       ///< that the error of the mesh took, or would take at least [s]
+  double split_memory = 0;     ///< and the memory of that, about [bytes]
+  std::string mesh;            ///< why the mesh is not judged, or of which structures it is not
+
+  /// The part that is the largest over all frequencies, null where that is the reduction.
+  const ErrorPart* governs() const {
+    const ErrorPart* largest = nullptr;
+    for (const ErrorPart& part : parts) {
+      if (part.rms[0] > (largest == nullptr ? rms[0] : largest->rms[0])) largest = &part;
+    }
+    return largest;
+  }
+  /// All errors of the run: root of the sum of the squares.
+  double whole(std::size_t band) const {
+    double sum = rms[band];
+    for (const ErrorPart& part : parts) sum = joined(sum, part.rms[band]);
+    return sum;
+  }
 };
 
 /// How far the pairs of a contact have closed since the start of a run.

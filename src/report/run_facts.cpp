@@ -73,6 +73,66 @@ std::string told_bands(const std::array<double, compared_bands.size()>& rms) {
   return text;
 }
 
+/// The largest of a channel's errors per band, with the first letter of its cause where that is
+/// not the reduction.
+std::string told_largest(const FidelityEstimate& estimate, std::size_t channel) {
+  std::string text;
+  for (std::size_t b = 0; b < compared_bands.size(); ++b) {
+    double largest = estimate.channels[channel].rms[b];
+    std::string letter = " ";
+    for (const ErrorPart& part : estimate.parts) {
+      if (part.channels[channel].rms[b] <= largest) continue;
+      largest = part.channels[channel].rms[b];
+      letter = part.name.substr(0, 1);
+    }
+    text += largest < 0 ? "        - " : sentence("{:9.3g [%]}", {largest}) + letter;
+  }
+  return text;
+}
+
+Json channel_errors(std::span<const ChannelDistance> list) {
+  Json channels = Json::object();
+  for (const ChannelDistance& channel : list) {
+    channels[channel.name] = {{"rms", band_values(channel.rms)},
+                              {"largest", channel.largest},
+                              {"largest_at", channel.at}};
+  }
+  return channels;
+}
+
+/// Whence the errors of full order are, and which of all is the largest.
+void tell_parts(const FidelityEstimate& estimate, Facts& facts) {
+  const std::string governs = estimate.governs() ? estimate.governs()->name : "reduction";
+  for (const ErrorPart& part : estimate.parts) {
+    facts.values["fidelity"][part.name] = {{"rms", band_values(part.rms)},
+                                           {"order", part.order},
+                                           {"order_measured", part.measured},
+                                           {"channels", channel_errors(part.channels)}};
+    facts.say("  the {}: {:.3g} times the change by half of it, which has the order {:.2g}{}\n",
+              {part.name, part.extrapolation(), part.order,
+               !part.measured     ? ", taken and not looked at"
+               : part.order < 1.5 ? ", not 2"
+                                  : ""});
+  }
+  if (!estimate.mesh.empty()) facts.say("  the mesh: {}\n", {estimate.mesh});
+  facts.values["fidelity"]["governs"] = governs;
+  facts.say("  the largest error is that of the {}\n", {governs});
+}
+
+/// A line on how fine a mesh must be whose error alone is beyond an accepted one; empty where it
+/// is not, or not known.
+std::string finer_mesh(const FidelityEstimate& estimate, double target) {
+  for (const ErrorPart& part : estimate.parts) {
+    if (part.name != "mesh" || part.rms[0] < target) continue;
+    const double size = std::pow(target / (std::sqrt(2.0) * part.rms[0]), 1 / part.order);
+    return sentence(
+        "  the mesh alone is {:.3g %} off, and must be finer: elements of {:.2g} times "
+        "the size\n",
+        {part.rms[0], size});
+  }
+  return "";
+}
+
 /// Subject of a sentence about a fidelity, with its verb.
 std::string fidelity_subject(int modes) {
   return modes > 0 ? std::to_string(modes) + " modes are" : "full order with scaled mass is";
@@ -222,30 +282,31 @@ Facts fidelity_facts(const Scene& scene, const RunStatistics& run) {
   if (scene.fidelity.target > 0) facts.values["fidelity_climb"] = climb_facts(scene).values;
   if (!run.fidelity) return facts;
   const FidelityEstimate& estimate = *run.fidelity;
-  Json channels = Json::object();
   std::string lines;
-  for (const ChannelDistance& channel : estimate.channels) {
-    channels[channel.name] = {{"rms", band_values(channel.rms)},
-                              {"largest", channel.largest},
-                              {"largest_at", channel.at}};
-    lines += sentence("  {:-24s}", {channel.name}) + told_bands(channel.rms) +
+  for (std::size_t c = 0; c < estimate.channels.size(); ++c) {
+    const ChannelDistance& channel = estimate.channels[c];
+    lines += sentence("  {:-24s}", {channel.name}) + told_largest(estimate, c) +
              sentence("  {:.3g [%]} at {:.4g} Hz\n", {channel.largest, channel.at});
   }
+  FidelityEstimate::Bands whole{};
+  for (std::size_t b = 0; b < whole.size(); ++b) whole[b] = estimate.whole(b);
   facts.add("fidelity", FACTS_OF(estimate, disturbance, impulse, full_impulse, full_dofs, wall_time,
-                                 full_run_time));
+                                 full_run_time, split_dofs, split_time, split_memory));
   facts.values["fidelity"].update({{"window", {estimate.start, estimate.end}},
                                    {"window_reason", estimate.reason},
                                    {"rms", band_values(estimate.rms)},
                                    {"window_rms", band_values(estimate.window)},
                                    {"spread_rms", band_values(estimate.spread)},
-                                   {"channels", channels},
+                                   {"mesh_not_judged", estimate.mesh},
+                                   {"whole_rms", band_values(whole)},
+                                   {"channels", channel_errors(estimate.channels)},
                                    {"full_time_step", estimate.time_step}});
   facts.say(
       "\nfloor spectra of this run beside full order ({fidelity/full_dofs} dofs), "
       "estimated by {fidelity/window:.4g} s at full order,\n"
       "  {fidelity/window_reason}, and by the motion changed by {fidelity/disturbance:.2g %}; rms "
       "of the logarithm of their ratio\n"
-      "  in %, and the largest in the window\n");
+      "  in %, and the largest in the window; s: that of the step is larger, m: of the mesh\n");
   std::string head = sentence("  {:-24s}", {"Hz"});
   for (const FrequencyBand& band : compared_bands) head += sentence("{:10s}", {band_name(band)});
   const auto line = [](const char* name, const FidelityEstimate::Bands& rms) {
@@ -254,16 +315,22 @@ Facts fidelity_facts(const Scene& scene, const RunStatistics& run) {
   facts.text += head + "\n" + lines + line("all that move", estimate.rms) +
                 line("  of the window", estimate.window) +
                 line("  of the disturbance", estimate.spread);
+  for (const ErrorPart& part : estimate.parts) {
+    facts.text += line(("of the " + part.name).c_str(), part.rms);
+  }
+  facts.text += line("all errors", whole);
+  tell_parts(estimate, facts);
   facts.say(
       "  impulses in the window {fidelity/impulse:.5g} N s, at full order "
       "{fidelity/full_impulse:.5g}\n"
       "  the estimate took {fidelity/wall_time:.1f} s; the whole run at full order would take "
       "{fidelity/full_run_time:.0f} s\n");
   if (scene.fidelity.target > 0) {
+    facts.text += finer_mesh(estimate, scene.fidelity.target);
     facts.say(
         "  {} {} the accepted {:.4g %}\n",
         {fidelity_subject(scene.fidelity.modes),
-         estimate.rms[0] <= scene.fidelity.target ? "within" : "beyond", scene.fidelity.target});
+         estimate.whole(0) <= scene.fidelity.target ? "within" : "beyond", scene.fidelity.target});
   }
   return facts;
 }

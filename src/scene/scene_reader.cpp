@@ -89,7 +89,7 @@ class SceneReader {
     }
     scene_.mesh_options = mesh_options(options_.in_force(), scene_);
     check_pieces();
-    return {scene_, resolved_yaml(options_), stiffness_factors_, ensemble_};
+    return {scene_, resolved_yaml(options_), stiffness_factors_, ensemble_, fidelity_};
   }
 
  private:
@@ -110,6 +110,10 @@ class SceneReader {
     options_.read(scene_);
     if (options_.given("fidelity_target")) {
       scene_.fidelity.target = options_.real("fidelity_target");
+    }
+    options_.read(fidelity_);
+    if (fidelity_.mesh && scene_.fidelity_window == 0 && scene_.fidelity.target == 0) {
+      options_.refuse("fidelity_mesh", {}, "goes with -fidelity_window, which is not given");
     }
     gravity_ = read_gravity();
     options_.read(scene_.struck);
@@ -302,6 +306,7 @@ class SceneReader {
   ListedNames listed_;
   double gravity_ = 0;  ///< of structures without their own [m/s2]
   std::string ensemble_;
+  FidelityParts fidelity_;
   std::vector<double> stiffness_factors_;
   double level_ = 1;  ///< of the motion along all axes [-]
   std::set<std::string> used_names_;

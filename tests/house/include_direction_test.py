@@ -44,7 +44,7 @@ MAY_INCLUDE = {
                "checks"},
     "driver": {"common", "io", "scene", "mesh", "system", "modal", "stability", "interactions/pairing", "statics",
                "output", "model", "observers", "checks", "report"},
-    "fidelity": {"common", "scene", "mesh", "system", "motion", "interactions", "dynamics", "model", "observers",
+    "fidelity": {"common", "scene", "elements", "mesh", "system", "motion", "interactions", "dynamics", "model", "observers",
                  "driver"},
     "ensemble": {"common", "io", "scene", "mesh", "stiffness", "system", "modal", "stability", "motion",
                  "interactions/pairing", "dynamics", "output", "model", "observers", "checks", "report", "driver",
