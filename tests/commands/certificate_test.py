@@ -43,6 +43,12 @@ class Certificate(unittest.TestCase):
         self.assertGreater(told["split_dofs"], 4 * told["full_dofs"])
         self.assertEqual(told["mesh_not_judged"], "")
 
+    def test_ranks(self):
+        told = program.must_run(self, [*self.words, "-fidelity_mesh", "true"], 2)[1]["fidelity"]
+        for part in ("step", "mesh"):
+            for band, value in self.told[part]["rms"].items():
+                self.assertAlmostEqual(told[part]["rms"][band] / value, 1, delta=1e-6, msg=(part, band))
+
     def test_matrices_have_no_mesh_and_impacts_give_the_step_the_order_one(self):
         """All modes: nothing but the step is left."""
         place = tempfile.mkdtemp(prefix="pounding-")
