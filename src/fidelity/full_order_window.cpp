@@ -118,8 +118,8 @@ FidelityEstimate estimate_fidelity(MPI_Comm comm, const Scene& scene, const Mode
   auto stepped = std::make_unique<const SteppedWindow>(comm, scene, model, seen.window, seen.state);
   const SteppedWindow::Motion motion = stepped->run(1);
   const std::int64_t first = seen.window.first;
-  const auto spectra_in_window = [&](std::span<const double> velocities) {
-    return spectra_of(comm, scene, model, *model.motion, {first, velocities});
+  const auto spectra_in_window = [&](std::span<const double> records) {
+    return spectra_of(comm, scene, model, *model.motion, {first, records});
   };
   const Spectra full = spectra_in_window(motion.velocities);
   const std::int64_t skipped = first / record_stride(scene, model);

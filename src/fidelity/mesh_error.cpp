@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "elements/element_traits.h"
 #include "fidelity/stepped_window.h"
 #include "observers/observed_run.h"
+#include "scene/law_kinds.h"
 
 namespace pounding {
 namespace {
@@ -28,6 +30,23 @@ constexpr double empty_rank = 1e8;
 /// Memory of a factor over the number of dofs, by an exponent: nested dissection in space.
 constexpr double growth = 4.0 / 3;
 
+/// Modes of a structure that is at full order in the run.
+constexpr int modes_in_place = 100;
+
+/// The scene with its structures at full order reduced, as far as modes can take their place.
+Scene all_reduced(Scene scene) {
+  for (Structure& structure : scene.structures) {
+    const bool apart = std::ranges::any_of(structure.regions, [](const Region& region) {
+      return region.damping.has_value() || has_element_law(region);
+    });
+    if (structure.modal || apart) continue;
+    structure.modal.emplace().modes = modes_in_place;
+    structure.mass_scaling = 0;
+    structure.step_target.reset();
+  }
+  return scene;
+}
+
 /// Why the mesh of no structure can be split and the run made again; empty where it can.
 std::string without_split(const Scene& scene) {
   if (std::ranges::none_of(scene.structures,
@@ -35,7 +54,9 @@ std::string without_split(const Scene& scene) {
     return "every structure is of matrices, whose mesh cannot be judged";
   }
   for (const Structure& structure : scene.structures) {
-    if (!structure.modal) return structure.name + " is not reduced";
+    if (!structure.modal) {
+      return structure.name + " is at full order, and modes cannot take its place";
+    }
     if (!structure.initial_state.empty()) {
       return "nodes of " + structure.name + " start on their own";
     }
@@ -75,15 +96,17 @@ double split_dofs(const Scene& scene, const Model& model, int splits) {
   return dofs;
 }
 
-/// The reduced scene on a finer mesh: as many modes, and as many patches of its faces as the run
-/// has points there.
+/// A reduced scene for a finer mesh: as many modes, and as many patches of its faces as `model`,
+/// the reduced one on the mesh as it is, has points there.
 Scene split_scene(Scene scene, const Model& model) {
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     Structure& structure = scene.structures[s];
     structure.modal->basis_file.clear();
     if (!structure.matrices.empty()) continue;
-    const int vectors = model.buildings[s].basis->attachment_vectors;
-    if (structure.modal->patches == 0) structure.modal->patches = vectors;
+    const ModalBasis* basis = model.buildings[s].basis_or_null();
+    if (structure.modal->patches == 0 && basis != nullptr) {
+      structure.modal->patches = basis->attachment_vectors;
+    }
   }
   scene.mesh_pieces.clear();
   scene.time_step = 0;
@@ -96,25 +119,24 @@ Scene split_scene(Scene scene, const Model& model) {
   return scene;
 }
 
-/// The reduced run on a finer mesh.
+/// A reduced run on a mesh that is split.
 class SplitRun {
  public:
-  /// `seen`: of the run on the mesh as it is. Collective.
-  SplitRun(MPI_Comm comm, const Scene& scene, const Model& model, int splits,
-           const SeenWindow& seen)
+  /// `model`: on the mesh as it is; `window`: of a run with steps of `time_step` [s]. Collective.
+  SplitRun(MPI_Comm comm, const Scene& scene, const Model& model, int splits, const Window& window,
+           double time_step)
       : comm_(comm), splits_(splits), scene_(split_scene(scene, model)) {
     Profile profile;
     const std::vector<double> ones(scene_.structures.size(), 1.0);
     model_ = build_model(comm, scene_, ones, profile, {}, splits);
     const double interval = record_stride(scene_, model_) * model_.time_step;
     const auto step_at = [&](std::int64_t step) {
-      const double time = static_cast<double>(step) * model.time_step;
+      const double time = static_cast<double>(step) * time_step;
       const std::int64_t last = model_.steps / record_stride(scene_, model_);
       return std::min<std::int64_t>(std::llround(time / interval), last) *
              record_stride(scene_, model_);
     };
-    seen_ = see_window(comm, scene_, model_,
-                       {step_at(seen.window.first), step_at(seen.window.last), ""});
+    seen_ = see_window(comm, scene_, model_, {step_at(window.first), step_at(window.last), ""});
   }
 
   const Model& model() const { return model_; }
@@ -151,8 +173,8 @@ Spectra joined_spectra(const Model& model, const Spectra& whole, Spectra window)
   return window;
 }
 
-/// Memory at most so far, of all ranks together [bytes]. Collective.
-double memory_so_far(MPI_Comm comm) {
+/// Largest memory so far beyond that of ranks without a model, of all together [bytes]. Collective.
+double memory_of_model(MPI_Comm comm) {
   double peak = std::max(0.0, largest_memory() - empty_rank);
   MPI_Allreduce(MPI_IN_PLACE, &peak, 1, MPI_DOUBLE, MPI_SUM, comm);
   return peak;
@@ -163,7 +185,8 @@ double memory_so_far(MPI_Comm comm) {
 bool has_room(MPI_Comm comm, const Scene& scene, const Model& model, double seconds,
               FidelityEstimate& estimate) {
   const double factor = split_dofs(scene, model, 1) / split_dofs(scene, model, 0);
-  estimate.split_memory = memory_so_far(comm) * std::pow(factor, growth);
+  estimate.split_memory =
+      empty_rank * size_of(comm) + memory_of_model(comm) * std::pow(factor, growth);
   estimate.split_time = 2 * factor * seconds;
   double available = available_memory();
   MPI_Bcast(&available, 1, MPI_DOUBLE, 0, comm);
@@ -192,25 +215,36 @@ std::string no_room(double factor, double memory, double available) {
 void add_mesh_error(MPI_Comm comm, const Scene& scene, const Model& model, const SeenWindow& seen,
                     const Spectra& full, std::span<const char> moving, double seconds,
                     FidelityEstimate& estimate) {
-  estimate.mesh = without_split(scene);
+  const Scene reduced = all_reduced(scene);
+  estimate.mesh = without_split(reduced);
   if (!estimate.mesh.empty() || !has_room(comm, scene, model, seconds, estimate)) return;
   const double began = MPI_Wtime();
+  const auto run_split = [&](const Model& base, int splits) {
+    return std::make_unique<const SplitRun>(comm, reduced, base, splits, seen.window,
+                                            model.time_step);
+  };
   try {
-    const SplitRun split(comm, scene, model, 1, seen);
-    const Spectra whole = spectra_of(comm, scene, model, *model.motion, {0, seen.velocities});
-    const Spectra split_whole = split.whole();
+    const bool as_it_is = std::ranges::all_of(
+        scene.structures, [](const Structure& s) { return s.modal.has_value(); });
+    const std::unique_ptr<const SplitRun> own = as_it_is ? nullptr : run_split(model, 0);
+    const Model& base = own ? own->model() : model;
+    const Spectra whole =
+        own ? own->whole() : spectra_of(comm, scene, model, *model.motion, {0, seen.velocities});
+    const Spectra window = own ? own->window() : full;
+    const std::unique_ptr<const SplitRun> split = run_split(base, 1);
+    const Spectra split_whole = split->whole();
     ErrorPart part{"mesh", 2, false, {}, {}};
     const double change = rms_of_channels(distances(model, whole, split_whole, moving), 0);
     if (split_dofs(scene, model, 2) <= most_twice_split && change <= far_apart) {
-      const Spectra twice = SplitRun(comm, scene, model, 2, seen).whole();
+      const Spectra twice = run_split(base, 2)->whole();
       part.order =
           order_of(change, rms_of_channels(distances(model, split_whole, twice, moving), 0));
       part.measured = true;
     }
-    part.channels = distances(model, joined_spectra(model, whole, full),
-                              joined_spectra(model, split_whole, split.window()), moving);
+    part.channels = distances(model, joined_spectra(base, whole, window),
+                              joined_spectra(base, split_whole, split->window()), moving);
     part.extrapolate();
-    estimate.split_dofs = split.model().dofs();
+    estimate.split_dofs = split->model().dofs();
     estimate.parts.push_back(std::move(part));
   } catch (const UserError& error) {
     estimate.mesh = std::string("split once it is refused: ") + error.what();

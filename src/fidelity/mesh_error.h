@@ -20,10 +20,11 @@ std::string no_room(double factor, double memory, double available);
 /// structures once more with every element split (mesh/split_mesh.h), reduced alike, pairs of
 /// contacts and nodes of probes searched anew. Up to the tenth mode of a probe's structure a mesh
 /// shifts frequencies, which a short window does not resolve: there the whole reduced runs on the
-/// two meshes are compared, above it their windows at full order. Where structures are small the
-/// reduced run on a mesh split twice shows the order; else it is taken to be 2. Not begun where its
-/// memory, as that of the run so far and the number of dofs suggest, is not there. `seen`, `full`:
-/// the run and its window at full order, `seconds`: that this took. Collective.
+/// two meshes are compared, above it their windows at full order. Structures that the run has at
+/// full order are reduced for it on either mesh. Where structures are small the reduced run on a
+/// mesh split twice shows the order; else it is taken to be 2. Not begun where its memory, as that
+/// of the run so far and the number of dofs suggest, is not there. `seen`, `full`: the run and its
+/// window at full order, `seconds`: that this took. Collective.
 void add_mesh_error(MPI_Comm comm, const Scene& scene, const Model& model, const SeenWindow& seen,
                     const Spectra& full, std::span<const char> moving, double seconds,
                     FidelityEstimate& estimate);

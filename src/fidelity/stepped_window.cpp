@@ -143,12 +143,11 @@ SteppedWindow::Motion SteppedWindow::run(int parts) const {
   return motion;
 }
 
-void add_parts(MPI_Comm comm, std::vector<double>& velocities) {
+void add_parts(MPI_Comm comm, std::vector<double>& records) {
   constexpr std::size_t most = std::size_t{1} << 27;
-  for (std::size_t i = 0; i < velocities.size(); i += most) {
-    MPI_Allreduce(MPI_IN_PLACE, velocities.data() + i,
-                  static_cast<int>(std::min(most, velocities.size() - i)), MPI_DOUBLE, MPI_SUM,
-                  comm);
+  for (std::size_t i = 0; i < records.size(); i += most) {
+    MPI_Allreduce(MPI_IN_PLACE, records.data() + i,
+                  static_cast<int>(std::min(most, records.size() - i)), MPI_DOUBLE, MPI_SUM, comm);
   }
 }
 

@@ -48,7 +48,7 @@ class SteppedWindow {
 };
 
 /// Adds the ranks' parts of the channels' velocities up, in every record. Collective.
-void add_parts(MPI_Comm comm, std::vector<double>& velocities);
+void add_parts(MPI_Comm comm, std::vector<double>& records);
 
 /// Adds the impulses of the step just made to `sum`, on the root of its contacts.
 void add_impulses(MPI_Comm comm, ModelScheme& scheme, double& sum);

@@ -50,17 +50,17 @@ std::vector<double> run_reduced(MPI_Comm comm, const Scene& scene, const Model& 
   ModelScheme scheme(std::move(parts));
   ProbeMeans means(model.probes, model.systems, model.meshes);
   const int stride = record_stride(scene, model);
-  std::vector<double> velocities;
+  std::vector<double> records;
   std::vector<double> now(means.channels());
   for (std::int64_t n = 0; n <= model.steps; ++n) {
     scheme.stepper().step(false, false);
     after_step(scheme);
     if (n % stride != 0) continue;
     means.velocities(scheme.stepper().state(), now);
-    velocities.insert(velocities.end(), now.begin(), now.end());
+    records.insert(records.end(), now.begin(), now.end());
   }
-  add_parts(comm, velocities);
-  return velocities;
+  add_parts(comm, records);
+  return records;
 }
 
 std::vector<ChannelDistance> distances(const Model& model, const Spectra& found,

@@ -43,18 +43,24 @@ class Certificate(unittest.TestCase):
         self.assertGreater(told["split_dofs"], 4 * told["full_dofs"])
         self.assertEqual(told["mesh_not_judged"], "")
 
+    @unittest.skipUnless(program.ALL, "run/test --all: another run, on two ranks")
     def test_ranks(self):
         told = program.must_run(self, [*self.words, "-fidelity_mesh", "true"], 2)[1]["fidelity"]
         for part in ("step", "mesh"):
             for band, value in self.told[part]["rms"].items():
                 self.assertAlmostEqual(told[part]["rms"][band] / value, 1, delta=1e-6, msg=(part, band))
 
+    def test_full_order_with_scaled_mass_has_the_same_mesh(self):
+        words = [*PIERS, *cells(1), "-tall_mass_scaling", 1.2e-4, "-low_mass_scaling", 1.2e-4, "-fidelity_window", 0.3]
+        told = program.must_run(self, [*words, "-fidelity_mesh", "true"])[1]["fidelity"]
+        self.assertAlmostEqual(told["mesh"]["rms"]["1-400"] / self.told["mesh"]["rms"]["1-400"], 1, delta=0.3)
+
     def test_matrices_have_no_mesh_and_impacts_give_the_step_the_order_one(self):
         """All modes: nothing but the step is left."""
         place = tempfile.mkdtemp(prefix="pounding-")
         program.must_end(self, [*PIERS, *cells(1), "-dry_run", "-export_matrices", place])
         words = PIERS + cells(1) + reduced(("tall", "low"), 1000, 0.3)
-        result_folder, summary = program.must_run(
+        _, summary = program.must_run(
             self, [*words, "-fidelity_mesh", "true", "-tall_matrices", f"{place}/tall", "-low_matrices", f"{place}/low"])
         told = summary["fidelity"]
         self.assertIn("matrices, whose mesh cannot be judged", told["mesh_not_judged"])
@@ -64,6 +70,10 @@ class Certificate(unittest.TestCase):
         self.assertLess(told["step"]["order"], 1.5)
         self.assertGreater(told["step"]["rms"]["1-400"], told["rms"]["1-400"])
 
+    def test_it_goes_with_a_window(self):
+        program.must_refuse(self, [*PIERS, "-fidelity_mesh", "true"], "-fidelity_mesh", "-fidelity_window")
+
+    @unittest.skipUnless(program.ALL, "run/test --all: two more runs")
     def test_scenes_whose_mesh_is_not_split_say_why(self):
         words = [*self.words, "-fidelity_mesh", "true", "-end_time", 0.6, "-fidelity_window", 0.1]
         probes = ["-probes", "face", "-face_structure", "tall", "-face_group", "east", "-face_average", "false"]
@@ -71,7 +81,6 @@ class Certificate(unittest.TestCase):
         for more, why in ((probes, "record of each node"), (load, "acts on single nodes")):
             _, summary = program.must_run(self, words + more)
             self.assertIn(why, summary["fidelity"]["mesh_not_judged"])
-        program.must_refuse(self, [*PIERS, "-fidelity_mesh", "true"], "-fidelity_mesh", "-fidelity_window")
 
 
 class Target(unittest.TestCase):
