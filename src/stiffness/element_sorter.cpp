@@ -281,6 +281,7 @@ ElementKinds ElementSorter::kinds() const {
   }
   kinds.general = general_.counted();
   kinds.single = general_.counted_single();
+  kinds.skew = general_.counted_skew();
   for (const auto& beams : beams_) kinds.beams += counted(beams);
   kinds.other = counted(others_);
   return kinds;

@@ -91,7 +91,7 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
     plan();
   });
   for (GlobalIndex* const count : {&kinds_.bricks, &kinds_.rectangles, &kinds_.general,
-                                   &kinds_.single, &kinds_.beams, &kinds_.other}) {
+                                   &kinds_.skew, &kinds_.single, &kinds_.beams, &kinds_.other}) {
     MPI_Allreduce(MPI_IN_PLACE, count, 1, MPI_INT64_T, MPI_SUM, mesh.comm);
   }
 }

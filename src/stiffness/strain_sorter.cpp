@@ -107,7 +107,10 @@ bool StrainSorter::add_hexahedron(std::size_t b, std::size_t e, bool outer) {
   find_coordinates(b, e);
   const auto coordinates = work_.coordinates;
   const auto extrusion = Extrusion::find({coordinates.data(), HexahedronStrains<true>::size});
-  if (!extrusion) return add_to(hexahedra_, b, e, outer);
+  if (!extrusion) {
+    counted_skew_ += mesh_.blocks[b].counted[e];
+    return add_to(hexahedra_, b, e, outer);
+  }
   auto& collection = extruded_[extrusion->axis];
   StrainElements<HexahedronStrains<true>>::Element entry{};
   for (std::size_t a = 0; a < entry.nodes.size(); ++a) {

@@ -65,6 +65,7 @@ class StrainSorter {
   /// Elements that this rank counts.
   GlobalIndex counted() const { return counted_; }
   GlobalIndex counted_single() const { return counted_single_; }
+  GlobalIndex counted_skew() const { return counted_skew_; }
 
  private:
   template <typename Shape>
@@ -101,6 +102,7 @@ class StrainSorter {
   Collection<TriangleStrains> triangles_;
   GlobalIndex counted_ = 0;
   GlobalIndex counted_single_ = 0;  ///< of these
+  GlobalIndex counted_skew_ = 0;  ///< hexahedra among these that are not extruded
 };
 
 }  // namespace pounding::stiffness

@@ -306,6 +306,24 @@ std::string describe(const stiffness::ElementKinds& kinds, Numbers numbers) {
          std::to_string(kinds.other) + " others)";
 }
 
+/// Time of a step of the solids of a mesh over that of hexahedra extruded along an axis with as
+/// many nodes; 0 without solids. A node has one hexahedron, two wedges or five or six tetrahedra.
+double cost_beside_extruded(const Mesh& mesh, const stiffness::ElementKinds& kinds) {
+  constexpr double wedges_per_node = 2, tetrahedra_per_node = 5.5;
+  double nodes = 0;
+  double cost = static_cast<double>(kinds.skew) * (measured_costs::skew - measured_costs::extruded);
+  for (const ElementBlock& block : mesh.blocks) {
+    if (!is_solid(block.type)) continue;
+    const double per_node = block.type == ElementType::wedge6 ? wedges_per_node
+                            : block.type == ElementType::tet4 ? tetrahedra_per_node
+                                                              : 1;
+    const auto count = static_cast<double>(block.global_count);
+    nodes += count / per_node;
+    cost += count * (per_node == 1 ? measured_costs::extruded : traits_of(block.type).cost);
+  }
+  return nodes > 0 ? cost / (nodes * measured_costs::extruded) : 0;
+}
+
 }  // namespace
 
 LinearSystem build_system(const Structure& structure, const Mesh& mesh, StiffnessMethod method,
@@ -320,12 +338,15 @@ LinearSystem build_system(const Structure& structure, const Mesh& mesh, Stiffnes
   if (!structure.modal) system.laws = inelastic_laws(structure, mesh);
   system.inelastic = dofs_of_laws(system.laws, false, mesh);
   system.stiffness_method = "assembled";
+  stiffness::ElementKinds kinds;
   if (by_element) {
     auto product =
         std::make_unique<stiffness::ElementStiffness>(structure, mesh, std::move(system.stiffness));
     system.stiffness_method = describe(product->kinds(), structure.numbers);
+    kinds = product->kinds();
     system.stiffness = std::move(product);
   }
+  system.cost_beside_extruded = cost_beside_extruded(mesh, kinds);
   finish_system(mesh, system);
   if (system.links) system.links->find_trace(system, mesh);
   return system;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "elements/measured_costs.h"
 #include "support/box_mesh.h"
 #include "support/built_stiffness.h"
 
@@ -111,6 +112,21 @@ TEST(ElementStiffness, DistortedMesh) {
   const auto built = build_stiffness(mesh, concrete());
   EXPECT_EQ(built.stiffness->kinds().general, 60);
   EXPECT_LT(difference_to_assembled(built), tolerance);
+}
+
+/// Hexahedra of any shape cost what was measured beside extruded ones, which cost once.
+TEST(ElementStiffness, CostBesideAnExtrudedMesh) {
+  for (const bool skew : {false, true}) {
+    GlobalMesh mesh = testing_support::box_mesh({0, 0, 0}, {4, 3, 2}, {5, 4, 3});
+    move_nodes(mesh, [skew](Vector3 x) {
+      return Vector3{x[0] + 0.05 * std::sin(3 * x[1] + skew * x[2]), x[1], x[2]};
+    });
+    const auto built = testing_support::build_system(mesh, concrete());
+    const LinearSystem system =
+        pounding::build_system(concrete(), built.mesh, StiffnessMethod::automatic);
+    const double expected = 1.0 * measured_costs::skew / measured_costs::extruded;
+    EXPECT_NEAR(system.cost_beside_extruded, skew ? expected : 1, 1e-12);
+  }
 }
 
 /// Bricks whose ends are alike, along every axis, from every corner and with nodes held in part.

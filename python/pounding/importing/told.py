@@ -68,7 +68,7 @@ def modes_told(scene: Path, structure: str, modes: int) -> tuple:
         return [], complaint(done.stderr) or f"the program ended with status {done.returncode}"
     lines = []
     for line in done.stdout.split("\n"):
-        if line.startswith(f"structure {structure}:") or line.startswith("warning:"):
+        if line.startswith((f"structure {structure}:", "warning:", "  a step of its solids")):
             lines.append(line)
         elif re.match(r"  mode  frequency|  +\d+ +[\d.e+-]+  ", line):
             lines.append(line)

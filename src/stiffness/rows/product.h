@@ -115,6 +115,7 @@ struct ElementKinds {
   GlobalIndex rectangles = 0;  ///< shells likewise
   GlobalIndex general = 0;     ///< other hexahedra, quadrangles, triangles, by their strains
   GlobalIndex single = 0;      ///< of these, by numbers in 32 bits
+  GlobalIndex skew = 0;        ///< hexahedra in 64 bits among these, not extruded along an axis
   GlobalIndex beams = 0;       ///< from their local stiffnesses
   GlobalIndex other = 0;       ///< in a sparse matrix
 };
