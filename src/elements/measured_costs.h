@@ -16,8 +16,8 @@ inline constexpr int sparse_wedge6 = 45;  ///< wedge in a sparse matrix
 inline constexpr int sparse_tet4 = 12;    ///< tetrahedron in a sparse matrix
 inline constexpr int beam = 14;           ///< from its local stiffness
 inline constexpr int small = 2;           ///< bars, springs, points
-inline constexpr int extruded = 12;       ///< hexahedron extruded along an axis, by its strains
-inline constexpr int skew = 37;           ///< hexahedron of any other shape
+inline constexpr int extruded = 20;       ///< hexahedron extruded along an axis, by its strains
+inline constexpr int skew = 45;           ///< hexahedron of any other shape
 inline constexpr int inelastic = 60;      ///< a law in one dimension beside its stiffness
 
 /// A node of a cluster: its part in a solution instead of a division. Of shells and solids, whose
