@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "ensemble/coordinate_rows.h"
-#include "observers/member_result.h"
 #include "ensemble/member_scene.h"
 #include "mesh/mesh.h"
+#include "observers/member_result.h"
 #include "observers/run_statistics.h"
 
 namespace pounding {

@@ -102,7 +102,7 @@ class StrainSorter {
   Collection<TriangleStrains> triangles_;
   GlobalIndex counted_ = 0;
   GlobalIndex counted_single_ = 0;  ///< of these
-  GlobalIndex counted_skew_ = 0;  ///< hexahedra among these that are not extruded
+  GlobalIndex counted_skew_ = 0;    ///< hexahedra among these that are not extruded
 };
 
 }  // namespace pounding::stiffness
