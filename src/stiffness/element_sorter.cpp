@@ -250,12 +250,9 @@ AssembledRows ElementSorter::assembled_rows() const {
       gather_coordinates(mesh_, block, e, work_);
     }
     const std::size_t nodes = element_layout(block.type).nodes;
-    element_matrices(block.type, {work_.coordinates.data(), 3 * nodes},
-                     element_properties(structure_.regions[block.region], block.share_of(e)),
-                     stiffness, {work_.mass.data(), size});
-    if (structure_.numbers == Numbers::in_single) {
-      round_to_single(block.type, {work_.coordinates.data(), 3 * nodes}, stiffness);
-    }
+    element_matrices_in(structure_.numbers, block.type, {work_.coordinates.data(), 3 * nodes},
+                        element_properties(structure_.regions[block.region], block.share_of(e)),
+                        stiffness, {work_.mass.data(), size});
     if (!block.axial_force.empty()) {
       add_geometric_stiffness(block.type, {work_.coordinates.data(), 3 * nodes},
                               element_properties(structure_.regions[block.region]),

@@ -11,9 +11,11 @@ bool may_round(ElementType type, std::span<const double> coordinates) {
          !ElementFrames::axes_of_box(coordinates, congruence) && !Extrusion::find(coordinates);
 }
 
-void round_to_single(ElementType type, std::span<const double> coordinates,
-                     std::span<double> stiffness) {
-  if (!may_round(type, coordinates)) return;
+void element_matrices_in(Numbers numbers_kept, ElementType type,
+                         std::span<const double> coordinates, const ElementProperties& properties,
+                         std::span<double> stiffness, std::span<double> lumped_mass) {
+  element_matrices(type, coordinates, properties, stiffness, lumped_mass);
+  if (numbers_kept == Numbers::in_double || !may_round(type, coordinates)) return;
   const auto numbers = SingleHexahedron::find(coordinates, stiffness);
   if (!numbers) return;
   constexpr std::size_t size = SingleHexahedron::size;

@@ -27,12 +27,9 @@ void for_each_element(const Structure& structure, const Mesh& mesh, Wanted&& wan
       if (!wanted(block, e)) continue;
       if (!block.share.empty()) properties = element_properties(region, block.share[e]);
       try {
-        element_matrices(block.type, gather_coordinates(mesh, block, e, work), properties,
-                         {work.stiffness.data(), size * size}, {work.mass.data(), size});
-        if (structure.numbers == Numbers::in_single) {
-          stiffness::round_to_single(block.type, gather_coordinates(mesh, block, e, work),
-                                     {work.stiffness.data(), size * size});
-        }
+        stiffness::element_matrices_in(
+            structure.numbers, block.type, gather_coordinates(mesh, block, e, work), properties,
+            {work.stiffness.data(), size * size}, {work.mass.data(), size});
         if (!block.axial_force.empty()) {
           add_geometric_stiffness(block.type, gather_coordinates(mesh, block, e, work), properties,
                                   block.axial_force[e], {work.stiffness.data(), size * size});

@@ -143,11 +143,9 @@ class Decision {
     const std::span<double> stiffness(stiffness_.data(), size * size);
     const std::span<double> mass(mass_.data(), size);
     try {
-      element_matrices(set.type, {coordinates_.data(), 3 * nodes.size()}, properties, stiffness,
-                       mass);
-      if (structure_.numbers == Numbers::in_single) {
-        stiffness::round_to_single(set.type, {coordinates_.data(), 3 * nodes.size()}, stiffness);
-      }
+      stiffness::element_matrices_in(structure_.numbers, set.type,
+                                     {coordinates_.data(), 3 * nodes.size()}, properties, stiffness,
+                                     mass);
     } catch (const ElementError&) {
       return false;  // the assembly names it
     }

@@ -228,11 +228,9 @@ StepPlan plan_step(const Structure& structure, const Mesh& mesh) {
     for (std::size_t e = 0; feasible && e < block.count(); ++e) {
       const std::span<double> stiffness(work.stiffness.data(), size * size);
       const std::span<double> mass(work.mass.data(), size);
-      element_matrices(block.type, gather_coordinates(mesh, block, e, work),
-                       element_properties(region, block.share_of(e)), stiffness, mass);
-      if (structure.numbers == Numbers::in_single) {
-        stiffness::round_to_single(block.type, gather_coordinates(mesh, block, e, work), stiffness);
-      }
+      stiffness::element_matrices_in(
+          structure.numbers, block.type, gather_coordinates(mesh, block, e, work),
+          element_properties(region, block.share_of(e)), stiffness, mass);
       if (is_shell(block.type)) {
         feasible = inertia.add(block, e, work);
       } else if (may_scale(structure, block.type)) {

@@ -20,20 +20,20 @@ using Field = std::array<double, size>;
 
 struct Element {
   std::vector<double> coordinates;
+  ElementProperties properties;
   std::vector<double> stiffness;
 
   explicit Element(std::vector<double> x, double poisson = 0.2, double young = 30e9)
-      : coordinates(std::move(x)), stiffness(size * size) {
-    std::vector<double> mass(size);
-    element_matrices(ElementType::hex8, coordinates,
-                     {.young = young, .poisson = poisson, .density = 2400}, stiffness, mass);
-  }
-  auto numbers() const { return SingleHexahedron::find(coordinates, stiffness); }
-  std::vector<double> rounded() const {
-    std::vector<double> result = stiffness;
-    round_to_single(ElementType::hex8, coordinates, result);
+      : coordinates(std::move(x)),
+        properties{.young = young, .poisson = poisson, .density = 2400},
+        stiffness(in(Numbers::in_double)) {}
+  std::vector<double> in(Numbers numbers) const {
+    std::vector<double> result(size * size), mass(size);
+    element_matrices_in(numbers, ElementType::hex8, coordinates, properties, result, mass);
     return result;
   }
+  auto numbers() const { return SingleHexahedron::find(coordinates, stiffness); }
+  std::vector<double> rounded() const { return in(Numbers::in_single); }
   double stiffest() const {
     double largest = 0;
     for (std::size_t i = 0; i < size; ++i) largest = std::max(largest, stiffness[i * (size + 1)]);
