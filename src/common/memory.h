@@ -37,11 +37,14 @@ std::vector<Value> zeros_on_large_pages(std::size_t size) {
   return zeros;
 }
 
+/// Bytes that memory hands over at once.
+inline constexpr std::size_t cache_line = 64;
+
 /// Memory that begins with a cache line: vectors of it, counted in whole ones, cross none.
 template <typename Value>
 struct CacheLineAllocator {
   using value_type = Value;
-  static constexpr std::align_val_t line{64};  // [B]
+  static constexpr std::align_val_t line{cache_line};
 
   CacheLineAllocator() = default;
   template <typename Other>
@@ -86,7 +89,7 @@ struct LargePageAllocator {
 
  private:
   static std::align_val_t alignment(std::size_t count) {
-    return std::align_val_t{count * sizeof(Value) >= page ? page : 64};
+    return std::align_val_t{count * sizeof(Value) >= page ? page : cache_line};
   }
 };
 

@@ -26,14 +26,14 @@ class BatchRows {
     for (const Row& row : rows_) windows.add(lowest(row), std::max(row.dof, row.columns.back()));
   }
   void place_in(const BatchWindows& windows) {
-    ends_ = ends_in(windows, rows_, lowest);
+    begins_ = begins_in(windows, rows_, lowest);
     for (Row& row : rows_) {
       row.dof = static_cast<LocalIndex>(windows.place(row.dof));
       for (LocalIndex& column : row.columns) column = windows.place(column);
     }
   }
   void apply(std::size_t window, const BatchValue* w, BatchValue* q) const {
-    for (std::size_t r = window == 0 ? 0 : ends_[window - 1]; r < ends_[window]; ++r) {
+    for (std::size_t r = begins_[window]; r < begins_[window + 1]; ++r) {
       const Row& row = rows_[r];
       BatchValue sum = q[row.dof];
       for (std::size_t k = 0; k < row.columns.size(); ++k) {
@@ -53,7 +53,7 @@ class BatchRows {
   static LocalIndex lowest(const Row& row) { return row.columns.front(); }
 
   std::vector<Row> rows_;
-  std::vector<std::size_t> ends_;  ///< of each window
+  std::vector<std::size_t> begins_;  ///< of each window, and the end
 };
 
 }  // namespace

@@ -73,8 +73,8 @@ struct LinearSystem {
   std::shared_ptr<GeneralisedCoordinates> generalised;
   std::shared_ptr<stiffness::Stiffness> stiffness;  ///< K of all elements that hold a stiffness
   std::string stiffness_method;                     ///< how it is applied, for the report
-  double cost_beside_extruded =
-      0;  ///< of a step of its solids, over that of as many nodes extruded
+  /// Cost of a step of its solids over that of as many nodes extruded; 0 without solids.
+  double cost_beside_extruded = 0;
   std::shared_ptr<stiffness::Stiffness> taut;  ///< K with links at their stiffest; null without
   std::shared_ptr<Links> links;                ///< null if there are none
   /// Laws by which elements yield or break: their forces beside K u.

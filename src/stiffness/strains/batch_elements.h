@@ -41,18 +41,19 @@ struct BatchWindows {
   std::uint32_t place(LocalIndex dof) const { return static_cast<std::uint32_t>(dof & (ring - 1)); }
 };
 
-/// Lists of the windows, from a list in the order of the lowest dofs: where each of them ends.
+/// Places in a list, in the order of lowest dofs, where the entries of each window begin; then its
+/// end.
 template <typename Entry>
-std::vector<std::size_t> ends_in(const BatchWindows& windows, const std::vector<Entry>& entries,
-                                 const auto& lowest) {
-  std::vector<std::size_t> ends;
-  std::size_t end = 0;
-  for (std::size_t k = 0; k < windows.reach.size(); ++k) {
-    const auto next = static_cast<LocalIndex>(k + 1) * BatchWindows::dofs;
-    while (end < entries.size() && lowest(entries[end]) < next) ++end;
-    ends.push_back(end);
+std::vector<std::size_t> begins_in(const BatchWindows& windows, const std::vector<Entry>& entries,
+                                   const auto& lowest) {
+  std::vector<std::size_t> begins{0};
+  for (std::size_t k = 1; k <= windows.reach.size(); ++k) {
+    std::size_t begin = begins.back();
+    const auto first = static_cast<LocalIndex>(k) * BatchWindows::dofs;
+    while (begin < entries.size() && lowest(entries[begin]) < first) ++begin;
+    begins.push_back(begin);
   }
-  return ends;
+  return begins;
 }
 
 /// Elements of one kind, applied in eight runs at once, one after the other: the values of a dof in
@@ -94,7 +95,7 @@ class BatchElements {
   }
   /// After all have been added to the windows. Clamped dofs have the place after the ring.
   void place_in(const BatchWindows& windows) {
-    ends_ = ends_in(windows, elements_, lowest);
+    begins_ = begins_in(windows, elements_, lowest);
     for (const Element& element : elements_) {
       Placed& placed = placed_.emplace_back();
       placed.shape = static_cast<std::uint32_t>(element.shape);
@@ -137,9 +138,9 @@ class BatchElements {
   }
 
   std::vector<Numbers> shapes_;
-  std::vector<Element> elements_;  ///< until they are placed
-  std::vector<Placed> placed_;     ///< in the order of their lowest dofs
-  std::vector<std::size_t> ends_;  ///< of each window
+  std::vector<Element> elements_;    ///< until they are placed
+  std::vector<Placed> placed_;       ///< in the order of their lowest dofs
+  std::vector<std::size_t> begins_;  ///< of each window, and the end
 };
 
 }  // namespace pounding::stiffness

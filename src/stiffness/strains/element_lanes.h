@@ -17,9 +17,6 @@ inline constexpr std::size_t element_lane_count = wide_lane_count;
 
 using ElementLanes = WideLanes;
 
-/// Bytes that memory hands over at once.
-inline constexpr std::size_t cache_line = 64;
-
 // Numbers as doubles, one for each lane. The compiler's own conversion of vectors takes two halves.
 static inline __attribute__((always_inline)) ElementLanes widened(const double* from) {
   ElementLanes to;
