@@ -109,13 +109,7 @@ Scene split_scene(Scene scene, const Model& model) {
     }
   }
   scene.mesh_pieces.clear();
-  scene.time_step = 0;
-  scene.write_modes = false;
-  scene.warnings.clear();
-  scene.forces.clear();
-  scene.loops.clear();
-  scene.fields_interval = 0;
-  scene.export_matrices.clear();
+  leave_outputs(scene);
   return scene;
 }
 

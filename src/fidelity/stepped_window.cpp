@@ -29,13 +29,7 @@ Scene at_full_order(Scene scene, const Model& model) {
     for (Contact& contact : scene.contacts) contact.gap_at_rest = false;
   }
   scene.modes = 0;
-  scene.write_modes = false;
-  scene.time_step = 0;
-  scene.warnings.clear();
-  scene.forces.clear();
-  scene.loops.clear();
-  scene.fields_interval = 0;
-  scene.export_matrices.clear();
+  leave_outputs(scene);
   return scene;
 }
 
@@ -141,6 +135,16 @@ SteppedWindow::Motion SteppedWindow::run(int parts) const {
   for (std::size_t i = 0; i < motion.velocities.size(); ++i) motion.velocities[i] += carried[i];
   add_parts(comm_, motion.velocities);
   return motion;
+}
+
+void leave_outputs(Scene& scene) {
+  scene.write_modes = false;
+  scene.time_step = 0;
+  scene.warnings.clear();
+  scene.forces.clear();
+  scene.loops.clear();
+  scene.fields_interval = 0;
+  scene.export_matrices.clear();
 }
 
 void add_parts(MPI_Comm comm, std::vector<double>& records) {

@@ -47,6 +47,9 @@ class SteppedWindow {
   Model full_;
 };
 
+/// A scene to be built anew beside its run, at a time step of its own: no outputs but probes.
+void leave_outputs(Scene& scene);
+
 /// Adds the ranks' parts of the channels' velocities up, in every record. Collective.
 void add_parts(MPI_Comm comm, std::vector<double>& records);
 
