@@ -266,7 +266,7 @@ void add_frequency_doubts(const Scene& scene, std::span<const ResolvedProbe> pro
     }
     return of;
   };
-  const bool reduced = building.basis && scene.fidelity_window == 0 &&
+  const bool reduced = building.basis && scene.certificate.window == 0 &&
                        building.basis->modes < building.basis->independent_dofs;
   const double modes = reduced ? highest_mode(*building.basis) : asked;
   if (const std::string of = beyond(modes); !of.empty()) {

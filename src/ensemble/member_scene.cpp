@@ -153,7 +153,7 @@ void require_ensemble_scene(const Scene& scene) {
   if (!scene.equipment.empty()) {
     refuse("equipment is set beside its floors' spectra", "give -equipment none");
   }
-  if (scene.fidelity_window > 0) {
+  if (scene.certificate.window > 0) {
     refuse("-fidelity_window is about single runs", "leave it out");
   }
   if (!scene.loops.empty()) refuse("loops are recorded", "give -loops none");

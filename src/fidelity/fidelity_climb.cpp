@@ -80,25 +80,18 @@ ReadScene read_reduced(const OptionsDatabase& options, const FidelityClimb& clim
   }
 }
 
-/// The error of the mesh that an estimate has, null where it has none.
-const ErrorPart* mesh_of(const FidelityEstimate& estimate) {
-  const auto mesh = std::ranges::find(estimate.parts, "mesh", &ErrorPart::name);
-  return mesh == estimate.parts.end() ? nullptr : &*mesh;
-}
-
 /// The error that more modes or a shorter step can bring within the target: that of the mesh counts
 /// where it leaves something of it.
 double error_of(const FidelityEstimate& estimate, double target) {
-  const ErrorPart* mesh = mesh_of(estimate);
+  const ErrorPart* mesh = estimate.part("mesh");
   const double own = mesh == nullptr || mesh->rms[0] < target ? 0 : mesh->rms[0];
   return std::sqrt(std::max(0.0, std::pow(estimate.whole(0), 2) - own * own));
 }
 
-/// The step by which its error would be a share of the target that leaves as much to the others.
+/// The step whose error is such a share of the target.
 double finer_step(const FidelityEstimate& estimate, double target) {
-  const ErrorPart& step = estimate.parts.front();
-  const double cut = std::pow(std::sqrt(2.0) * step.rms[0] / target, 1 / step.order);
-  return std::min(estimate.run_time_step, estimate.time_step) / std::max(2.0, std::ceil(cut));
+  const double cut = std::ceil(estimate.part("step")->refinement(target));
+  return std::min(estimate.run_time_step, estimate.time_step) / std::max(2.0, cut);
 }
 
 /// Runs the scene at full order with the scaled mass that an estimate offers, where the user gives
@@ -120,7 +113,7 @@ bool run_scaled(MPI_Comm comm, const Scene& scene, const OptionsDatabase& databa
   here.scaled = true;
   here.reason.clear();
   const RunOutcome outcome =
-      run_estimated(comm, read_with(options, here), origin, mesh_of(estimate));
+      run_estimated(comm, read_with(options, here), origin, estimate.part("mesh"));
   const double error = outcome.fidelity ? error_of(*outcome.fidelity, climb.target) : 0;
   climb.tried.push_back({0, error, outcome.wall_time});
   return error <= climb.target;
@@ -141,13 +134,13 @@ void take_more_modes(const RunOutcome& outcome, double error, FidelityClimb& cli
 
 RunOutcome run_estimated(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
                          const ErrorPart* mesh) {
-  const double window = read.scene.fidelity_window;
+  const double window = read.scene.certificate.window;
   if (window == 0) return run_scene(comm, std::move(read), origin);
   if (const std::string why = without_window(read.scene); !why.empty()) {
     throw UserError("option -fidelity_window: no error can be estimated, since " + why +
                     "; leave it out");
   }
-  const bool with_mesh = read.fidelity.mesh;
+  const bool with_mesh = read.scene.certificate.mesh;
   return run_scene(comm, std::move(read), origin,
                    [=](const Scene& scene, const Model& model, const ImpactCatalogue& impacts,
                        const Recorder& recorder) {
@@ -178,10 +171,10 @@ void run_within_target(MPI_Comm comm, const ReadScene& read, const OptionsDataba
         run_estimated(comm, std::move(next), origin, mesh ? &*mesh : nullptr);
     if (!outcome.fidelity) return;
     const FidelityEstimate& told = *outcome.fidelity;
-    if (!mesh && mesh_of(told) != nullptr) mesh = *mesh_of(told);
+    if (!mesh && told.part("mesh") != nullptr) mesh = *told.part("mesh");
     const double error = error_of(told, climb.target);
     if (error <= climb.target) return;
-    const bool by_step = told.parts.front().rms[0] > told.rms[0] && cuts < most_cuts;
+    const bool by_step = told.part("step")->rms[0] > told.rms[0] && cuts < most_cuts;
     climb.tried.push_back({climb.modes, error, outcome.wall_time});
     if (by_step) {
       ++cuts;

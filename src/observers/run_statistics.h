@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -55,6 +56,11 @@ struct ErrorPart {
   std::array<double, compared_bands.size()> rms{};  ///< of all channels, per band [-]
 
   double extrapolation() const { return 1 / (1 - std::exp2(-order)); }
+  /// How many times shorter the step or smaller the elements must be for a share of an accepted
+  /// error that leaves as much to the others.
+  double refinement(double accepted) const {
+    return std::pow(std::sqrt(2.0) * rms[0] / accepted, 1 / order);
+  }
   /// Makes the errors of the changes that the channels have, and `rms` of all.
   void extrapolate() {
     for (ChannelDistance& channel : channels) {
@@ -97,6 +103,11 @@ struct FidelityEstimate {
   double split_memory = 0;     ///< and the memory of that, about [bytes]
   std::string mesh;            ///< why the mesh is not judged, or of which structures it is not
 
+  /// "step" or "mesh"; null where it was not judged.
+  const ErrorPart* part(std::string_view name) const {
+    const auto found = std::ranges::find(parts, name, &ErrorPart::name);
+    return found == parts.end() ? nullptr : &*found;
+  }
   /// The part that is the largest over all frequencies, null where that is the reduction.
   const ErrorPart* governs() const {
     const ErrorPart* largest = nullptr;

@@ -122,15 +122,11 @@ void tell_parts(const FidelityEstimate& estimate, Facts& facts) {
 /// A line on how fine a mesh must be whose error alone is beyond an accepted one; empty where it
 /// is not, or not known.
 std::string finer_mesh(const FidelityEstimate& estimate, double target) {
-  for (const ErrorPart& part : estimate.parts) {
-    if (part.name != "mesh" || part.rms[0] < target) continue;
-    const double size = std::pow(target / (std::sqrt(2.0) * part.rms[0]), 1 / part.order);
-    return sentence(
-        "  the mesh alone is {:.3g %} off, and must be finer: elements of {:.2g} times "
-        "the size\n",
-        {part.rms[0], size});
-  }
-  return "";
+  const ErrorPart* mesh = estimate.part("mesh");
+  if (mesh == nullptr || mesh->rms[0] < target) return "";
+  return sentence(
+      "  the mesh alone is {:.3g %} off, and must be finer: elements of {:.2g} times the size\n",
+      {mesh->rms[0], 1 / mesh->refinement(target)});
 }
 
 /// Subject of a sentence about a fidelity, with its verb.

@@ -5,7 +5,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "scene/fidelity_parts.h"
 #include "scene/row_collector.h"
 #include "scene/scene.h"
 
@@ -22,7 +21,6 @@ void add(OptionBlock block, RowCollector& collector) {
 std::vector<OptionRow> rows_of_scene() {
   RowCollector rows;
   add<Scene>(OptionBlock::run, rows);
-  add<FidelityParts>(OptionBlock::run, rows);
   add<StruckPlaces>(OptionBlock::run, rows);
   add<Structure>(OptionBlock::structure, rows);
   add<Region>(OptionBlock::region, rows);

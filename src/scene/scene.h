@@ -82,9 +82,23 @@ struct FidelityClimb {
   std::string reason;                ///< why it is at full order; empty where it is not
 };
 
+/// How errors of a run are estimated.
+struct Certificate {
+  double window = 0;  ///< at full order, by which that is done [s]; 0: it is not
+  bool mesh = false;  ///< the error of the mesh as well, see fidelity/mesh_error.h
+
+  static void describe(auto& option) {
+    using namespace option_words;
+    // clang-format off
+    option(&Certificate::window, "fidelity_window", real("s", "0", not_negative), "part of the run around its strongest impact that is stepped at full order as well, by which the error of reduced structures is estimated; 0: none", free_of_fidelity);
+    option(&Certificate::mesh, "fidelity_mesh", flag(false), "with fidelity_window: that part is stepped on the mesh split once as well, and a whole reduced run made there, by which the error of the mesh is estimated", free_of_fidelity);
+    // clang-format on
+  }
+};
+
 struct Scene {
   std::string title;
-  double fidelity_window = 0;  ///< at full order, by which errors are estimated [s]; 0: none
+  Certificate certificate;
   FidelityClimb fidelity;
   /// Options that cut meshes depend on, see scene/resolved_options.h.
   std::vector<std::pair<std::string, std::string>> mesh_options;
@@ -196,7 +210,7 @@ struct Scene {
     option(&Scene::write_mesh_pieces, "write_mesh_pieces", integer("ranks", "0", closed(0, 99999)), "cuts the meshes for so many ranks into the folder mesh_pieces, and stops; 0: does not", free_everywhere);
     option(&Scene::stiffness, "stiffness", word("auto|assembled|element", "auto"), "how K is applied: as a matrix, element by element, or as suits the mesh", free_in_pieces);
     option("fidelity_target", real("-", absent("optional"), fraction), "rms error of the floor spectra beside full order that is accepted (0.05: 5 %); the program takes as few modes as it finds to be enough, or full order", free_of_fidelity);
-    option(&Scene::fidelity_window, "fidelity_window", real("s", "0", not_negative), "part of the run around its strongest impact that is stepped at full order as well, by which the error of reduced structures is estimated; 0: none", free_of_fidelity);
+    option.part(&Scene::certificate);
     option(&Scene::motion_from_below, "motion_input", word("base|below", "base"), "place of the motion: the ground under every support, or a wave that enters from below through the faces of absorbing_base");
     option(&Scene::motion_incoherent, "motion_incoherent", text("file", "none", "a file or none"), "wave from below that does not move all nodes of its faces alike: shapes and histories beside the motion, as run/incoherent makes them");
     option("motion_level", real("-", "1", positive), "factor on the motion along all axes, after its pga or scale", free_in_pieces);

@@ -89,7 +89,7 @@ class SceneReader {
     }
     scene_.mesh_options = mesh_options(options_.in_force(), scene_);
     check_pieces();
-    return {scene_, resolved_yaml(options_), stiffness_factors_, ensemble_, fidelity_};
+    return {scene_, resolved_yaml(options_), stiffness_factors_, ensemble_};
   }
 
  private:
@@ -111,8 +111,7 @@ class SceneReader {
     if (options_.given("fidelity_target")) {
       scene_.fidelity.target = options_.real("fidelity_target");
     }
-    options_.read(fidelity_);
-    if (fidelity_.mesh && scene_.fidelity_window == 0 && scene_.fidelity.target == 0) {
+    if (scene_.certificate.mesh && scene_.certificate.window == 0 && scene_.fidelity.target == 0) {
       options_.refuse("fidelity_mesh", {}, "goes with -fidelity_window, which is not given");
     }
     gravity_ = read_gravity();
@@ -306,7 +305,6 @@ class SceneReader {
   ListedNames listed_;
   double gravity_ = 0;  ///< of structures without their own [m/s2]
   std::string ensemble_;
-  FidelityParts fidelity_;
   std::vector<double> stiffness_factors_;
   double level_ = 1;  ///< of the motion along all axes [-]
   std::set<std::string> used_names_;

@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "scene/fidelity_parts.h"
 #include "scene/option_table.h"
 #include "scene/scene.h"
 
@@ -13,7 +12,6 @@ struct ReadScene {
   std::string resolved;  ///< all options in force, defaults included, as YAML that reads back alike
   std::vector<double> stiffness_factors;  ///< per structure; those at full order have them already
   std::string ensemble;                   ///< table of runs to be made at once; empty: one run
-  FidelityParts fidelity;                 ///< of its estimate
 };
 
 /// The scene that the options describe. Throws UserError: an option missing, unknown (with the
