@@ -7,7 +7,6 @@ import program
 import two_buildings
 from study_command import StudyCommand
 
-PROCESSORS = 2  # it starts runs
 
 MATS = {"west": {"centre": "3,2,0", "sides": "6,4", "groups": "left"}, "east": {"centre": "9,2,0", "sides": "6,4", "groups": "right"}}
 COHERENCE = {"mats": MATS, "model": {"luco_wong": {"gamma": 0.3, "vs": 100}}}

@@ -11,7 +11,6 @@ from pounding import UserError, fragility
 from pounding.fragility import design, runs, study
 from study_command import STUDY, StudyCommand
 
-PROCESSORS = 2  # it starts runs
 
 BY_HAND = {"soil": {"best": {}, "upper": {"left_soil_vs": 225}}, "state": {"sound": {}, "cracked": {"left_columns_stiffness_factor": 0.5}}}
 

@@ -10,7 +10,6 @@ import two_buildings
 from pounding.spans import MOTIONS
 from study_command import STUDY, StudyCommand
 
-PROCESSORS = 2  # it starts runs
 
 TRAY = {"from": {"structure": "left", "at": "6,2,6"}, "to": {"structure": "right", "at": [6.02, 2, 6]}}
 SPANS = {"spans": {"tray": TRAY, "line": {"from": "left_roof", "to": {"structure": "right", "group": "west_2"}}}, "states": None}

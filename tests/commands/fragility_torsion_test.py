@@ -13,7 +13,6 @@ from pounding import joint
 from pounding.fragility import torsion
 from pounding.fragility.analysis import Analysis
 
-PROCESSORS = 2  # it starts runs
 
 PLACES = numpy.array([[0, 0, 3.0], [0, 4, 3], [0, 0, 6]])
 GAPS = numpy.array([[.05, .04, .03]])

@@ -20,7 +20,6 @@ from pounding.fragility import stability as in_study
 from pounding.fragility.conditions import Condition
 from pounding.fragility.study_file import ALONE
 
-PROCESSORS = 2  # it starts runs
 G = 9.81
 MAT = stability.Mat("block", 0.5, 0.0, 0.0, (0.0, 2.0, 0.0, 1.0), 0.0, 1000.0, (1.0, 0.5), 1000.0 / G, 0.0)
 

@@ -16,7 +16,6 @@ from pounding.fragility.study_file import Reader
 from pounding.struck import STRENGTHS, Strength, Window, of_run, read_strengths
 from study_command import STUDY, StudyCommand
 
-PROCESSORS = 2  # it starts runs
 
 AREAS = {"struck_areas": "0.1,0.5", "struck_edges": 1}
 STRUCK = {"areas": [0.1, 0.5], "edges": [1], "strength": 30e6, "support": 0.9, "edge_strength": 2e5, "contacts": {"floor1": {"edge_strength": 4e5}}}

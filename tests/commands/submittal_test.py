@@ -6,7 +6,6 @@ from pathlib import Path
 
 import program
 
-PROCESSORS = 2  # it starts runs
 
 PAGE = Path(program.SOURCE) / "docs" / "manual" / "submittal.md"
 

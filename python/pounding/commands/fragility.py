@@ -24,6 +24,7 @@ from pounding import UserError
 from pounding.arguments import positive, ranks
 from pounding.fragility import conditions, controlled, design, envelope, motions, report, rules, stability, struck, study, submittal
 from pounding.fragility.analysis import Analysis
+from pounding.fragility.both_orders import FULL, REDUCED
 from pounding.fragility.runs import Runner
 from pounding.plot.report import print_pdf, require_browser
 from pounding.runs import program, require_room
@@ -155,7 +156,7 @@ def members_of(found: study.Study, folder: Path, options: argparse.Namespace,
           f"correlation of two motions {', '.join(told) or 'none'}; results in {folder}", flush=True)
     print("".join(f"{note}\n" for note in notes), end="", flush=True)
     runner = Runner(found, plan, folder, options.ranks, options.jobs, options.runner, options.collect)
-    ends = [f"Doubt: {doubt}" for doubt in runner.scouted[True].doubts]
+    ends = [f"Doubt: {doubt}" for doubt in runner.scouted[REDUCED].doubts]
     print("".join(f"{note}\n" for note in ends), end="", flush=True)
     notes += ends
     if options.dry_run:
@@ -170,7 +171,7 @@ def members_of(found: study.Study, folder: Path, options: argparse.Namespace,
         began = time.monotonic()
         share = options.part or (1, 1)
         how = controlled.run(runner, numbers, share) if numbers else \
-            runner.run(share, plan.members, [plan.members[index] for index in plan.repeated])
+            runner.run(share, {REDUCED: plan.members, **({FULL: [plan.members[index] for index in plan.repeated]} if plan.repeated else {})})
         print(f"fragility: runs ended after {time.monotonic() - began:.0f} s ({how})", flush=True)
         if options.part:
             return None
@@ -178,16 +179,16 @@ def members_of(found: study.Study, folder: Path, options: argparse.Namespace,
     if missing:
         raise UserError(f"{len(missing)} of {len(plan.members)} members are not there yet; run what is missing")
     repeats = [plan.members[index] for index in plan.repeated]
-    full, missing = runner.found(repeats, False) if repeats else (None, [])
+    full, missing = runner.found(repeats, FULL) if repeats else (None, [])
     if missing:
         raise UserError(f"{len(missing)} of {len(repeats)} repeats at full order are not there yet; "
                         "run what is missing")
-    ruled, note = ({}, "") if found.is_surveyed else rules.find(found, plan, runner.scene(True), folder, options.jobs)
+    ruled, note = ({}, "") if found.is_surveyed else rules.find(found, plan, runner.scene(REDUCED), folder, options.jobs)
     notes += [note] if note else []
-    analysis = Analysis(found, plan, gathered, runner.equipment, notes, runner.scouted[True].inputs, runner, runner.mats)
+    analysis = Analysis(found, plan, gathered, runner.equipment, notes, runner.scouted[REDUCED].inputs, runner, runner.mats)
     notes += stability.doubts(analysis) + struck.doubts(analysis)
-    at_both = controlled.Controlled(runner, numbers, analysis) if numbers else None
-    page, text = report.write(analysis, full, ruled, notes, folder, at_both)
+    analysis.controlled = controlled.Controlled(runner, numbers, analysis) if numbers else None
+    page, text = report.write(analysis, full, ruled, notes, folder)
     print("\n" + text)
     print(f"see {page}")
     return analysis

@@ -35,6 +35,7 @@ class Analysis:
     runner: object = None  # of the members
     mats: list = field(default_factory=list)  # pounding.stability.Mat of each whose stability is asked for
     stability: dict = field(default_factory=dict)  # member -> what was found of these in it
+    controlled: object = None  # controlled.Controlled, of a study with samples at full order beside these
 
     def __post_init__(self):
         self.fitted = {}

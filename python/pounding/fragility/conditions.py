@@ -86,8 +86,6 @@ def find(study: Study) -> list:
                      ("soils", "states"))
     if not reader.values and not study.coherent_too:
         return []
-    if study.both and study.both.accuracy:
-        raise UserError(f"{study.path}: full_order: accuracy: chooses the samples of one soil and state; give samples")
     soils = {name: _soil(reader, name, block, study) for name, block in _blocks(reader, "soils").items()}
     states = {name: Reader({name: block}, study.path, "states", (name,)).options(name)
               for name, block in _blocks(reader, "states").items()}

@@ -1,10 +1,11 @@
-"""Numbers of a study at full order, with its reduced runs as control variates: how many samples of each, and what they say
+"""Numbers of a study at full order, with its reduced runs as control variates: how many samples of each order, and what they say
 together."""
 
 import hashlib
 import json
 import time
 from dataclasses import asdict, dataclass, replace
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -15,31 +16,37 @@ from pounding.plot.design_spectra import SHOWN
 from pounding.runs import Job, clear, finish
 from pounding.tables import write_csv
 
-from . import control_variates as control
+from . import control_variates as control, runs
 from .analysis import CONTACT, EXCEEDED, Analysis, gap_text, name_of
+from .both_orders import FULL, REDUCED
 from .design import Design
 
+CAPTION = "At full order, with reduced runs as control variates"
 PLAN, COSTS = "plan.json", "costs.json"
 
 
 @dataclass(frozen=True)
 class Numbers:
-    """Samples in their order: `pilot` of them at both orders, which give slopes, then `both` at both, and in all `count` by the
-    reduction; `reached`: half of the interval of the least known mean over it, as planned."""
+    """Samples in their order: `pilot` of them at all orders, which give slopes, then those that each order has (`counts`, the dearest
+    first, of orders that pay), beginning alike; `reached`: half of the interval of the least known mean over it, as planned."""
 
     pilot: int
-    both: int
-    count: int
+    counts: dict
     reached: float = 0.0
 
     @property
+    def count(self) -> int:
+        """Samples in all, those of the reduction."""
+        return self.pilot + self.counts[REDUCED]
+
+    @property
     def told(self) -> str:
-        pilot = f", beside a pilot of {self.pilot} at both" if self.pilot else ""
-        plan = f": the least known mean within {100 * self.reached:.2g} %" if self.pilot else ""
-        return f"{self.both} samples at both orders and {self.count - self.pilot - self.both} more by the reduction{pilot}{plan}"
+        between = "".join(f", {count} at order {name}" for name, count in self.counts.items() if name not in (FULL, REDUCED))
+        pilot = f", beside a pilot of {self.pilot} at all orders: the least known mean within {100 * self.reached:.2g} %" if self.pilot else ""
+        return f"{self.counts[FULL]} samples at full order{between} and {self.counts[REDUCED]} by the reduction, each with those before{pilot}"
 
 
-def at_full_order(design: Design, first: int, end: int) -> list:
+def plain(design: Design, first: int, end: int) -> list:
     """Members of samples with numbers from `first` to before `end`, in the study's joints and apart."""
     return [one for one in design.members if one.is_plain and first <= one.sample < end]
 
@@ -49,21 +56,24 @@ def settle(runner, may_run: bool) -> Numbers:
     Throws UserError."""
     study, asked = runner.study, runner.study.both
     if asked.samples:
-        return Numbers(0, asked.samples, study.samples)
+        return Numbers(0, {FULL: asked.samples, REDUCED: study.samples})
     told = asdict(asked), study.samples, study.confidence, [one.values for one in runner.design.members]
-    kept = runner.bases[False] / f"{hashlib.sha256(str(told).encode()).hexdigest()[:12]}-{PLAN}"
+    kept = runner.bases[FULL] / f"{hashlib.sha256(str(told).encode()).hexdigest()[:12]}-{PLAN}"
     if not kept.is_file():
         if not may_run:
             raise UserError(f"{study.path}: full_order: accuracy: its pilot has not been run; run/fragility {study.path} --pilot does so")
-        print(f"fragility: pilot of {asked.pilot} samples at both orders", flush=True)
-        pilot = at_full_order(runner.design, 0, asked.pilot)
-        costs = _measured(runner, pilot, pilot)
-        runner.run((1, 1), pilot, pilot)
-        reduced, full = (np.concatenate(_planned(_analysis(runner, asked.pilot, reduced)), axis=1) for reduced in (True, False))
+        print(f"fragility: pilot of {asked.pilot} samples at {len(study.orders)} orders", flush=True)
+        pilot = plain(runner.design, 0, asked.pilot)
+        costs = _measured(runner, {order: pilot for order in study.orders})
+        runner.run((1, 1), {order: pilot for order in study.orders})
+        orders = sorted(study.orders, key=lambda order: (order != FULL, order == REDUCED, -costs[order]))
+        full, *cheap = (np.concatenate(_planned(_analysis(runner, asked.pilot, order)), axis=1) for order in orders)
         moving = full.mean(0) > 0
-        found = control.plan((full.std(0, ddof=1) / full.mean(0))[moving], _cautious(control.correlation(full, reduced), asked.pilot)[moving],
-                             costs[1] / costs[0], asked.accuracy, study.samples - asked.pilot, study.confidence)
-        write_text(kept, json.dumps(asdict(Numbers(asked.pilot, found.both, asked.pilot + found.cheap, found.reached))))
+        found = control.plan((full.std(0, ddof=1) / full.mean(0))[moving],
+                             [_cautious(control.correlation(full, one), asked.pilot)[moving] for one in cheap],
+                             [costs[order] for order in orders], asked.accuracy, study.samples - asked.pilot, study.confidence)
+        counts = {order: count for order, count in zip(orders, found.counts) if count}
+        write_text(kept, json.dumps(asdict(Numbers(asked.pilot, counts, found.reached))))
     return Numbers(**json.loads(kept.read_text(encoding="utf-8")))
 
 
@@ -73,48 +83,47 @@ def _cautious(rho: np.ndarray, count: int) -> np.ndarray:
 
 
 def run(runner, numbers: Numbers, part: tuple) -> str:
-    """Runs what is missing of the study's samples at both orders, of a part i of n; returns how. Throws UserError."""
-    full = at_full_order(runner.design, numbers.pilot, numbers.pilot + numbers.both)
-    members, full = (some[part[0] - 1::part[1]] for some in (runner.design.members, full))
-    if full:
-        _measured(runner, members, full)
-    return runner.run((1, 1), members, full)
+    """Runs what is missing of the study's samples at all orders, of a part i of n; returns how. Throws UserError."""
+    members = {order: plain(runner.design, numbers.pilot, numbers.pilot + count) for order, count in numbers.counts.items()}
+    members = {REDUCED: runner.design.members, **{order: some for order, some in members.items() if order != REDUCED}}
+    mine = {order: some[part[0] - 1::part[1]] for order, some in members.items()}
+    if all(mine.values()):
+        _measured(runner, mine)
+    return runner.run((1, 1), mine)
 
 
-def _measured(runner, members: list, full: list) -> tuple:
-    """Time that a member takes by the reduction and at full order [s], as it was first measured: by running what is missing of
-    these, where it was not yet."""
-    kept = runner.bases[False] / COSTS
-    if not kept.is_file():
-        costs = []
-        for some, reduced in ((members, True), (full, False)):
-            missing = runner.found(some, reduced)[1]
-            began = time.monotonic()
-            if missing:
-                runner.run((1, 1), some if reduced else [], [] if reduced else some)
-            costs.append((time.monotonic() - began) / len(missing) if missing else _timed(runner, some[0], reduced))
+def _measured(runner, members: dict) -> dict:
+    """Time that a member takes at each order [s], as it was first measured: by running what is missing of these of each order, where it
+    was not yet."""
+    kept = runner.bases[FULL] / COSTS
+    costs = json.loads(kept.read_text(encoding="utf-8")) if kept.is_file() else {}
+    for order in [order for order in members if order not in costs]:
+        missing = runner.found(members[order], order)[1]
+        began = time.monotonic()
+        if missing:
+            runner.run((1, 1), {order: members[order]})
+        costs[order] = (time.monotonic() - began) / len(missing) if missing else _timed(runner, members[order][0], order)
         write_text(kept, json.dumps(costs))
-    return tuple(json.loads(kept.read_text(encoding="utf-8")))
+    return costs
 
 
-def _timed(runner, member, reduced: bool) -> float:
+def _timed(runner, member, order: str) -> float:
     """Time of a run of a member that is there already, anew [s]."""
-    place = (runner.bases[reduced] / "timed").absolute()
+    place = (runner.bases[order] / "timed").absolute()
     began = time.monotonic()
-    failure = finish(lambda: Job(runner.words(member, reduced), place, runner.ranks, Path.cwd(), runner.variables))
+    failure = finish(lambda: Job(runner.words(member, order), place, runner.ranks, Path.cwd(), runner.variables))
     if failure:
         raise UserError(failure)
     clear(place)
     return time.monotonic() - began
 
 
-def _analysis(runner, count: int, reduced: bool) -> Analysis:
+def _analysis(runner, count: int, order: str) -> Analysis:
     """Of the first samples, without those in joints of others. Throws UserError where a member is missing."""
-    members = at_full_order(runner.design, 0, count)
-    found, missing = runner.found(members, reduced)
+    members = plain(runner.design, 0, count)
+    found, missing = runner.found(members, order)
     if missing:
-        raise UserError(f"{len(missing)} of {len(members)} members at {'reduced' if reduced else 'full'} order are not there yet; run what is "
-                        "missing")
+        raise UserError(f"{len(missing)} of {len(members)} members{runs.told(order)} are not there yet; run what is missing")
     return Analysis(replace(runner.study, samples=count), replace(runner.design, members=members), found, runner.equipment)
 
 
@@ -137,28 +146,27 @@ class Controlled:
     """The study's numbers at full order, with reduced runs as controls."""
 
     def __init__(self, runner, numbers: Numbers, reduced: Analysis):
-        """`reduced`: of all samples. Throws UserError where a member at full order is missing."""
-        self.numbers, self.study, self.reduced = numbers, runner.study, reduced
-        costs = json.loads((runner.bases[False] / COSTS).read_text(encoding="utf-8"))
-        self.ratio = costs[1] / costs[0]
-        self.full = _analysis(runner, numbers.pilot + numbers.both, False)
+        """`reduced`: of all samples. Throws UserError where a member at another order is missing."""
+        self.numbers, self.study = numbers, runner.study
+        costs = json.loads((runner.bases[FULL] / COSTS).read_text(encoding="utf-8"))
+        self.costs = [costs[order] for order in numbers.counts]
+        self.analyses = [reduced if order == REDUCED else _analysis(runner, numbers.pilot + count, order) for order, count in numbers.counts.items()]
+        self.full = self.analyses[0]
 
     def draws(self, value_of) -> control.Draws:
         """Of values (samples, ...) of an analysis."""
-        full, cheap = value_of(self.full), value_of(self.reduced)
-        first, end = self.numbers.pilot, self.numbers.pilot + self.numbers.both
-        pilot = (full[:first], cheap[:first]) if first else None
-        return control.Draws(full[first:end], cheap[first:end], cheap[end:], pilot, self.ratio)
+        values, first = [value_of(one) for one in self.analyses], self.numbers.pilot
+        return control.Draws([one[first:] for one in values], [one[:first] for one in values] if first else None, self.costs)
 
     def _row(self, name: str, gap: str, level: float, found: control.Estimate, at: tuple, draws: control.Draws, simple) -> dict:
         """`simple`: the same number of draws without a control, of the reduced runs and of those at full order alone."""
         values = [getattr(found, part)[at] for part in ("value", "low", "high")]
-        cheap = np.concatenate([draws.cheap, draws.more])
         return {"quantity": name, "gap [m]": gap, "pga [m/s2]": level,
                 **{key: "" if np.isnan(value) else float(value) for key, value in zip(("value", "low", "high"), values)},
-                "reduced alone": float(simple(cheap)[at]), "full order alone": float(simple(draws.full)[at]),
+                "reduced alone": float(simple(draws.values[-1])[at]), "full order alone": float(simple(draws.full)[at]),
                 "correlation": float(found.correlation[at]), "gain": float(found.gain[at])}
 
+    @cached_property
     def rows(self) -> list:
         """Probabilities, joint needed, and mean and 84 % of the spectra at 5 % damping and the shown frequencies."""
         study, found = self.study, self.full.outcomes
@@ -201,12 +209,12 @@ class Controlled:
                           for c, channel in enumerate(self.full.channels) for k, f in enumerate(found.frequency)]
             write_csv(folder / "spectra" / f"full-order_gap-{gap_text(gap)}_pga-{level:g}.csv", table)
 
-    def told(self, rows: list) -> list:
+    def told(self) -> list:
         """How many runs of each order there were, what they cost, and what they gained, in sentences."""
         asked, reached = self.study.both.accuracy, self.numbers.reached
-        gains = {words: [row["gain"] for row in rows if row["quantity"].startswith(key)]
+        gains = {words: [row["gain"] for row in self.rows if row["quantity"].startswith(key)]
                  for words, key in (("means of spectra", "mean"), ("their 84 %", "84 %"), ("the joint", "joint"), ("contact", f"P({CONTACT}"))}
-        lines = [f"At full order by control variates: {self.numbers.told}. A run at full order costs {self.ratio:.3g} reduced ones; at equal "
+        lines = [f"At full order by control variates: {self.numbers.told}. A run at full order costs {self.costs[0] / self.costs[-1]:.3g} reduced ones; at equal "
                  f"cost the variance is less by factors of {', '.join(f'{np.median(some):.2g} ({words})' for words, some in gains.items())} "
                  "in the median."]
         if asked and reached > asked:

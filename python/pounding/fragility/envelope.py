@@ -14,6 +14,7 @@ from pounding.tables import cells_of, markdown, write_csv
 from . import figures, report, spans, stability, struck
 from .analysis import CONTACT, EXCEEDED, Analysis, gap_text, name_of, quantile
 from .conditions import ALONE, Condition
+from .controlled import CAPTION
 from .study import Study
 
 SHOWN_BY_ELEVATION = ("contact", "from [m]", "to [m]", "gap [m]", "closing mean [m]", "closing 84 % [m]", "closing largest [m]", "ratio",
@@ -46,7 +47,25 @@ class Envelope:
         at = int(np.argmax(values))
         return values[at], self.conditions[at].place
 
+    def most_hit(self, event, gap: float | None, level: float) -> tuple:
+        """Members in which an event comes about and their number, where their share is largest, and the places of that condition."""
+        number = self.study.levels.index(level)
+        counts = [(int(one.hits(event, gap)[:, number].sum()), one.study.samples) for one in self.analyses.values()]
+        _, place = self.governing([count / samples for count, samples in counts])
+        return *counts[next(k for k, one in enumerate(self.conditions) if one.place == place)], place
+
     # Tables.
+
+    @cached_property
+    def full_order_rows(self) -> list:
+        """Of each number at full order the row of the soil and state in which it is largest, with these; none of a study without."""
+        most = {}
+        for condition, one in self.analyses.items():
+            for row in one.controlled.rows if one.controlled else ():
+                key = row["quantity"], row["gap [m]"], row["pga [m/s2]"]
+                if key not in most or row["value"] > most[key]["value"]:
+                    most[key] = {**row, **condition.place}
+        return list(most.values())
 
     @cached_property
     def joint_rows(self) -> list:
@@ -96,7 +115,7 @@ class Envelope:
             high = self.high(one)
             rows.append({**condition.place, "pga [m/s2]": self.level,
                          **{f"joint, {100 * part:g} % [m]": float(np.quantile(one.needed()[:, number], 1 - part)) for part in EXCEEDED},
-                         **{f"touch, {1e3 * gap:g} mm": f"{int(one.hits(CONTACT, gap)[:, number].sum())} of {self.study.samples}"
+                         **{f"touch, {1e3 * gap:g} mm": f"{int(one.hits(CONTACT, gap)[:, number].sum())} of {one.study.samples}"
                             for gap in self.study.gaps},
                          **{f"{one.outcomes.channels[self.channel]}, {one.outcomes.frequency[k]:.3g} Hz [m/s2]": float(high[k])
                             for k in self.frequencies}})
@@ -233,7 +252,7 @@ class Envelope:
         axes.legend(loc="upper left", fontsize=9)
         g_axis(axes)
         return save(figure, self.folder, "envelope.png", "Floor spectra by soil and state",
-                    f"84 % of {self.study.samples} members in each condition, {100 * found.damping[self.damping]:g} % damping, and "
+                    f"84 % of the members in each condition, {100 * found.damping[self.damping]:g} % damping, and "
                     "their envelope with its peaks widened.")
 
     def told(self) -> list:
@@ -243,9 +262,9 @@ class Envelope:
                 lines.append(f"So that no joint closes in 95 % of the cases at {row['pga [m/s2]']:g} m/s2 it "
                              f"{self.study.width_told(row['needed [m]'])}; {governs(row)}{self.study.torsion.told}.")
         for gap in self.study.gaps:
-            share, place = self.governing([one.hits(CONTACT, gap)[:, -1].mean() for one in self.analyses.values()])
+            count, samples, place = self.most_hit(CONTACT, gap, self.study.levels[-1])
             lines.append(f"In a {self.study.joint_named(gap)} the buildings touch at {self.study.levels[-1]:g} m/s2 in "
-                         f"{100 * share:.3g} % of the cases at most; {governs(place)}.")
+                         f"{100 * count / samples:.3g} % of the cases at most; {governs(place)}.")
         moved = max((row for row in self.sensitivity_rows if row["quantity"] == "joint needed [m]" and row["moved by"] != "motion"),
                     key=lambda row: row["range over reference"], default=None)
         if moved:
@@ -259,6 +278,13 @@ def governs(place: dict) -> str:
     return f"{' and '.join(named)} govern{'s' if len(named) == 1 else ''}"
 
 
+def shown_at_full_order(one: Envelope, levels) -> list:
+    """Rows of full_order_rows at levels: probabilities of contact and joints, with reduced runs alone beside them."""
+    wanted = f"P({name_of(CONTACT)})", "joint"
+    return [{name: value for name, value in row.items() if name not in ("full order alone", "correlation", "gain")}
+            for row in one.full_order_rows if row["quantity"].startswith(wanted) and row["pga [m/s2]"] in levels]
+
+
 def write(one: Envelope) -> tuple:
     """Writes tables and the page of the envelope; returns the page's path and what the terminal shows."""
     study, folder = one.study, one.folder
@@ -267,7 +293,7 @@ def write(one: Envelope) -> tuple:
     for gap, level in one.first.cells:
         write_csv(place / f"gap-{gap_text(gap)}_pga-{level:g}.csv", one.spectra_rows(gap, level))
     tables = {"joint": one.joint_rows, "probability": one.probability_rows(), "conditions": one.condition_rows(),
-              "sensitivity": one.sensitivity_rows, "hclpf": one.hclpf_rows()}
+              "sensitivity": one.sensitivity_rows, "hclpf": one.hclpf_rows(), **({"both_orders": one.full_order_rows} if one.full_order_rows else {})}
     for name, rows in tables.items():
         write_csv(folder / f"{name}.csv", rows)
     joint.write(folder, {f"{run}, {condition.folder}": rows for condition, runs in one.elevation_runs(one.level).items()
@@ -276,6 +302,7 @@ def write(one: Envelope) -> tuple:
     pages = one.sensitivity_figure + one.spectra_figure + one.span_figure
     parts = [(f"{one.study.width_title} that would be needed [m]".capitalize(), tables["joint"]),
              ("Each soil and state", tables["conditions"]),
+             *([(CAPTION, shown_at_full_order(one, study.levels))] if one.full_order_rows else []),
              *stability.parts(one.mat_rows),
              *([(struck.CAPTION, struck.shown(one.struck_rows))] if one.struck_rows else []),
              ("What moves the answer", tables["sensitivity"]), ("Largest probability of each event", tables["probability"]),

@@ -13,7 +13,7 @@ from pounding.fragility import Fragility, binomial_interval, moments
 
 from . import figures, spans, stability, struck
 from .analysis import CONTACT, EXCEEDED, TOLERANCE, Analysis, fit_row, gap_text, name_of
-from .controlled import Controlled
+from .controlled import CAPTION
 from .design import OWN_FIELD
 from .outcomes import Outcomes
 
@@ -75,9 +75,9 @@ def elevation_runs(analysis: Analysis, gap: float, level: float) -> dict:
         raise UserError(f"{study.path}: {error}") from error
 
 
-def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, folder: Path, at_both: Controlled | None = None) -> tuple:
-    """Writes everything and returns the page's path and what the terminal shows; `at_both`: of a study at both orders."""
-    study = analysis.study
+def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, folder: Path) -> tuple:
+    """Writes everything and returns the page's path and what the terminal shows."""
+    study, at_both = analysis.study, analysis.controlled
     write_design(analysis, folder)
     write_spectra(analysis, folder)
     fits = {event: analysis.fits(event) for event in analysis.events}
@@ -106,7 +106,7 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
               "joint": analysis.joint_rows(rules), "first_contact": first_rows, "enough": enough_rows,
               "confidence": widths, "scatter": analysis.scatter_rows(), "joint_share": analysis.joint_share_rows(),
               "fields": analysis.field_rows(),
-              "full_order": analysis.repeat_rows(full) if full else [], "both_orders": at_both.rows() if at_both else []}
+              "full_order": analysis.repeat_rows(full) if full else [], "both_orders": at_both.rows if at_both else []}
     if at_both:
         at_both.write_spectra(folder)
     for name, rows in tables.items():
@@ -120,11 +120,11 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
              (f"{analysis.study.width_title} that would be needed [m]".capitalize(), tables["joint"]),
              (f"Members that the mean of any spectrum needs, within {100 * TOLERANCE:g} %",
               enough_summary(enough_rows)), ("Repeats at full order: ln-ratio of the spectra", repeats_summary(tables["full_order"])),
-             ("At full order, with reduced runs as control variates", [row for row in tables["both_orders"] if not row["quantity"].startswith(
+             (CAPTION, [row for row in tables["both_orders"] if not row["quantity"].startswith(
                  ("mean", "84 %")) or (row["gap [m]"], row["pga [m/s2]"]) == (gap_text(gap), level)])]
     parts = [*stability.parts(of_mats), *parts]
     parts = [(struck.CAPTION, struck.shown(of_places)), *parts] if of_places else parts
-    lines = told(analysis, fits, full, tables) + (at_both.told(tables["both_orders"]) if at_both else []) + spans.told(across, level) + notes
+    lines = told(analysis, fits, full, tables) + (at_both.told() if at_both else []) + spans.told(across, level) + notes
     box = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))
     shown = [*figure_parts(folder, pages), ("Floor spectra", floor_table(analysis)),
              (spans.CAPTION, spans.table(across, [level], analysis)),

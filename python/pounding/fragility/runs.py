@@ -20,14 +20,15 @@ from pounding.scenes import write_scene
 from pounding.stability import facts_of
 
 from . import equipment, outcomes
+from .both_orders import FULL, REDUCED
 from .design import Design
 from .study import Study, check_names
 
 SCOUTED = "scouted.json"
 
 
-def scene_options(study: Study, reduced: bool, folder: Path) -> dict:
-    """Options of all members in a file of their own, which includes the scene; bases are kept in the folder."""
+def scene_options(study: Study, order: str, folder: Path) -> dict:
+    """Options of all members of an order in a file of their own, which includes the scene; bases are kept in the folder."""
     found = {"include": str(study.scene), **study.options, **(study.moved.options if study.moved else {})}
     for axis, one in study.axes.items():
         kind = {"target": one.target, "pga": study.levels[0] * one.ratio} if one.target else {"record": one.records[0]}
@@ -42,13 +43,11 @@ def scene_options(study: Study, reduced: bool, folder: Path) -> dict:
         found |= study.stability.options
     if study.struck:
         found |= study.struck.options
-    if reduced:
-        found |= study.reduction
-        for structure in [name.removesuffix("_model") for name, value in found.items()
-                          if name.endswith("_model") and value == "modal"]:
-            found.setdefault(f"{structure}_modal_basis", str((folder / f"{structure}.basis").absolute()))
-    else:
-        found |= study.full_options
+    found |= study.orders[order]
+    suffix = "" if order == REDUCED else f"-{order}"
+    for structure in [name.removesuffix("_model") for name, value in found.items()
+                      if name.endswith("_model") and value == "modal" and order != FULL]:
+        found.setdefault(f"{structure}_modal_basis", str((folder / f"{structure}{suffix}.basis").absolute()))
     found |= {"spectra_frequencies": ",".join(f"{f:.9g}" for f in study.frequencies),
               "spectra_damping": ",".join(f"{ratio:g}" for ratio in study.dampings)}
     return found
@@ -61,6 +60,11 @@ def key_of(study: Study, options: dict, design: Design) -> str:
     files = sorted({file for one in study.axes.values() for file in (*one.records, one.target) if file})
     return hashlib.sha256(json.dumps([told, [[file, finished.digest(Path(file))] for file in files],
                                       design.columns]).encode()).hexdigest()[:12]
+
+
+def told(order: str) -> str:
+    """The order of runs in a sentence about them; nothing of reduced ones."""
+    return {REDUCED: "", FULL: " at full order"}.get(order, f" at order {order}")
 
 
 def _digest(values) -> str:
@@ -92,13 +96,13 @@ class Runner:
         self.ranks, self.jobs, self.kind = ranks, jobs, kind
         self.variables = environment()
         self.bases, self.scouted = {}, {}
-        for reduced in (True, False) if design.repeated or study.both else (True,):
-            options = scene_options(study, reduced, folder / "runs")
+        for order in study.orders if design.repeated or study.both else (REDUCED,):
+            options = scene_options(study, order, folder / "runs")
             with alone_in(folder / "runs", called("run/fragility"), wait=True):  # parts of a study look once
-                self._find_base(reduced, options, key_of(study, options, design), only_look)
-        check_names(study, self.scouted[True].probes, self.scouted[True].contacts)
-        self._check_elevations(self.scouted[True].heights)
-        self.mats = study.stability.resolve(self.scouted[True].mats, self.scouted[True].contacts) if study.stability else []
+                self._find_base(order, options, key_of(study, options, design), only_look)
+        check_names(study, self.scouted[REDUCED].probes, self.scouted[REDUCED].contacts)
+        self._check_elevations(self.scouted[REDUCED].heights)
+        self.mats = study.stability.resolve(self.scouted[REDUCED].mats, self.scouted[REDUCED].contacts) if study.stability else []
 
     def _check_elevations(self, heights: list) -> None:
         if heights and self.study.elevations:
@@ -107,11 +111,11 @@ class Runner:
             except joint.JointError as error:
                 raise UserError(f"{self.study.path}: {error}") from error
 
-    def _find_base(self, reduced: bool, options: dict, key: str, only_look: bool) -> None:
+    def _find_base(self, order: str, options: dict, key: str, only_look: bool) -> None:
         """The folder of the members whose scene's files are those of today; a new one where there is none."""
         for number in itertools.count(1):
             base = self.folder / "runs" / (key if number == 1 else f"{key}-{number}")
-            self.bases[reduced] = base
+            self.bases[order] = base
             if not (base / SCOUTED).exists() and not any(base.glob(f"*/{outcomes.FILE}")) \
                     and not (base / "single").exists():
                 break
@@ -123,20 +127,20 @@ class Runner:
                 raise UserError(f"{base / SCOUTED} cannot be read ({error}); remove the folder, whose runs are then "
                                 "repeated") from error
             if finished.are_current(found.inputs, Path.cwd()):
-                self.scouted[reduced] = found
+                self.scouted[order] = found
                 return
         if only_look:
             raise UserError(f"{self.folder}: of this study and its files as they are now nothing is there yet; run what "
                             "is missing")
         base.mkdir(parents=True, exist_ok=True)
-        write_scene(self.scene(reduced), options)
-        self.scouted[reduced] = self._scout(reduced, base)
-        write_text(base / SCOUTED, json.dumps(asdict(self.scouted[reduced]), indent=1))
+        write_scene(self.scene(order), options)
+        self.scouted[order] = self._scout(order, base)
+        write_text(base / SCOUTED, json.dumps(asdict(self.scouted[order]), indent=1))
 
-    def _scout(self, reduced: bool, base: Path) -> Scouted:
+    def _scout(self, order: str, base: Path) -> Scouted:
         """Two steps of the first member: what the program refuses, it refuses here."""
         place = base / "scout"
-        words = [*self.words(self.design.members[0], reduced), "-end_time", "1e-4", "-modes", "0"]
+        words = [*self.words(self.design.members[0], order), "-end_time", "1e-4", "-modes", "0"]
         failure = finish(lambda: Job(words, place.absolute(), 1, Path.cwd(), self.variables))
         if failure:
             raise UserError(f"{self.study.path}: {failure}")
@@ -145,112 +149,109 @@ class Runner:
         heights = np.unique(found.table("joint_pairs")["z"]).tolist()
         mats = facts_of(found) if self.study.stability else {}
         clear(place)
-        own = str(self.scene(reduced).absolute())
+        own = str(self.scene(order).absolute())
         inputs = {path: found for path, found in finished.inputs_of(summary).items() if path != own}
         doubts = [line for line in summary["warnings"] if "its modes end at" in line or "its mesh carries waves" in line
                   or "spreads the force evenly" in line]
         return Scouted(inputs, list(summary.get("probes", {})), list(summary.get("contacts", {})), items, doubts, heights, mats)
 
-    def words(self, member, reduced: bool) -> list:
+    def words(self, member, order: str) -> list:
         """Options of the run of a member."""
-        words = ["-options_file", str(self.scene(reduced).absolute())]
+        words = ["-options_file", str(self.scene(order).absolute())]
         for column, value in zip(self.design.columns, member.values):
             words += [f"-{column}", value]
         return words
 
     @property
     def equipment(self) -> list:
-        return equipment.items(self.scouted[True].equipment)
+        return equipment.items(self.scouted[REDUCED].equipment)
 
-    def scene(self, reduced: bool) -> Path:
-        return self.bases[reduced] / "scene.yaml"
+    def scene(self, order: str) -> Path:
+        return self.bases[order] / "scene.yaml"
 
-    def files(self, reduced: bool) -> list:
-        return sorted(self.bases[reduced].glob(f"*/{outcomes.FILE}"))
+    def files(self, order: str) -> list:
+        return sorted(self.bases[order].glob(f"*/{outcomes.FILE}"))
 
-    def found(self, members: list, reduced: bool = True) -> tuple:
+    def found(self, members: list, order: str = REDUCED) -> tuple:
         """(Outcomes, indices of those that are missing)."""
-        return outcomes.collect(self.files(reduced), members, self.design.columns)
+        return outcomes.collect(self.files(order), members, self.design.columns)
 
     def history(self, member) -> Path:
         """Folder of a run of a member of its own with all that it records, at the time step that the members had; kept where it
         is there already. Throws UserError."""
-        base = self.bases[True]
+        base = self.bases[REDUCED]
         place = base / f"history-{_digest(member.values)[:16]}"
         if not (place / "summary.json").exists():
-            steps = sorted({step for path in self.files(True) for step in outcomes.time_steps(path)})
-            words = [*self.words(member, True), "-modes", "0", *(["-time_step", steps[0]] if len(steps) == 1 else [])]
+            steps = sorted({step for path in self.files(REDUCED) for step in outcomes.time_steps(path)})
+            words = [*self.words(member, REDUCED), "-modes", "0", *(["-time_step", steps[0]] if len(steps) == 1 else [])]
             print(f"fragility: history of a member in {place}", flush=True)
             failure = finish(lambda: Job(words, place.absolute(), self.ranks, Path.cwd(), self.variables))
             if failure:
                 raise UserError(failure)
         return place
 
-    def run(self, part: tuple, members: list, full: list) -> str:
-        """Runs part i of n of members, and of some at full order; returns how members were run. Throws UserError."""
+    def run(self, part: tuple, members: dict) -> str:
+        """Runs part i of n of members, of each order, by its name; returns how the first of them were run. Throws UserError."""
         name = f"{part[0]}-of-{part[1]}"
-        kind = self._some(members[part[0] - 1::part[1]], True, name)
-        self._some(full[part[0] - 1::part[1]], False, name)
-        return kind
+        return [self._some(some[part[0] - 1::part[1]], order, name) for order, some in members.items()][0]
 
-    def _some(self, share: list, reduced: bool, name: str) -> str:
+    def _some(self, share: list, order: str, name: str) -> str:
         """Runs what is missing of members of one order; returns how. Throws UserError."""
-        kind, missing = self.kind, self.found(share, reduced)[1] if share else []
+        kind, missing = self.kind, self.found(share, order)[1] if share else []
         if missing and kind != "single":
-            refusal = self._ensemble(share, reduced, name)
-            if refusal and (kind == "auto" and "ensemble" in refusal or not reduced):
+            refusal = self._ensemble(share, order, name)
+            if refusal and (kind == "auto" and "ensemble" in refusal or order != REDUCED):
                 print(f"note: no ensemble, each member is a run of its own: {refusal}", flush=True)
             elif refusal:
                 raise UserError(refusal)
-            _, missing = self.found(share, reduced)
+            _, missing = self.found(share, order)
         if missing:
-            self._singles([share[index] for index in missing], reduced, name)
+            self._singles([share[index] for index in missing], order, name)
             kind = "single"
         return kind
 
-    def _ensemble(self, share: list, reduced: bool, name: str) -> str:
+    def _ensemble(self, share: list, order: str, name: str) -> str:
         """Goes on with ensembles of this part that were stopped, then starts one of what is missing: '' if all members
         came to their end, else the program's line."""
-        base = self.bases[reduced]
+        base = self.bases[order]
         for place in sorted(base.glob(f"ensemble-{name}-*")):
-            _, missing = self.found(share, reduced)
+            _, missing = self.found(share, order)
             try:
                 with open(place / "members.csv", newline="", encoding="utf-8") as file:
                     rows = {tuple(row) for row in csv.reader(file)}
             except (OSError, ValueError, csv.Error):  # stopped before its table was there, or damaged
                 rows = set()
-            failure = self._at_once(place, reduced) if any(share[index].values in rows for index in missing) else ""
+            failure = self._at_once(place, order) if any(share[index].values in rows for index in missing) else ""
             if failure:
                 return failure
-        _, missing = self.found(share, reduced)
+        _, missing = self.found(share, order)
         if not missing:
             return ""
         values = [share[index].values for index in missing]
         place = base / f"ensemble-{name}-{_digest(values)[:6]}"
         place.mkdir(parents=True, exist_ok=True)
         write_rows(place / "members.csv", self.design.columns, values, exact=True)
-        return self._at_once(place, reduced)
+        return self._at_once(place, order)
 
-    def _at_once(self, place: Path, reduced: bool) -> str:
+    def _at_once(self, place: Path, order: str) -> str:
         ranks = f"{self.ranks} rank{'s' if self.ranks > 1 else ''}"
-        order = "" if reduced else " at full order"
-        print(f"fragility: ensemble {place.name}{order} on {ranks}; progress in {place / LOG}", flush=True)
-        words = ["-options_file", str(self.scene(reduced).absolute()), "-equipment", "none", *([] if self.study.stability else ["-forces", "none"]),
+        print(f"fragility: ensemble {place.name}{told(order)} on {ranks}; progress in {place / LOG}", flush=True)
+        words = ["-options_file", str(self.scene(order).absolute()), "-equipment", "none", *([] if self.study.stability else ["-forces", "none"]),
                  "-ensemble", str((place / "members.csv").absolute())]
         return finish(lambda: Job(words, place.absolute(), self.ranks, Path.cwd(), self.variables))
 
-    def _singles(self, members: list, reduced: bool, name: str) -> None:
+    def _singles(self, members: list, order: str, name: str) -> None:
         """Each member a run of its own; what is finished is kept and not repeated. Throws UserError at the first that
         fails, when those beside it have ended."""
-        base = self.bases[reduced]
+        base = self.bases[order]
         columns, failures, ended_count = self.design.columns, [], 0
         places = {one: base / "single" / _digest(one.values)[:16] for one in members}
         todo = [one for one in members if outcomes.restore(places[one].with_suffix(".npz")) is None]
-        what = "" if reduced else " at full order"
+        what = told(order)
         print(f"fragility: {announcement(len(members), len(todo), self.jobs, self.ranks, what)}", flush=True)
 
         def start(member) -> Job:
-            return Job(self.words(member, reduced), places[member].absolute(), self.ranks, Path.cwd(), self.variables)
+            return Job(self.words(member, order), places[member].absolute(), self.ranks, Path.cwd(), self.variables)
 
         def ended(member, job: Job, waiting: list, _running: list) -> None:
             nonlocal ended_count

@@ -13,7 +13,7 @@ from pounding.motion_signals import MotionError
 from pounding.results import DIRECTIONS
 
 from . import spans
-from .both_orders import BothOrders, read as read_both_orders
+from .both_orders import FULL, REDUCED, BothOrders, read as read_both_orders
 from .coherence import Moved, read as read_coherence
 from .matching import Matching, read as read_matching
 from .stability import Stability, read as read_stability
@@ -161,6 +161,12 @@ class Study:
     @property
     def motion_count(self) -> int:
         return len(next(iter(self.axes.values())).motions)
+
+    @property
+    def orders(self) -> dict:
+        """Options of each order in which members may run, by its name: the reduction, those between, full order."""
+        between = self.both.between if self.both else {}
+        return {REDUCED: self.reduction, **{name: {**self.reduction, **one} for name, one in between.items()}, FULL: self.full_options}
 
     @property
     def is_surveyed(self) -> bool:
@@ -467,7 +473,7 @@ def read(path: Path) -> Study:
     table = _motion_rules(reader)
     frequencies = reader.increasing("frequencies", standard_frequencies())
     dampings = reader.increasing("dampings", DAMPINGS)
-    full = reader.part("full_order", ("share", "options", "noise", "samples", "accuracy", "pilot"))
+    full = reader.part("full_order", ("share", "options", "noise", "samples", "accuracy", "pilot", "between"))
     gaps, levels = reader.increasing("gaps", None, -1e-12), reader.increasing("levels")
     if gaps[-1] > WIDEST:
         reader.fail("gaps", f"has a joint of {gaps[-1]:g} m, above {WIDEST:g} m: gaps are in m, 40 mm are 0.04")

@@ -16,7 +16,8 @@ from pounding.tables import cells_of, write_csv
 
 from . import spans, stability, struck
 from .analysis import CONTACT
-from .envelope import Envelope, governs
+from .controlled import CAPTION
+from .envelope import Envelope, governs, shown_at_full_order
 from .study import Study
 from .study_file import Reader, given_options
 
@@ -64,11 +65,14 @@ def answers(one: Envelope, told: Submittal) -> list:
         needed, place = one.governing([np.quantile(each.needed()[:, at], 0.84) for each in one.analyses.values()])
         shares = []
         for gap in study.gaps:
-            count, where = one.governing([int(each.hits(CONTACT, gap)[:, at].sum()) for each in one.analyses.values()])
-            shares.append(f"in a {study.joint_named(gap)} they touch in {count} of {study.samples} cases"
+            count, samples, where = one.most_hit(CONTACT, gap, level)
+            shares.append(f"in a {study.joint_named(gap)} they touch in {count} of {samples} cases"
                           + (f" ({governs(where)})" if len(one.conditions) > 1 and count else ""))
         lines.append(f"{words.capitalize()} ({level:g} m/s²) {'; '.join(shares)}; so that it stays open in 84 % of the "
                      f"cases it {study.width_told(needed)}" + (f" ({governs(place)})." if len(one.conditions) > 1 else "."))
+        lines += [f"At full order, with the reduced runs as controls, that joint {study.width_told(row['value'])}"
+                  + (f" ({1e3 * row['low']:.3g} to {1e3 * row['high']:.3g} mm at {100 * study.confidence:g} % confidence)." if "" not in (row["low"], row["high"]) else ".")
+                  for row in shown_at_full_order(one, [level]) if row["quantity"].startswith("joint needed, exceeded in 16 %")]
     return lines + [line for level in dict.fromkeys((told.design, told.beyond)) for line in spans.told(one.span_rows, level)]
 
 
@@ -111,11 +115,10 @@ def equipment_rows(one: Envelope, told: Submittal) -> list:
     for item in [*study.capacities, *one.first.equipment]:
         row = {"item": item.name}
         for words, level in dict.fromkeys((("design", told.design), ("beyond", told.beyond))):
-            at = study.levels.index(level)
             for gap, joint in ((one.gap, "joint"), (None, "apart")):
-                count = max(int(each.hits(item, gap)[:, at].sum()) for each in one.analyses.values())
-                low, high = binomial_interval(np.array([count]), study.samples, study.confidence)
-                row[f"{words}, {joint}"] = f"{count} of {study.samples} ({100 * low[0]:.0f}-{100 * high[0]:.0f} %)"
+                count, samples, _ = one.most_hit(item, gap, level)
+                low, high = binomial_interval(np.array([count]), samples, study.confidence)
+                row[f"{words}, {joint}"] = f"{count} of {samples} ({100 * low[0]:.0f}-{100 * high[0]:.0f} %)"
         rows.append(row)
     return rows
 
@@ -139,6 +142,8 @@ def assumptions(one: Envelope) -> list:
             ("Damping", "; ".join(damping) or "none"), ("Reduction", "; ".join(modes) or "none: full order")]
     if study.torsion.factor != 1:
         rows.append(("Accidental torsion", study.torsion.assumption))
+    rows += [(f"Samples{title}", each.controlled.numbers.told) for title, each in
+             ((f", {condition.title}" if len(one.conditions) > 1 else "", each) for condition, each in one.analyses.items()) if each.controlled]
     if study.share:
         rows.append(("Error of the reduction", f"{100 * study.share:g} % of the members repeated at full order, see full_order.csv"))
     return rows
@@ -181,6 +186,7 @@ def write(one: Envelope) -> Path | None:
     parts = [(f"Least gap as built and largest closing by elevation{study.torsion.told}", html_table("", *cells_of(one.elevation_rows(levels)), text=(1, 2))),
              *figure_parts(folder, draw(folder, one.governing_by_elevation(told.beyond))),
              (f"{study.width_title} that would be needed [m]".capitalize(), html_table("", *cells_of(joint), text=(0,))),
+             *([(CAPTION, html_table("", *cells_of(shown_at_full_order(one, levels)), text=(0,)))] if one.full_order_rows else []),
              (spans.CAPTION, across), *figure_parts(folder, one.span_figure),
              (f"Floor spectra for design: 84 % of the cases, the envelope of soils and states, widened by 15 %, "
               f"{100 * one.first.outcomes.damping[one.damping]:g} % damping [m/s²]", html_table("", *cells_of(spectra), text=(0, 2))),
