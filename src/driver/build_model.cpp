@@ -39,7 +39,7 @@ Progress begin(MPI_Comm comm, const Scene& scene, const Structure& structure, co
 void share_fit(MPI_Comm comm, Soil& soil) {
   if (soil.table.empty()) return;
   if (!soil.fitted) soil.fitted.emplace();
-  broadcast_values(comm, 0, soil.fitted->parts, soil.fitted->misfits);
+  broadcast_values(comm, 0, soil.fitted->parts, soil.fitted->misfits, soil.fitted->mats);
 }
 
 /// Shares the findings of rank 0 in the whole meshes. Collective.

@@ -7,6 +7,7 @@
 #include "checks/warnings.h"
 #include "common/progress.h"
 #include "interactions/pairing/absorbing_faces.h"
+#include "interactions/pairing/soil_rows.h"
 #include "mesh/find_supported_nodes.h"
 #include "mesh/gmsh_reader.h"
 #include "mesh/order_bearings.h"
@@ -77,6 +78,7 @@ WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model, int spl
   }
   const Progress progress(comm, "faces in contact and probes", scene.progress_interval);
   model.interface = interactions::find_interface(scene, whole.meshes);
+  model.interface.soil = interactions::find_soil_rows(scene, whole.meshes);
   model.probes = resolve_probes(scene, whole.meshes);
   model.recorded = with_rotations(scene, whole.meshes, model.probes);
   model.forces = resolve_forces(scene, whole.meshes);

@@ -100,6 +100,7 @@ Model member_structures(const MemberScene& member, const EnsembleModel& shared) 
   Model model;
   model.interface.constraints = shared.model->interface.constraints;
   model.interface.watched = shared.model->interface.watched;
+  model.interface.soil = shared.model->interface.soil;
   model.interface.model_size = shared.model->interface.model_size;
   model.forces = shared.model->forces;
   const std::vector<interactions::GivenGap> gaps(scene.contacts.begin(), scene.contacts.end());
@@ -240,7 +241,7 @@ StepLimits member_limits(const MemberScene& member, const EnsembleModel& shared)
     limits.stable = std::min(limits.stable, stable_time_step(scene.structures[s], basis));
     limits.resolved = faster(limits.resolved, resolved_motion_of(scene.structures[s], basis, last));
   }
-  if (interactions::has_fillers(shared.model->interface)) {
+  if (interactions::has_fillers(shared.model->interface) || !shared.model->interface.soil.empty()) {
     limit_by_fillers(
         filler_limit(MPI_COMM_SELF, scene, member_structures(member, shared), shared.model->meshes),
         last, limits);

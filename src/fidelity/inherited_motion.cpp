@@ -17,7 +17,7 @@ InheritedMotion::InheritedMotion(MPI_Comm comm, const Scene& scene, const Model&
       stride_(record_stride(scene, model)),
       first_(first),
       motion_(model.motion->part(GroundMotion::Part::leaves, start(), start() + fade_in)),
-      none_{{}, {}, {}, model.interface.extents, model.interface.model_size, {}, {}},
+      none_{{}, {}, {}, model.interface.extents, model.interface.model_size, {}, {}, {}},
       scheme_(parts(scene, profile)),
       means_(model.probes, model.systems, model.meshes),
       rows_(comm, interactions::with_friction_rows(model.interface.constraints), model.systems,

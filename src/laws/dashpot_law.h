@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "laws/link_law.h"
 #include "soil/impedance.h"
 
@@ -84,6 +86,25 @@ class SeriesLaw final : public LinkLaw {
   double strength_;
   double exponent_;
   double time_step_;
+};
+
+/// Law of a spring N_n = k e_n beside K, whose k may be negative where others make up for it. Its
+/// energy k e_n e_{n+1} / 2 is that of a spring in K, and it loses none.
+class SpringLaw final : public LinkLaw {
+ public:
+  explicit SpringLaw(double stiffness) : stiffness_(stiffness) {}  ///< k [N/m]
+
+  double force(double /*before*/, double now, double /*after*/, Memory = {}) const override {
+    return stiffness_ * now;
+  }
+  double energy(double now, double after, Memory = {}) const override {
+    return stiffness_ * now * after / 2;
+  }
+  double tangent() const override { return std::max(0.0, stiffness_); }
+  bool is_explicit() const override { return true; }
+
+ private:
+  double stiffness_;
 };
 
 /// Law of the soil under a mat in one of its motions e, but for its spring, which belongs to K: a

@@ -83,9 +83,9 @@ GapWatch::Bound energy_bound(const interactions::ContactProblem& contact, std::s
 
 ModelScheme::ModelScheme(Parts parts) : parts_(std::move(parts)), contact_(make_contact(parts_)) {
   if (parts_.carried || interactions::has_fillers(*parts_.interface) ||
-      !parts_.interface->sliding.empty()) {
-    // Energy that a filler holds is no structure's, and the bounds are those of the first pairs:
-    // gaps are looked at in every step.
+      !parts_.interface->soil.empty() || !parts_.interface->sliding.empty()) {
+    // Energy that a filler or the soil between mats holds is no structure's, and the bounds are
+    // those of the first pairs: gaps are looked at in every step.
     bounds_.resize(parts_.systems.size());
     for (GapWatch::Bound& bound : bounds_) {
       bound.rate_norm = std::numeric_limits<double>::infinity();
@@ -139,6 +139,10 @@ void ModelScheme::make_stepper() {
     links_.push_back(system.links && !braked_in_batch
                          ? &stepper_->add(interactions::make_links(system, s, parts.time_step))
                          : nullptr);
+  }
+  if (!parts.interface->soil.empty()) {
+    soil_ = &stepper_->add(std::make_unique<interactions::SoilRows>(
+        parts.comm, *parts.interface, parts.systems, parts.meshes, parts.time_step));
   }
   if (interactions::has_fillers(*parts.interface)) {
     fillers_ = &stepper_->add(

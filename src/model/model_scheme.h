@@ -12,6 +12,7 @@
 #include "interactions/filler_rows.h"
 #include "interactions/inelastic_elements.h"
 #include "interactions/pairing/interface.h"
+#include "interactions/soil_rows.h"
 #include "interactions/structure_links.h"
 #include "mesh/mesh.h"
 #include "model/model.h"
@@ -57,6 +58,8 @@ class ModelScheme {
   /// Null without fillers.
   interactions::FillerRows* fillers() { return fillers_; }
   const interactions::FillerRows* fillers() const { return fillers_; }
+  /// Soil between mats; null if there is none.
+  const interactions::SoilRows* soil() const { return soil_; }
   /// The links of a structure on this rank; null if it has none.
   interactions::StructureLinks* links(std::size_t structure) { return links_[structure]; }
   const interactions::StructureLinks* links(std::size_t structure) const {
@@ -100,6 +103,7 @@ class ModelScheme {
   std::unique_ptr<CdLagrange> stepper_;
   std::vector<interactions::StructureLinks*> links_;  ///< per structure, of the stepper
   std::vector<std::vector<interactions::InelasticElements*>> inelastic_;  ///< per structure
+  interactions::SoilRows* soil_ = nullptr;                                ///< of the stepper
   interactions::FillerRows* fillers_ = nullptr;                           ///< of the stepper
   UnilateralContact* unilateral_ = nullptr;                               ///< of the stepper
   bool gives_way_ = false;        ///< some stop does, or some faces are crushed

@@ -11,6 +11,7 @@
 #include "common/error.h"
 #include "common/facts.h"
 #include "interactions/filler_rows.h"
+#include "interactions/soil_rows.h"
 #include "modal/reduced_system.h"
 #include "model/model.h"
 #include "stability/stable_time_step.h"
@@ -178,7 +179,7 @@ void limit_by_loads(const Scene& scene, const LoadHistories* histories, StepLimi
 
 void limit_by_fillers(double stable, double last, StepLimits& limits) {
   ResolvedMotion fillers = resolved_motion({}, false, 2 / stable, last);
-  fillers.structure = "the fillers and stops";
+  fillers.structure = "the fillers, stops and soil between mats";
   limits.stable = std::min(limits.stable, stable);
   limits.resolved = faster(limits.resolved, fillers);
 }
@@ -244,8 +245,14 @@ std::vector<std::string> long_step_warnings(const Scene& scene, const Model& mod
 double filler_limit(MPI_Comm comm, const Scene& scene, const Model& model,
                     std::span<const Mesh> meshes) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  if (!interactions::has_fillers(model.interface)) return infinity;
+  if (!interactions::has_fillers(model.interface) && model.interface.soil.empty()) return infinity;
   const interactions::FillerPairs pairs(comm, model.interface, model.systems, meshes);
+  const interactions::CoupledRows soil =
+      interactions::make_soil_rows(comm, model.interface, model.systems, meshes);
+  std::vector<double> soil_stiffness;
+  for (const interactions::SoilRow& row : model.interface.soil) {
+    soil_stiffness.push_back(std::max(0.0, row.impedance.stiffness));
+  }
   std::vector<double> stiffness;
   for (const interactions::FillerPairs::Pair& row : pairs.all()) {
     const Contact& contact = scene.contacts[row.contact];
@@ -261,7 +268,8 @@ double filler_limit(MPI_Comm comm, const Scene& scene, const Model& model,
   double together = 0;
   double low = infinity;
   for (std::size_t s = 0; s < model.buildings.size(); ++s) {
-    eta.push_back(pairs.largest_eigenvalue(s, stiffness));
+    eta.push_back(pairs.largest_eigenvalue(s, stiffness) +
+                  soil.largest_eigenvalue(s, soil_stiffness));
     together += eta.back();
     if (eta.back() > 0) low = std::min(low, model.buildings[s].limits.stable_time_step);
   }

@@ -155,7 +155,10 @@ Forces::Forces(const ObservedRun& run) : run_(run), peaks_start_(run.scene.spect
           continue;
         }
         totals_.push_back(
-            {s, first, std::make_unique<TotalForce>(force, model.systems[s], mesh), {}});
+            {s,
+             first,
+             std::make_unique<TotalForce>(force, model.systems[s], mesh, model.interface.soil, s),
+             {}});
         if (model.systems[s].generalised) {
           totals_.back().elements =
               std::make_unique<ElementForces>(model.systems[s], mesh, passing);
@@ -224,7 +227,7 @@ void Forces::observe(const CdLagrange& stepper) {
   for (const Total& total : totals_) {
     Wrench sum{};
     total.force->add(stepper, total.structure, run_.scheme.links(total.structure),
-                     run_.scheme.inelastic(total.structure), sum);
+                     run_.scheme.inelastic(total.structure), run_.scheme.soil(), sum);
     for (std::size_t k = 0; k < sum.size(); ++k) part_[total.first + k] += sum[k];
     if (total.elements) {
       total.elements->add(acting_displacement(total.structure), supports_, part_);
@@ -330,8 +333,9 @@ OutputKind forces_output() {
       {force_table}, [](const ObservedRun& run) { return !run.scene.forces.empty(); }, true);
 }
 
-TotalForce::TotalForce(const ForceItem& item, const LinearSystem& system, const Mesh& mesh)
-    : point_(item.point()) {
+TotalForce::TotalForce(const ForceItem& item, const LinearSystem& system, const Mesh& mesh,
+                       std::span<const interactions::SoilRow> soil, std::size_t structure)
+    : point_(item.point()), soil_(soil.size()) {
   std::vector<Counted> of_dof(mesh.owned_dofs, {-1, 0, {}});
   for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
     const Vector3 x = mesh.position(node);
@@ -359,6 +363,15 @@ TotalForce::TotalForce(const ForceItem& item, const LinearSystem& system, const 
       if (counted.dof >= 0) add_force(counted, link.weight[i], unit);
     }
   }
+  for (std::size_t r = 0; r < soil.size(); ++r) {
+    for (const interactions::ConstraintTerm& term : soil[r].terms) {
+      if (static_cast<std::size_t>(term.structure) != structure) continue;
+      const LocalIndex node = mesh.owned_node(term.node);
+      if (node < 0) continue;
+      const Counted& counted = of_dof[mesh.dof(node, term.component)];
+      if (counted.dof >= 0) add_force(counted, term.coefficient, soil_[r]);
+    }
+  }
   const auto dashpots = interactions::dashpot_rows(system);
   if (!dashpots) return;
   braked_.resize(static_cast<std::size_t>(system.owned_dofs()));
@@ -373,7 +386,7 @@ TotalForce::TotalForce(const ForceItem& item, const LinearSystem& system, const 
 void TotalForce::add(const CdLagrange& stepper, std::size_t structure,
                      const interactions::StructureLinks* links,
                      std::span<interactions::InelasticElements* const> inelastic,
-                     Wrench& total) const {
+                     const interactions::SoilRows* soil, Wrench& total) const {
   const StructureState& state = stepper.state().structures[structure];
   for (const Counted& counted : counted_) {
     double force = stepper.force(structure, counted.dof);
@@ -384,6 +397,10 @@ void TotalForce::add(const CdLagrange& stepper, std::size_t structure,
   for (std::size_t b = 0; links != nullptr && b < links_.size(); ++b) {
     const double force = links->force(b);
     for (std::size_t k = 0; k < total.size(); ++k) total[k] -= force * links_[b][k];
+  }
+  for (std::size_t r = 0; r < soil_.size(); ++r) {
+    const double force = soil->force(r);
+    for (std::size_t k = 0; k < total.size(); ++k) total[k] -= force * soil_[r][k];
   }
   for (std::size_t i = 0; links == nullptr && i < braked_.size(); ++i) {
     const double velocity = stepper.braked(structure, i);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/cd_lagrange.h"
+#include "interactions/soil_rows.h"
 #include "interactions/structure_links.h"
 #include "mesh/force_places.h"
 #include "mesh/mesh.h"
@@ -39,7 +40,9 @@ class TotalForce {
  public:
   /// Finds its terms at full order; of a structure in generalised coordinates only those of links.
   /// References must outlive this object. Local.
-  TotalForce(const ForceItem& item, const LinearSystem& system, const Mesh& mesh);
+  /// `soil`: rows between mats of all structures, of which this is number `structure`.
+  TotalForce(const ForceItem& item, const LinearSystem& system, const Mesh& mesh,
+             std::span<const interactions::SoilRow> soil, std::size_t structure);
 
   /// The owned dofs whose forces are asked for: of generalised coordinates all.
   const std::vector<LocalIndex>& dofs() const { return watched_; }
@@ -47,7 +50,8 @@ class TotalForce {
   /// none, or where all are dashpots by which the step of a batch brakes it.
   void add(const CdLagrange& stepper, std::size_t structure,
            const interactions::StructureLinks* links,
-           std::span<interactions::InelasticElements* const> inelastic, Wrench& total) const;
+           std::span<interactions::InelasticElements* const> inelastic,
+           const interactions::SoilRows* soil, Wrench& total) const;
 
  private:
   /// A dof that is counted, and where it is.
@@ -64,6 +68,7 @@ class TotalForce {
   std::vector<Counted> counted_;  ///< empty in generalised coordinates
   std::vector<LocalIndex> watched_;
   std::vector<Wrench> links_;   ///< per link of this rank, of a unit force of it
+  std::vector<Wrench> soil_;    ///< per row between mats, of a unit force of it
   std::vector<Wrench> braked_;  ///< per coordinate, of v- + v+ where all links are dashpots
 };
 

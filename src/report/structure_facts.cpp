@@ -208,10 +208,13 @@ Facts half_space_facts(const Soil& soil, const Foundation& foundation) {
 /// Springs, dashpots and masses of a file of soil.
 Facts fit_facts(const Soil& soil, const Region& region) {
   const FittedSoil& fit = *soil.fitted;
-  const auto hidden = std::ranges::count_if(
-      fit.parts, [](const DirectedImpedance& part) { return part.impedance.inner_dashpot > 0; });
+  const auto is_hidden = [](const auto& part) { return part.impedance.inner_dashpot > 0; };
+  const auto hidden =
+      std::ranges::count_if(fit.parts, is_hidden) + std::ranges::count_if(fit.shared, is_hidden);
   Facts facts{{{"mat", soil.mat},
                {"table", soil.table},
+               {"table_mat", soil.table_mat},
+               {"mats", fit.mats},
                {"centre", region.foundation->centre},
                {"hidden", hidden},
                {"stiffness", region.stiffness},
@@ -221,8 +224,11 @@ Facts fit_facts(const Soil& soil, const Region& region) {
   facts.say(
       "  soil under {mat}: {table}, its middle at {centre:.6g}\n"
       "    passive springs, dashpots and masses, {hidden} hidden parts\n");
+  if (soil.is_shared()) {
+    facts.say("    mat {table_mat} of {mats}; below its own springs, the other mats held\n");
+  }
   for (const FitMisfit& misfit : fit.misfits) {
-    Json values{{"motions", names_of_motions(misfit.motions)},
+    Json values{{"motions", misfit.motions},
                 {"largest", misfit.largest},
                 {"largest_at", misfit.largest_at},
                 {"mean", misfit.mean}};

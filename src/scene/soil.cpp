@@ -21,8 +21,9 @@ std::vector<DirectedImpedance> along_axes(const Soil& soil, const Footprint& foo
   return impedances;
 }
 
-/// A motion of the centre, from that of the node at the other end of the arm.
-std::array<double, 6> over_arm(const std::array<double, 6>& motion, const Vector3& arm) {
+}  // namespace
+
+std::array<double, 6> over_arm(std::span<const double> motion, const Vector3& arm) {
   const auto centre = motion_at(arm);
   std::array<double, 6> of_node{};
   for (std::size_t c = 0; c < 6; ++c) {
@@ -30,8 +31,6 @@ std::array<double, 6> over_arm(const std::array<double, 6>& motion, const Vector
   }
   return of_node;
 }
-
-}  // namespace
 
 std::array<double, 2> sides_of(const Soil& soil, const MatOutline& outline) {
   if (soil.sides) return *soil.sides;

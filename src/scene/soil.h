@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,16 +15,32 @@ namespace pounding {
 
 /// Misfit of the worst term of some coupled motions over its diagonals, as a file states it.
 struct FitMisfit {
-  std::array<bool, 6> motions{};
+  std::string motions;    ///< "x, ry", of several mats "x1, ry1, x2"
   double largest = 0;     ///< over the frequencies [-]
   double largest_at = 0;  ///< its frequency [Hz]
   double mean = 0;        ///< over the frequencies [-]
+
+  static void members(auto& self, auto& stream) {
+    stream(self.motions, self.largest, self.largest_at, self.mean);
+  }
+};
+
+/// Impedance against one motion of one or several mats, as DirectedImpedance.
+struct SoilPart {
+  std::vector<double> motion;  ///< along and about x, y, z, mat by mat
+  Impedance impedance;
+
+  static void members(auto& self, auto& stream) { stream(self.motion, self.impedance); }
 };
 
 /// Springs, dashpots and masses of a file of soil.
 struct FittedSoil {
-  std::vector<DirectedImpedance> parts;  ///< they act side by side
+  std::vector<DirectedImpedance> parts;  ///< of the mat alone; they act side by side
   std::vector<FitMisfit> misfits;
+  int mats = 1;  ///< that the file is for
+  /// Of several mats what acts beside the springs `parts` of each: springs between two of them,
+  /// whose stiffness may be negative, and all dashpots, masses and hidden motions.
+  std::vector<SoilPart> shared;
 };
 
 /// Soil under the rigid mat of a structure, as the user gives it: a half-space, or a file.
@@ -36,12 +53,16 @@ struct Soil {
   bool frequency_dependence = true;
   double factor = 1;  ///< on the ground's shear modulus, which its numbers have already
   std::string table;  ///< file; empty: a half-space
+  int table_mat = 1;  ///< mat of the file, from 1 on
   std::optional<FittedSoil> fitted;  ///< once the file is read; see read_soil_file
 
   static constexpr std::string_view no_half_space =
       "is of a half-space, and -<structure>_soil_table gives soil in its place; leave one of them "
       "out";
+  static constexpr std::string_view no_table = "is of a -<structure>_soil_table; leave it out";
   bool is_half_space() const { return table.empty(); }
+  bool is_fitted() const { return !table.empty(); }
+  bool is_shared() const { return fitted && fitted->mats > 1; }
 
   static void describe(auto& option) {
     using namespace option_words;
@@ -49,6 +70,7 @@ struct Soil {
     // clang-format off
     option(&Soil::mat, "<structure>_soil_mat", text("group", "none", "a physical group or none"), "rigid mat on soil: its node nearest to the middle of the group carries springs, dashpots and internal masses of a half-space");
     option(&Soil::table, "<structure>_soil_table", text("file", "none", "a file of run/soil or none"), "soil: springs, dashpots, masses and hidden motions of the mat, in place of those of a half-space, as run/soil fits them to impedances over the frequency");
+    option(&Soil::table_mat, "<structure>_soil_table_mat", integer("-", "1", at_least_1), "soil: which mat of a table of several it is, in the table's order; each is that of another structure", needs(&Soil::is_fitted, no_table));
     option(&Soil::ground, &HalfSpace::shear_velocity, "<structure>_soil_vs", real("m/s", absent("required with soil_mat, unless there is a soil_table"), positive), "soil: speed of shear waves", half_space);
     option(&Soil::ground, &HalfSpace::density, "<structure>_soil_density", real("kg/m3", absent("required with soil_mat, unless there is a soil_table"), positive), "soil: density", half_space);
     option(&Soil::ground, &HalfSpace::poisson, "<structure>_soil_poisson", real("-", absent("required with soil_mat, unless there is a soil_table"), half_open(0, 0.5)), "soil: Poisson's ratio", half_space);
@@ -79,6 +101,10 @@ struct Foundation {
 /// Sides of a mat's underside along x and y [m]: as given, or the group's own; of a disk both are
 /// the shorter one.
 std::array<double, 2> sides_of(const Soil& soil, const MatOutline& outline);
+
+/// Motion of a node from a motion of a mat's middle, `arm` [m] from the node; both along and about
+/// x, y, z.
+std::array<double, 6> over_arm(std::span<const double> motion, const Vector3& arm);
 
 /// Foundation of a mat on its soil.
 Foundation foundation_of(const Soil& soil, const MatOutline& outline);

@@ -17,13 +17,12 @@ constexpr double wide_miss = 0.1;     ///< misfit to doubt
 constexpr double round_off = 1e-9;    ///< of a term over the root of its diagonals' product
 constexpr double last_pivot = 1e-13;  ///< over the diagonal, from which on nothing is left
 constexpr double largest_value = 1e30;
+constexpr int most_mats = 20;
 constexpr std::uintmax_t most_bytes = 10'000'000;
 constexpr const char* first_word = "pounding soil";
 
-using Directed = DirectedImpedance;
-
 /// Turns a part into an equal one against a motion whose largest component is 1.
-void make_unit(Directed& part) {
+void make_unit(SoilPart& part) {
   const double largest =
       *std::ranges::max_element(part.motion, {}, [](double value) { return std::abs(value); });
   for (double& value : part.motion) value /= largest;
@@ -35,10 +34,10 @@ void make_unit(Directed& part) {
 }
 
 /// Adds a part, as one with an earlier one of the same motion where they are not both in series.
-void add_part(Directed part, std::vector<Directed>& parts) {
+void add_part(SoilPart part, std::vector<SoilPart>& parts) {
   make_unit(part);
   Impedance& from = part.impedance;
-  const auto same = std::ranges::find_if(parts, [&](const Directed& other) {
+  const auto same = std::ranges::find_if(parts, [&](const SoilPart& other) {
     return other.motion == part.motion &&
            (other.impedance.inner_dashpot == 0 || from.inner_dashpot == 0);
   });
@@ -56,13 +55,14 @@ void add_part(Directed part, std::vector<Directed>& parts) {
 
 /// Adds the parts of a matrix without negative eigenvalues: it is the sum of d b b^T over its
 /// pivots d, the largest first, each over its diagonal.
-void add_parts(DenseMatrix matrix, double Impedance::*value, std::vector<Directed>& parts) {
-  std::array<double, 6> diagonal{};
-  for (std::size_t i = 0; i < 6; ++i) diagonal[i] = matrix.column(i)[i];
-  for (std::size_t turn = 0; turn < 6; ++turn) {
+void add_parts(DenseMatrix matrix, double Impedance::*value, std::vector<SoilPart>& parts) {
+  const std::size_t size = matrix.rows;
+  std::vector<double> diagonal(size);
+  for (std::size_t i = 0; i < size; ++i) diagonal[i] = matrix.column(i)[i];
+  for (std::size_t turn = 0; turn < size; ++turn) {
     std::size_t pivot = 0;
     double most = last_pivot;
-    for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t i = 0; i < size; ++i) {
       const double share = diagonal[i] > 0 ? matrix.column(i)[i] / diagonal[i] : 0;
       if (share > most) {
         most = share;
@@ -70,17 +70,58 @@ void add_parts(DenseMatrix matrix, double Impedance::*value, std::vector<Directe
       }
     }
     if (most == last_pivot) return;
-    Directed part;
+    SoilPart part;
     const double strength = matrix.column(pivot)[pivot];
-    for (std::size_t i = 0; i < 6; ++i) part.motion[i] = matrix.column(pivot)[i] / strength;
+    for (std::size_t i = 0; i < size; ++i) {
+      part.motion.push_back(matrix.column(pivot)[i] / strength);
+    }
     part.impedance.*value = strength;
-    for (std::size_t j = 0; j < 6; ++j) {
-      for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < size; ++j) {
+      for (std::size_t i = 0; i < size; ++i) {
         matrix.column(j)[i] -= strength * part.motion[i] * part.motion[j];
       }
     }
-    for (std::size_t i = 0; i < 6; ++i) matrix.column(i)[pivot] = matrix.column(pivot)[i] = 0;
+    for (std::size_t i = 0; i < size; ++i) matrix.column(i)[pivot] = matrix.column(pivot)[i] = 0;
     add_part(part, parts);
+  }
+}
+
+/// Springs against the motions of the mat whose motions begin with `first`, the others held.
+std::vector<DirectedImpedance> own_springs(const DenseMatrix& stiffness, std::size_t first) {
+  DenseMatrix own(6, 6);
+  for (std::size_t j = 0; j < 6; ++j) {
+    std::copy_n(stiffness.column(first + j) + first, 6, own.column(j));
+  }
+  std::vector<SoilPart> springs;
+  add_parts(own, &Impedance::stiffness, springs);
+  std::vector<DirectedImpedance> parts;
+  for (const SoilPart& spring : springs) {
+    std::copy_n(spring.motion.begin(), 6, parts.emplace_back().motion.begin());
+    parts.back().impedance = spring.impedance;
+  }
+  return parts;
+}
+
+/// Springs between mats, of rows of the stiffness K outside of the blocks of one mat: with the
+/// motion e_i of a mat, k = K_ii and c the part of row i in later mats,
+///
+///     e_i c^T + c e_i^T = k/2 b+ b+^T - k/2 b- b-^T,       b+- = e_i +- c / k
+///
+/// They have no energy of their own that is never negative; with the springs of each mat they do.
+void add_springs_between(const DenseMatrix& stiffness, std::vector<SoilPart>& parts) {
+  const std::size_t size = stiffness.rows;
+  for (std::size_t i = 0; i < size; ++i) {
+    const double own = stiffness.column(i)[i];
+    SoilPart part{std::vector<double>(size, 0.0), {}};
+    for (std::size_t j = (i / 6 + 1) * 6; j < size; ++j) {
+      part.motion[j] = stiffness.column(j)[i] / own;
+    }
+    if (part.motion == std::vector<double>(size, 0.0)) continue;
+    for (const double sign : {1.0, -1.0}) {
+      part.motion[i] = sign;
+      part.impedance.stiffness = sign * own / 2;
+      parts.push_back(part);
+    }
   }
 }
 
@@ -88,18 +129,34 @@ class Reader {
  public:
   explicit Reader(const Structure& structure)
       : option_("option -" + structure.name + "_soil_table " + structure.soil->table),
-        path_(structure.soil->table) {}
+        structure_(structure.name),
+        path_(structure.soil->table),
+        mat_(structure.soil->table_mat) {}
 
   FittedSoil read() {
     read_rows();
     read_head();
     FittedSoil soil;
+    soil.mats = static_cast<int>(size_ / 6);
     while (words().front() == "misfit") soil.misfits.push_back(read_misfit());
-    add_parts(read_matrix("stiffness", round_off), &Impedance::stiffness, soil.parts);
-    add_parts(read_matrix("dashpots", -round_off), &Impedance::dashpot, soil.parts);
-    add_parts(read_matrix("masses", -round_off), &Impedance::mass, soil.parts);
+    const DenseMatrix stiffness = read_matrix("stiffness", round_off);
+    std::vector<SoilPart> parts;
+    if (soil.mats == 1) {
+      add_parts(stiffness, &Impedance::stiffness, parts);
+    } else {
+      soil.parts = own_springs(stiffness, 6 * static_cast<std::size_t>(mat_ - 1));
+      add_springs_between(stiffness, parts);
+    }
+    add_parts(read_matrix("dashpots", -round_off), &Impedance::dashpot, parts);
+    add_parts(read_matrix("masses", -round_off), &Impedance::mass, parts);
     expect("hidden");
-    while (next_ < rows_.size()) add_part(read_hidden(), soil.parts);
+    while (next_ < rows_.size()) add_part(read_hidden(), parts);
+    for (const SoilPart& part : parts) {
+      if (soil.mats > 1) break;
+      std::copy_n(part.motion.begin(), 6, soil.parts.emplace_back().motion.begin());
+      soil.parts.back().impedance = part.impedance;
+    }
+    if (soil.mats > 1) soil.shared = std::move(parts);
     return soil;
   }
 
@@ -146,9 +203,15 @@ class Reader {
     if (mats.front() != "mats" || mats.size() != 2) {
       refuse(line(), "'" + mats.front() + "' where 'mats,1' belongs");
     }
-    if (mats[1] != "1") {
-      refuse(line(), "soil of " + mats[1] + " mats, and a structure has one here");
+    const auto count = parse_integer(mats[1]);
+    if (!count || *count < 1 || *count > most_mats) {
+      refuse(line(), "soil of " + mats[1] + " mats; give 1 to " + std::to_string(most_mats));
     }
+    if (mat_ > *count) {
+      refuse(line(), "it is soil of " + mats[1] + " mats, and -" + structure_ + "_soil_table_mat " +
+                         std::to_string(mat_) + " is none of them");
+    }
+    size_ = 6 * static_cast<std::size_t>(*count);
     ++next_;
   }
 
@@ -189,9 +252,13 @@ class Reader {
     if (row.size() != 5) refuse(line(), "a misfit has motions, the most, its frequency, the mean");
     FitMisfit misfit;
     for (const std::string& name : split(row[1], ' ')) {
-      const auto at = std::ranges::find(motion_names, name);
-      if (at == motion_names.end()) refuse(line(), "'" + name + "' is none of x, y, z, rx, ry, rz");
-      misfit.motions[static_cast<std::size_t>(at - motion_names.begin())] = true;
+      std::size_t at = 0;
+      while (at < size_ && name != name_of(at)) ++at;
+      if (at == size_) {
+        refuse(line(), "'" + name + "' is none of " +
+                           (size_ == 6 ? "x, y, z, rx, ry, rz" : "x1, y1, z1, rx1 and so on"));
+      }
+      misfit.motions += (misfit.motions.empty() ? "" : ", ") + name;
     }
     misfit.largest = number(row[2]);
     misfit.largest_at = number(row[3]);
@@ -204,17 +271,17 @@ class Reader {
   DenseMatrix read_matrix(const std::string& section, double least) {
     const long head = line();
     expect(section);
-    DenseMatrix matrix(6, 6);
-    for (std::size_t i = 0; i < 6; ++i) {
-      const std::vector<double> row = numbers(6);
-      for (std::size_t j = 0; j < 6; ++j) matrix.column(j)[i] = row[j];
+    DenseMatrix matrix(size_, size_);
+    for (std::size_t i = 0; i < size_; ++i) {
+      const std::vector<double> row = numbers(size_);
+      for (std::size_t j = 0; j < size_; ++j) matrix.column(j)[i] = row[j];
       if (row[i] < 0) refuse_energy(section, i, i, row[i]);
       for (std::size_t j = 0; j < i; ++j) make_symmetric(section, i, j, matrix);
       ++next_;
     }
     DenseMatrix scaled = matrix;
-    for (std::size_t i = 0; i < 6; ++i) {
-      for (std::size_t j = 0; j < 6; ++j) scaled.column(j)[i] /= size(matrix, i, j);
+    for (std::size_t i = 0; i < size_; ++i) {
+      for (std::size_t j = 0; j < size_; ++j) scaled.column(j)[i] /= size(matrix, i, j);
     }
     const double found = symmetric_eigenvalues(scaled).front();
     if (found >= least) return matrix;
@@ -241,9 +308,12 @@ class Reader {
     return root > 0 ? root : 1;
   }
 
-  static std::string place(std::size_t i, std::size_t j) {
-    return std::string(motion_names[i]) + " " + std::string(motion_names[j]);
+  /// "ry", of several mats "ry2".
+  std::string name_of(std::size_t motion) const {
+    const std::string name(motion_names[motion % 6]);
+    return size_ == 6 ? name : name + std::to_string(motion / 6 + 1);
   }
+  std::string place(std::size_t i, std::size_t j) const { return name_of(i) + " " + name_of(j); }
 
   [[noreturn]] void refuse_energy(const std::string& section, std::size_t i, std::size_t j,
                                   double value) const {
@@ -266,26 +336,31 @@ class Reader {
     below = above = (below + above) / 2;
   }
 
-  Directed read_hidden() {
-    const std::vector<double> row = numbers(9);
-    Directed part;
-    std::copy_n(row.begin(), 6, part.motion.begin());
-    if (part.motion == std::array<double, 6>{}) refuse(line(), "a hidden part against no motion");
-    constexpr std::array names{"dashpot", "spring", "mass"};
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (row[6 + k] >= 0 && (k > 0 || row[6] > 0)) continue;
-      refuse(line(), std::string("the soil would give energy, or none would pass: a hidden ") +
-                         names[k] + " of " + text_of(row[6 + k]));
+  SoilPart read_hidden() {
+    const std::vector<double> row = numbers(size_ + 3);
+    SoilPart part{{row.begin(), row.end() - 3}, {}};
+    if (std::ranges::all_of(part.motion, [](double value) { return value == 0; })) {
+      refuse(line(), "a hidden part against no motion");
     }
-    part.impedance.inner_dashpot = row[6];
-    part.impedance.inner_stiffness = row[7];
-    part.impedance.inner_mass = row[8];
+    constexpr std::array names{"dashpot", "spring", "mass"};
+    const double* const values = &row[size_];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (values[k] >= 0 && (k > 0 || values[0] > 0)) continue;
+      refuse(line(), std::string("the soil would give energy, or none would pass: a hidden ") +
+                         names[k] + " of " + text_of(values[k]));
+    }
+    part.impedance.inner_dashpot = values[0];
+    part.impedance.inner_stiffness = values[1];
+    part.impedance.inner_mass = values[2];
     ++next_;
     return part;
   }
 
   std::string option_;
+  std::string structure_;
   std::string path_;
+  int mat_;               ///< from 1 on
+  std::size_t size_ = 6;  ///< motions of all mats
   std::vector<Row> rows_;
   std::size_t next_ = 0;
 };
@@ -294,12 +369,14 @@ class Reader {
 /// layers: K(omega; f G) = f K(omega / sqrt(f); G).
 void scale_soil(double factor, FittedSoil& soil) {
   const double root = std::sqrt(factor);
-  for (DirectedImpedance& part : soil.parts) {
+  const auto scale = [&](auto& part) {
     part.impedance.stiffness *= factor;
     part.impedance.inner_stiffness *= factor;
     part.impedance.dashpot *= root;
     part.impedance.inner_dashpot *= root;
-  }
+  };
+  std::ranges::for_each(soil.parts, scale);
+  std::ranges::for_each(soil.shared, scale);
   for (FitMisfit& misfit : soil.misfits) misfit.largest_at *= root;
 }
 
@@ -313,7 +390,7 @@ void read_soil_file(Structure& structure) {
 
 std::vector<std::string> fit_doubts(const Structure& structure) {
   std::vector<std::string> doubts;
-  if (!structure.soil || !structure.soil->fitted) return doubts;
+  if (!structure.soil || !structure.soil->fitted || structure.soil->table_mat > 1) return doubts;
   for (const FitMisfit& misfit : structure.soil->fitted->misfits) {
     if (misfit.largest <= wide_miss) continue;
     char numbers[120];
@@ -321,18 +398,9 @@ std::vector<std::string> fit_doubts(const Structure& structure) {
                   misfit.largest_at);
     doubts.push_back("structure " + structure.name + ": springs, dashpots and masses of " +
                      structure.soil->table + " miss the table that they are fitted to along " +
-                     names_of_motions(misfit.motions) + " " + numbers +
-                     "; passive soil may not be able to move so");
+                     misfit.motions + " " + numbers + "; passive soil may not be able to move so");
   }
   return doubts;
-}
-
-std::string names_of_motions(const std::array<bool, 6>& motions) {
-  std::string names;
-  for (std::size_t c = 0; c < motions.size(); ++c) {
-    if (motions[c]) names += (names.empty() ? "" : ", ") + std::string(motion_names[c]);
-  }
-  return names;
 }
 
 }  // namespace pounding

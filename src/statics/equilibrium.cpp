@@ -12,6 +12,7 @@
 #include "common/error.h"
 #include "common/facts.h"
 #include "common/parallel.h"
+#include "interactions/soil_rows.h"
 #include "statics/assembled_statics.h"
 #include "statics/tried_rows.h"
 #include "system/admissible_motions.h"
@@ -48,6 +49,7 @@ class Search {
         interface_(interface),
         any_open_at_rest_(std::ranges::any_of(open_rows, [](char open) { return open != 0; })),
         rows_(comm, interface.constraints, open_rows, systems, meshes),
+        soil_(interactions::make_soil_rows(comm, interface, systems, meshes)),
         tried_(rows_, systems, stiffness_) {
     for (std::size_t s = 0; s < systems.size(); ++s) {
       stiffness_.push_back(make_static_stiffness(systems[s], meshes[s], proximal_shift, solver));
@@ -198,8 +200,9 @@ class Search {
     const Fields forces = tried_.on_dofs(0, rows_.size());
     std::vector<double> product;
     int yielded = 0;
+    for (std::vector<double>& force : law_force_) std::ranges::fill(force, 0.0);
+    add_soil_between_mats();
     for (std::size_t s = 0; s < systems_.size(); ++s) {
-      std::ranges::fill(law_force_[s], 0.0);
       for (const bool apart : {false, true}) {
         if (add_law_forces(systems_[s], apart, meshes_[s], displacement_[s], law_force_[s])) {
           yielded = 1;
@@ -212,10 +215,29 @@ class Search {
       }
       take_up_by_constraints(systems_[s], residual_[s]);
     }
+    if (!interface_.soil.empty()) yielded = 1;  // K alone corrects too little or too much
     MPI_Allreduce(MPI_IN_PLACE, &yielded, 1, MPI_INT, MPI_MAX, comm_);
     yielded_ = yielded != 0;
     ever_yielded_ = ever_yielded_ || yielded_;
     update_correction();
+  }
+
+  /// Adds forces of the springs between mats to those beside K u.
+  void add_soil_between_mats() {
+    if (!soil_.rows().member()) return;
+    std::vector<double> elongation(interface_.soil.size());
+    std::vector<double> rate(elongation.size());
+    for (std::size_t s = 0; s < systems_.size(); ++s) {
+      soil_.set_displacement(s, displacement_[s].data(), {});
+      soil_.set_velocity(s, displacement_[s].data(), {});  // not used
+    }
+    soil_.gather(elongation, rate);
+    for (std::size_t r = 0; r < elongation.size(); ++r) {
+      const double force = interface_.soil[r].impedance.stiffness * elongation[r];
+      for (std::size_t s = 0; s < systems_.size(); ++s) {
+        soil_.rows().add_force(static_cast<int>(r), force, s, law_force_[s]);
+      }
+    }
   }
 
   /// (K + sigma M)^-1 of the residual.
@@ -316,6 +338,7 @@ class Search {
   const interactions::Interface& interface_;
   bool any_open_at_rest_;  ///< contacts whose gaps are those of the rest
   UnilateralRows rows_;
+  interactions::CoupledRows soil_;                           ///< between mats
   std::vector<std::unique_ptr<StaticStiffness>> stiffness_;  ///< per structure
   Fields weight_;                                            ///< and loads as they are at rest
   std::vector<RestLinks> links_;                             ///< per structure

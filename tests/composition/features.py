@@ -13,7 +13,7 @@ import h5py
 import numpy
 
 from scene import BASE, FACES, HOUSES, INTERVAL, axes, curve, kept, pairs, points, quantity, vector, waves
-from soil_tables import coupled, write_soil
+from soil_tables import coupled, two_mats, write_parts, write_soil
 
 KINDS = ("interaction", "law", "element", "model", "start", "support", "damping", "load", "output")
 
@@ -75,6 +75,21 @@ def soil_file():
 def soil(*_):
     """A file of soil in SI and in the axes of the model."""
     return soil_file()
+
+
+@functools.cache
+def shared_soil_file():
+    whole = two_mats()
+    for matrix in (whole.stiffness, whole.dashpots, whole.masses):
+        matrix /= 100
+    for part in whole.hidden:
+        part.dashpot, part.spring, part.mass = part.dashpot / 100, part.spring / 100, part.mass / 100
+    return write_parts(whole)
+
+
+def shared_soil(*_):
+    """A file of soil of both houses."""
+    return shared_soil_file()
 
 
 def state(structure, length, turn):
@@ -203,6 +218,9 @@ FEATURES = [
     Feature("soil under a mat", "support", {"@_clamp": "none", "@_rigid": "+base", "@_soil_mat": "base", "@_soil_size": axes((3.0, 2.0)),
                                                     "@_soil_vs": 100.0, "@_soil_density": 1800.0, "@_soil_poisson": .35}),
     Feature("soil from a table", "support", {"@_clamp": "none", "@_rigid": "+base", "@_soil_mat": "base", "@_soil_table": soil},
+            spared={"other units": "the file is in SI", "turned": "the file has the axes of the model"}),
+    Feature("soil that mats share", "support", {f"{s}_{key}": value for s in "ab" for key, value in (
+        ("clamp", "none"), ("rigid", "+base"), ("soil_mat", "base"), ("soil_table", shared_soil), ("soil_table_mat", 1 + "ab".index(s)))},
             spared={"other units": "the file is in SI", "turned": "the file has the axes of the model"}),
     Feature("absorbing faces", "support", {"@_clamp": "none", "@_block_element": "hex8", "@_block_material": "concrete", "@_absorbing": "bottom"}),
     Feature("wave from below", "support", {"motion_input": "below", **{f"{s}_{key}": value for s in "ab" for key, value in (

@@ -25,7 +25,7 @@ MAY_INCLUDE = {
                   "stiffness/shells", "stiffness/strains"},
     "laws": {"common", "scene", "soil"},
     "solvers": {"common", "laws"},
-    "interactions/pairing": {"common", "io", "scene", "elements", "mesh", "system"},
+    "interactions/pairing": {"common", "io", "scene", "soil", "elements", "mesh", "system"},
     "interactions": {"common", "scene", "elements", "mesh", "system", "laws", "solvers",
                      "interactions/pairing"},
     "system": {"common", "io", "scene", "elements", "mesh", "laws", "stiffness"},

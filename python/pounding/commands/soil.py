@@ -1,15 +1,16 @@
-"""Soil under a mat from its impedances: run/soil TABLE OUT
+"""Soil under one or several mats from their impedances: run/soil TABLE OUT
 
-TABLE is a CSV file of complex impedances over the frequency, with the columns frequency, kxx_re, kxx_im and so on. Fits
-springs, dashpots and masses to them, with hidden motions where the table asks for them; they can only take energy, whatever
-the table is. OUT is the file for the option <structure>_soil_table. Prints the misfit at each frequency, the worst term of
-each set of coupled motions over its diagonals; one above 10 % is doubted. docs/reference/scene/soil.md has both
-files.
+TABLE is a CSV file of complex impedances over the frequency, with the columns frequency, kxx_re, kxx_im and so on, of several
+mats kx1x1_re, kx1x2_re; or impedances of MISS3D as text; or a YAML file of rectangular mats on a half-space, whose impedances
+are found first (--impedances FILE keeps them). Fits springs, dashpots and masses, with hidden motions where the table asks for
+them; they can only take energy, whatever the table is. OUT is the file for the option <structure>_soil_table. Prints the misfit
+at each frequency, the worst term of each set of coupled motions over its diagonals; one above 10 % is doubted.
+docs/reference/scene/soil.md has all files.
 """
 
 from pathlib import Path
 
-from pounding.soil import fit, impedances, soil_file
+from pounding.soil import fit, half_space, impedances, miss, soil_file
 
 from .process import parser_of
 
@@ -34,14 +35,25 @@ def report(table: impedances.Impedances, blocks: list, left_out: float) -> list:
     return lines
 
 
+def read(path: Path) -> impedances.Impedances:
+    """By the kind of the file. Throws UserError or OSError."""
+    if path.suffix in (".yaml", ".yml"):
+        return half_space.read(path)
+    return miss.read(path) if miss.is_miss(path) else impedances.read(path)
+
+
 def main() -> int:
     parser = parser_of(__doc__)
-    parser.add_argument("table", metavar="TABLE", type=Path, help="CSV file of impedances")
+    parser.add_argument("table", metavar="TABLE", type=Path, help="impedances, or mats on a half-space (.yaml)")
     parser.add_argument("out", metavar="OUT", type=Path, help="file of the soil")
+    parser.add_argument("--impedances", metavar="FILE", type=Path, help="the table of impedances that is fitted, as CSV")
     options = parser.parse_args()
-    if options.out.exists() and options.out.samefile(options.table):
-        parser.error("OUT is the table itself")
-    table = impedances.read(options.table)
+    for place in filter(None, (options.out, options.impedances)):
+        if place.exists() and place.samefile(options.table):
+            parser.error(f"{place} is the table itself")
+    table = read(options.table)
+    if options.impedances:
+        impedances.write(options.impedances, table, f"impedances of {options.table.name}")
     soil, blocks, left_out = fit.fit(table)
     soil_file.write(options.out, soil, table, blocks, options.table.name)
     print("\n".join(report(table, blocks, left_out)))

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy
 
-from pounding.soil.impedances import MOTIONS, Impedances, sizes_of
+from pounding.soil.impedances import Impedances, motions_of, sizes_of
 from pounding.soil.rates import Samples, Search, nonnegative
 
 COUPLED = 1e-3  # term over its diagonals from which on motions are coupled
@@ -23,14 +23,14 @@ NEGLIGIBLE = 1e-9
 
 @dataclass
 class Hidden:
-    """A dashpot, a spring and a mass in series, against the motion b . e of the mat; spring or mass 0 where there is none."""
-    motion: numpy.ndarray  # b, shape (6)
+    """A dashpot, a spring and a mass in series, against the motion b . e of the mats; spring or mass 0 where there is none."""
+    motion: numpy.ndarray  # b, shape (6 mats)
     dashpot: float
     spring: float
     mass: float
 
     def at(self, omega):
-        """Shape (..., 6, 6)."""
+        """Shape (..., 6 mats, 6 mats)."""
         iw = 1j * numpy.where(omega > 0, omega, 1)
         slip = 1 + (iw * self.dashpot / self.spring if self.spring else 0) + (self.dashpot / (iw * self.mass) if self.mass else 0)
         return numpy.multiply.outer(numpy.where(omega > 0, iw * self.dashpot / slip, 0), numpy.outer(self.motion, self.motion))
@@ -38,23 +38,25 @@ class Hidden:
 
 @dataclass
 class Soil:
-    """Soil of a mat. Matrices along and about x, y, z: shape (6, 6)."""
-    stiffness: numpy.ndarray = field(default_factory=lambda: numpy.zeros((6, 6)))
-    dashpots: numpy.ndarray = field(default_factory=lambda: numpy.zeros((6, 6)))
-    masses: numpy.ndarray = field(default_factory=lambda: numpy.zeros((6, 6)))
+    """Soil of some mats. Matrices along and about x, y, z, mat by mat: shape (6 mats, 6 mats)."""
+    mats: int = 1
     hidden: list = field(default_factory=list)
 
+    def __post_init__(self):
+        self.stiffness, self.dashpots, self.masses = (numpy.zeros((6 * self.mats, 6 * self.mats)) for _ in range(3))
+
     def at(self, omega) -> numpy.ndarray:
-        """Impedance, shape (n, 6, 6), of circular frequencies, shape (n)."""
+        """Impedance, shape (n, 6 mats, 6 mats), of circular frequencies, shape (n)."""
         w = numpy.asarray(omega, float)[..., None, None]
         return sum((part.at(w[..., 0, 0]) for part in self.hidden), self.stiffness + 1j * w * self.dashpots - w**2 * self.masses)
 
 
 @dataclass
 class BlockFit:
-    """Motions of a mat that the table couples, and the fit to their block. Terms are over the root of the product of the moduli
+    """Motions that the table couples, and the fit to their block. Terms are over the root of the product of the moduli
     of the two diagonals, frequency by frequency."""
     motions: list  # indices
+    mats: int  # of the table
     cells: int  # hidden parts with rates of their own
     misfit: numpy.ndarray  # of the worst term, per frequency
     table_damping: float  # least eigenvalue of the imaginary part of the table
@@ -65,16 +67,16 @@ class BlockFit:
 
     @property
     def names(self) -> str:
-        return " ".join(MOTIONS[i] for i in self.motions)
+        return " ".join(motions_of(self.mats)[i] for i in self.motions)
 
 
 def coupled_motions(table: Impedances) -> tuple:
     """Sets of motions that are coupled, and the largest term between motions of different sets."""
     largest = (abs(table.matrix) / sizes_of(table.matrix)).max(axis=0)
-    root = list(range(6))
+    root = list(range(len(largest)))
     for i, j in numpy.argwhere(largest > COUPLED):
         root = [root[j] if one == root[i] else one for one in root]
-    blocks = [[i for i in range(6) if root[i] == one] for one in dict.fromkeys(root)]
+    blocks = [[i for i in range(len(root)) if root[i] == one] for one in dict.fromkeys(root)]
     apart = numpy.not_equal.outer(root, root)
     return blocks, float(largest[apart].max(initial=0))
 
@@ -179,7 +181,7 @@ class Block:
         for value, vector in zip(values, vectors.T):
             if not value > NEGLIGIBLE * values[-1] or not value > 0:
                 continue
-            motion = numpy.zeros(6)
+            motion = numpy.zeros(len(soil.stiffness))
             motion[self.motions] = self.scale * vector
             largest = motion[numpy.argmax(abs(motion))]
             strength = value * largest**2
@@ -202,7 +204,7 @@ class Block:
             2 * math.pi * everywhere * numpy.sort(usual)[len(usual) // 2])
         inside = (everywhere >= first) & (everywhere <= last)
         damping = numpy.linalg.eigvalsh((values.imag / sizes_of(values))[inside])[:, 0]
-        return BlockFit(self.motions, cells, (abs(miss) / sizes_of(wanted)).max(axis=(1, 2)), float(table[:, 0].min()),
+        return BlockFit(self.motions, self.table.mats, cells, (abs(miss) / sizes_of(wanted)).max(axis=(1, 2)), float(table[:, 0].min()),
                         float(damping.min()), float(everywhere[inside][damping.argmin()]), float(margin.min()),
                         float(everywhere[margin.argmin()]))
 
@@ -210,7 +212,7 @@ class Block:
 def fit(table: Impedances) -> tuple:
     """Soil that misses a table least, what is told of each set of coupled motions, and the largest term between motions that are
     taken as not coupled."""
-    soil, found = Soil(), []
+    soil, found = Soil(table.mats), []
     sets, left_out = coupled_motions(table)
     for motions in sets:
         block = Block(table, motions)

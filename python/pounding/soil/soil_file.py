@@ -18,7 +18,7 @@ def write(path: Path, soil: Soil, table: Impedances, blocks: list, source: str) 
     lines = [f"pounding soil,{VERSION}",
              f"# springs, dashpots and masses fitted by run/soil to {' '.join(source.split())}, "
              f"{table.frequency[0]:g} to {table.frequency[-1]:g} Hz",
-             "mats,1", "# motions, misfit of the worst term over its diagonals: the most, its frequency [Hz], the mean"]
+             f"mats,{soil.mats}", "# motions, misfit of the worst term over its diagonals: the most, its frequency [Hz], the mean"]
     lines += [f"misfit,{block.names},{block.misfit.max():.6g},{table.frequency[block.misfit.argmax()]:.6g},"
               f"{block.misfit.mean():.6g}" for block in blocks]
     for name, matrix, unit in (("stiffness", soil.stiffness, "N/m, N, N m"), ("dashpots", soil.dashpots, "N s/m, N s, N m s"),

@@ -16,6 +16,7 @@
 
 #include "common/matrix3.h"
 #include "mesh/global_mesh.h"
+#include "soil/impedance.h"
 
 namespace pounding::interactions {
 
@@ -128,6 +129,16 @@ struct SurveyReport {
   }
 };
 
+/// Row of the soil that mats of several structures share, over the nodes that carry it: with the
+/// elongation e of its terms it pulls by the law of the soil under a mat. One with a stiffness,
+/// which may be negative, is a spring between mats and nothing else.
+struct SoilRow {
+  std::vector<ConstraintTerm> terms;
+  Impedance impedance;
+
+  static void members(auto& self, auto& stream) { stream(self.terms, self.impedance); }
+};
+
 /// Report of the pairs found for one contact.
 struct InterfaceReport {
   std::string contact;
@@ -174,10 +185,11 @@ struct Interface {
   /// Rows of second passes that are not taken: they never act, and a run looks how far nodes of the
   /// primary go into the secondary.
   std::vector<Constraint> watched;
+  std::vector<SoilRow> soil;  ///< between mats; see find_soil_rows
 
   /// Members that every rank has: rows and extents.
   static void members(auto& self, auto& stream) {
-    stream(self.constraints, self.watched, self.sliding, self.extents, self.model_size);
+    stream(self.constraints, self.watched, self.soil, self.sliding, self.extents, self.model_size);
   }
 };
 

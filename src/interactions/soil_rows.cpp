@@ -1,0 +1,154 @@
+#include "interactions/soil_rows.h"
+
+#include <algorithm>
+#include <array>
+
+#include "common/parallel.h"
+#include "laws/dashpot_law.h"
+
+namespace pounding::interactions {
+namespace {
+
+std::vector<std::unique_ptr<LinkLaw>> soil_laws(std::span<const SoilRow> rows, double time_step) {
+  std::vector<std::unique_ptr<LinkLaw>> laws;
+  for (const SoilRow& row : rows) {
+    if (row.impedance.is_spring()) {
+      laws.push_back(std::make_unique<SpringLaw>(row.impedance.stiffness));
+    } else {
+      laws.push_back(std::make_unique<SoilLaw>(row.impedance, time_step));
+    }
+  }
+  return laws;
+}
+
+constexpr std::size_t most_memory = 2;
+constexpr std::size_t row_values = most_memory + 3;
+
+}  // namespace
+
+CoupledRows make_soil_rows(MPI_Comm comm, const Interface& interface,
+                           std::span<const LinearSystem> systems, std::span<const Mesh> meshes) {
+  std::vector<Constraint> constraints(interface.soil.size());
+  for (std::size_t r = 0; r < constraints.size(); ++r) {
+    constraints[r].terms = interface.soil[r].terms;
+  }
+  return {comm, constraints, systems, meshes};
+}
+
+SoilRows::SoilRows(MPI_Comm comm, const Interface& interface, std::span<const LinearSystem> systems,
+                   std::span<const Mesh> meshes, double time_step)
+    : rows_(make_soil_rows(comm, interface, systems, meshes)),
+      counts_(rows_.rows().root() == rank_of(comm)),
+      time_step_(time_step),
+      laws_(soil_laws(interface.soil, time_step)),
+      memory_(laws_),
+      solver_(laws_, rows_.couplings(), {}, time_step),
+      elongations_(laws_.size()) {
+  for (auto* values : {&rate_, &rate_before_, &force_, &held_, &driven_, &impulse_}) {
+    values->assign(laws_.size(), 0.0);
+  }
+  for (std::size_t s = 0; s < systems.size(); ++s) {
+    const std::size_t dofs = rows_.rows().trace(s).dofs().size();
+    before_step_.emplace_back(dofs);
+    velocity_.emplace_back(dofs, 0.0);
+  }
+}
+
+void SoilRows::attach(std::span<SteppedStructure* const> structures) {
+  for (std::size_t s = 0; s < structures.size(); ++s) {
+    structures[s]->watch(rows_.rows().trace(s).dofs(), true);
+  }
+}
+
+void SoilRows::begin(const Step& step) {
+  if (!rows_.rows().member()) return;
+  const ScopedTimer timer(step.profile, Phase::step);
+  auto& [before, now, free_after] = elongations_;
+  for (std::size_t s = 0; s < step.structures.size(); ++s) {
+    const SteppedStructure& structure = *step.structures[s];
+    rows_.set_displacement(s, structure.displacement().data(), {});
+    rows_.set_velocity(s, structure.velocity().data(), {});
+    structure.remember(rows_.rows().trace(s).dofs(), before_step_[s]);
+  }
+  rate_before_.swap(rate_);
+  rows_.gather(now, rate_);
+  for (std::size_t r = 0; r < laws_.size(); ++r) {
+    if (!laws_[r]->is_explicit()) now[r] = 0;
+    before[r] = now[r] - time_step_ * rate_[r];
+  }
+  close_step_before(step.number == 1 ? 0.5 : 1);
+  made_ = true;
+}
+
+void SoilRows::close_step_before(double share) {
+  const auto& [before, now, free_after] = elongations_;
+  loss_ = 0;
+  for (std::size_t r = 0; r < laws_.size(); ++r) {
+    const double stretch = time_step_ * (rate_[r] + rate_before_[r]) / 2;
+    if (made_) {
+      laws_[r]->remember(-time_step_ * rate_before_[r], 0, time_step_ * rate_[r], share,
+                         memory_[r]);
+    }
+    const double held = laws_[r]->energy(before[r], now[r], memory_[r]);
+    if (made_) loss_ += force_[r] * stretch - (held - held_[r]);
+    held_[r] = held;
+  }
+}
+
+void SoilRows::push(const Step& step) {
+  if (!rows_.rows().member()) return;
+  const ScopedTimer timer(step.profile, Phase::step);
+  auto& [before, now, free_after] = elongations_;
+  for (std::size_t s = 0; s < step.structures.size(); ++s) {
+    rows_.set_velocity(s, step.structures[s]->velocity().data(), {});
+  }
+  rows_.gather(impulse_, free_after);  // the rates alone are used
+  for (std::size_t r = 0; r < laws_.size(); ++r) {
+    free_after[r] = now[r] + time_step_ * free_after[r];
+  }
+  std::ranges::fill(force_, 0.0);
+  solver_.solve(step.share(), elongations_, driven_, memory_, force_);
+  for (std::size_t r = 0; r < laws_.size(); ++r) {
+    impulse_[r] = -step.share() * time_step_ * force_[r];
+  }
+  rows_.set_impulses(impulse_);
+  for (std::size_t s = 0; s < step.structures.size(); ++s) {
+    const Trace& trace = rows_.rows().trace(s);
+    trace.restrict_to_dofs(step.structures[s]->velocity().data(), velocity_[s].data());
+    rows_.add_velocity_change(s, velocity_[s].data());
+    step.structures[s]->correct(trace.dofs(), before_step_[s], velocity_[s]);
+  }
+}
+
+void SoilRows::finish(const Step& step) {
+  if (!counts_) return;
+  LedgerPart& ledger = *step.ledger.front();
+  for (const double held : held_) ledger.link_energy_before += held;
+  ledger.link_loss_before += loss_;
+}
+
+void SoilRows::save(SavedState& saved) const {
+  if (!counts_) return;
+  std::vector<double> values;
+  for (std::size_t r = 0; r < laws_.size(); ++r) {
+    std::array<double, most_memory> memory{};
+    std::ranges::copy(memory_[r], memory.begin());
+    values.insert(values.end(), {memory[0], memory[1], force_[r], rate_[r], held_[r]});
+  }
+  saved.put("soil between mats", values, row_values);
+}
+
+void SoilRows::load(const SavedState& saved) {
+  std::vector<double> values(row_values * laws_.size());
+  saved.get("soil between mats", values);
+  for (std::size_t r = 0; r < laws_.size(); ++r) {
+    const double* const v = &values[row_values * r];
+    std::copy_n(v, memory_[r].size(), memory_[r].begin());
+    force_[r] = v[most_memory];
+    rate_[r] = v[most_memory + 1];
+    held_[r] = v[most_memory + 2];
+  }
+  made_ = true;
+}
+
+}  // namespace pounding::interactions
