@@ -20,6 +20,7 @@
 #include "observers/model_file.h"
 #include "observers/storeys.h"
 #include "report/report.h"
+#include "scene/soil_file.h"
 #include "scene/soil_reader.h"
 #include "scene/stiffness_factor.h"
 #include "scene/support_reader.h"
@@ -87,6 +88,7 @@ void read_meshes(MPI_Comm comm, Scene& scene, Profile& profile, const ContactsKn
     on_rank0(comm, [&] {
       CommonPiece common = read_common_piece(scene, size_of(comm), model);
       whole = std::move(common.whole);
+      std::ranges::for_each(scene.structures, read_soil_file);
       identity = common.identity;
     });
     broadcast(comm, identity);

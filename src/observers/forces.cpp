@@ -8,10 +8,9 @@
 #include "common/parallel.h"
 #include "common/saved_state.h"
 #include "elements/force_rows.h"
-#include "interactions/dashpot_modes.h"
 #include "observers/run_statistics.h"
+#include "observers/total_force.h"
 #include "system/element_forces.h"
-#include "system/links.h"
 
 namespace pounding {
 namespace {
@@ -331,81 +330,6 @@ void Forces::write_table() const {
 OutputKind forces_output() {
   return output<Forces>(
       {force_table}, [](const ObservedRun& run) { return !run.scene.forces.empty(); }, true);
-}
-
-TotalForce::TotalForce(const ForceItem& item, const LinearSystem& system, const Mesh& mesh,
-                       std::span<const interactions::SoilRow> soil, std::size_t structure)
-    : point_(item.point()), soil_(soil.size()) {
-  std::vector<Counted> of_dof(mesh.owned_dofs, {-1, 0, {}});
-  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    const Vector3 x = mesh.position(node);
-    for (int c = 0; c < 6; ++c) {
-      if (!counts(item, mesh.free_components[node], x, c)) continue;
-      const LocalIndex dof = mesh.dof(node, c);
-      of_dof[dof] = {dof, c, x};
-    }
-  }
-  if (system.generalised) {
-    for (LocalIndex q = 0; q < system.owned_dofs(); ++q) watched_.push_back(q);
-  }
-  for (const Counted& counted : of_dof) {
-    if (counted.dof < 0 || system.generalised) continue;
-    counted_.push_back(counted);
-    watched_.push_back(counted.dof);
-  }
-  for (std::size_t b = 0; system.links && b < system.links->links().size(); ++b) {
-    const Link& link = system.links->links()[b];
-    Wrench& unit = links_.emplace_back();
-    for (std::size_t i = 0; i < link.point.size(); ++i) {
-      if (link.point[i] < 0) continue;
-      const Counted& counted =
-          of_dof[system.links->dofs()[static_cast<std::size_t>(link.point[i])]];
-      if (counted.dof >= 0) add_force(counted, link.weight[i], unit);
-    }
-  }
-  for (std::size_t r = 0; r < soil.size(); ++r) {
-    for (const interactions::ConstraintTerm& term : soil[r].terms) {
-      if (static_cast<std::size_t>(term.structure) != structure) continue;
-      const LocalIndex node = mesh.owned_node(term.node);
-      if (node < 0) continue;
-      const Counted& counted = of_dof[mesh.dof(node, term.component)];
-      if (counted.dof >= 0) add_force(counted, term.coefficient, soil_[r]);
-    }
-  }
-  const auto dashpots = interactions::dashpot_rows(system);
-  if (!dashpots) return;
-  braked_.resize(static_cast<std::size_t>(system.owned_dofs()));
-  for (std::size_t b = 0; b < links_.size(); ++b) {
-    for (std::size_t i = 0; i < braked_.size(); ++i) {
-      const double rate = dashpots->strengths[b] / 2 * dashpots->rows[b * braked_.size() + i];
-      for (std::size_t k = 0; k < links_[b].size(); ++k) braked_[i][k] += rate * links_[b][k];
-    }
-  }
-}
-
-void TotalForce::add(const CdLagrange& stepper, std::size_t structure,
-                     const interactions::StructureLinks* links,
-                     std::span<interactions::InelasticElements* const> inelastic,
-                     const interactions::SoilRows* soil, Wrench& total) const {
-  const StructureState& state = stepper.state().structures[structure];
-  for (const Counted& counted : counted_) {
-    double force = stepper.force(structure, counted.dof);
-    if (!state.inelastic_force.empty()) force += state.inelastic_force[counted.dof];
-    for (const auto* elements : inelastic) force += elements->force_apart(counted.dof);
-    add_force(counted, -force, total);
-  }
-  for (std::size_t b = 0; links != nullptr && b < links_.size(); ++b) {
-    const double force = links->force(b);
-    for (std::size_t k = 0; k < total.size(); ++k) total[k] -= force * links_[b][k];
-  }
-  for (std::size_t r = 0; r < soil_.size(); ++r) {
-    const double force = soil->force(r);
-    for (std::size_t k = 0; k < total.size(); ++k) total[k] -= force * soil_[r][k];
-  }
-  for (std::size_t i = 0; links == nullptr && i < braked_.size(); ++i) {
-    const double velocity = stepper.braked(structure, i);
-    for (std::size_t k = 0; k < total.size(); ++k) total[k] -= velocity * braked_[i][k];
-  }
 }
 
 }  // namespace pounding

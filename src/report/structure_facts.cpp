@@ -225,7 +225,8 @@ Facts fit_facts(const Soil& soil, const Region& region) {
       "  soil under {mat}: {table}, its middle at {centre:.6g}\n"
       "    passive springs, dashpots and masses, {hidden} hidden parts\n");
   if (soil.is_shared()) {
-    facts.say("    mat {table_mat} of {mats}; below its own springs, the other mats held\n");
+    facts.say(
+        "    mat {table_mat} of {mats}, coupled with the others; below the springs of it alone\n");
   }
   for (const FitMisfit& misfit : fit.misfits) {
     Json values{{"motions", misfit.motions},

@@ -13,7 +13,7 @@ import numpy as np
 
 import program
 import two_buildings  # noqa: F401  (puts python on the path)
-from soil_tables import coupled, write_soil
+from soil_tables import coupled, two_mats, write_parts, write_soil
 
 import pounding
 
@@ -282,6 +282,12 @@ class Kinds(unittest.TestCase):
     def test_soil_under_a_mat(self):
         self.check("-left_clamp", "none", "-left_rigid", "base", "-left_soil_mat", "base", "-left_soil_size", "6,4",
                    "-left_soil_vs", "200", "-left_soil_density", "1900", "-left_soil_poisson", "0.35")
+
+    def test_soil_that_mats_share(self):
+        table = write_parts(two_mats())
+        self.check(*(word for mat, name in enumerate(("left", "right"), 1) for word in (
+            f"-{name}_clamp", "none", f"-{name}_rigid", "base", f"-{name}_soil_mat", "base", f"-{name}_soil_table", table,
+            f"-{name}_soil_table_mat", mat)))
 
     def test_soil_from_a_table(self):
         self.check("-left_clamp", "none", "-left_rigid", "base", "-left_soil_mat", "base", "-left_soil_table",

@@ -30,7 +30,11 @@ For j In {0:2}
     Plane Surface(s) = {s};
     Transfinite Surface {s};
     Recombine Surface {s};
-    below[] = Extrude {0, 0, -depth} { Surface{s}; Layers{Ceil(depth / size - 1e-6)}; Recombine; };
+  EndFor
+EndFor
+For j In {0:2}
+  For i In {0:4}
+    below[] = Extrude {0, 0, -depth} { Surface{300 + i + 6 * j}; Layers{Ceil(depth / size - 1e-6)}; Recombine; };
     soil[] += {below[1]};
     outer[] += {below[0]};
     If (j == 0)

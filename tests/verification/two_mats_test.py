@@ -5,14 +5,18 @@ As in soil_table_test.py, bodies are shaken by one short pulse until they rest; 
 4 sin^2(omega h / 2) / h^2 in the place of omega^2.
 """
 import math
+import tempfile
 import unittest
+from pathlib import Path
 
 import numpy
 
 import program
-from decks import clock, in_modes, probes
+from decks import clock, in_modes, material, probes
 from recorded import Recorded, assert_continues, write_samples, write_sine
 from soil_tables import coupled, two_mats, write_parts, write_soil
+
+from pounding.soil import half_space  # soil_tables puts it on the path
 
 STEP, END = 1e-3, 10.0
 TESTED = 2 * math.pi * numpy.array([1.0, 2.0, 3.5, 5.0, 7.0])
@@ -201,11 +205,63 @@ class Dynamics(unittest.TestCase):
             self.assertGreater(len(run.column("impulse")), 2)
         assert_continues(self, pair(self.table, *self.joint()), 0.5, 300)
 
+    def test_meshes_cut_before(self):
+        """Pieces of meshes hold the rows between mats, and are refused for another file of soil."""
+        words = on_legs(self.table, "-left_initial_velocity", "0.1,0,0", "-end_time", 0.1)
+        whole = Recorded(self, words, 2)
+        with tempfile.TemporaryDirectory(prefix="pounding-") as place:
+            program.must_end(self, [*words, "-mesh_pieces", place, "-write_mesh_pieces", 2], ranks=2)
+            cut = Recorded(self, [*words, "-mesh_pieces", place], 2)
+            self.assertTrue(numpy.array_equal(cut.displacement("b.x"), whole.displacement("b.x")))
+            self.assertGreater(abs(cut.displacement("b.x")).max(), 1e-6)
+            with open(self.table) as file:
+                text = file.read()
+            self.addCleanup(Path(self.table).write_text, text)
+            Path(self.table).write_text(text + "# another\n")
+            program.must_refuse(self, [*words, "-mesh_pieces", place], "soil table of left", ranks=2)
+
     def test_reactions_hold_the_weight(self):
         for ranks in (1, 2):
             run = Recorded(self, pair(self.table, "-gravity", 9.81, "-preload", "static", "-end_time", 0.05, "-forces", "base",
                                       "-base_structure", "left", "-base_kind", "reactions"), ranks)
             self.assertLess(abs(run.members("base")[:, 2] / (9.81 * BODIES["left"][0]) - 1).max(), 1e-8)
+
+
+@program.long
+class SoilBlock(unittest.TestCase):
+    """Two squares of 8 x 8 m 0.6 m apart, one of which is pushed along x at 12.5 Hz: a block of soil with absorbing faces beside
+    the table of a half-space, both extended to elements and patches of no size, in which their errors are linear."""
+    FREQUENCY, MASS = 12.5, 24 * 64.0
+
+    def pushed_block(self, size):
+        words = ["-structures", "site", "-site_mesh", "tests/meshes/two_squares.geo", "-site_mesh_set",
+                 f"around=16,depth=16,size={size}", "-site_soil_element", "hex8", "-site_soil_material", "ground",
+                 *material("ground", 2.1328e8, 0.333, 2000), *material("slab", 3e10, 0.2, 24)]
+        for mat in ("one", "two"):
+            words += [f"-site_{mat}_element", "shell", f"-site_{mat}_thickness", 1, f"-site_{mat}_material", "slab"]
+        words += ["-site_rigid", "one,two", "-site_absorbing", "outer", "-site_allow_loose", "true", "-site_damping_beta", 2.55e-4,
+                  "-end_time", 0.8, "-output_interval", 1e-3, "-modes", 0, "-loads", "push", "-push_function", "harmonic",
+                  "-push_frequency", self.FREQUENCY, "-push_on", "site:one", "-push_surface_force", f"{1e6 / 64},0,0",
+                  *probes(a="site:one", b="site:two")]
+        run = Recorded(self, words, 2, identity=1e-10)
+        last = (run.time > 0.4795) & (run.time < 0.7995)  # four periods
+        turn = numpy.exp(-2j * math.pi * self.FREQUENCY * run.time[last])
+        return numpy.array([abs(2 * (run.displacement(f"{probe}.x")[last] * turn).mean()) for probe in "ab"])
+
+    def pushed_by_table(self, cells):
+        mats = [half_space.Mat((x, 0.0), (8.0, 8.0)) for x in (0.0, 8.6)]
+        table = half_space.impedances(mats, half_space.Ground(200.0, 2000.0, 0.333, 0.01), [self.FREQUENCY], cells)
+        inertia = numpy.diag([self.MASS * factor for factor in (1, 1, 1, 64 / 12, 64 / 12, 64 / 6)] * 2)
+        force = numpy.zeros(12)
+        force[0] = 1e6
+        return abs(numpy.linalg.solve(table.matrix[0] - (2 * math.pi * self.FREQUENCY)**2 * inertia, force))[[0, 6]]
+
+    def test_both_ways(self):
+        coarse, fine = self.pushed_block(1.0), self.pushed_block(0.6)
+        block = fine - (coarse - fine) * 0.6 / 0.4
+        coarse, fine = self.pushed_by_table(8), self.pushed_by_table(12)
+        table = fine - 2 * (coarse - fine)
+        self.assertLess(abs(block / table - 1).max(), 0.06, (block, table))
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@
 namespace pounding::interactions {
 namespace {
 
-[[noreturn]] void refuse(const Structure& structure, const std::string& why) {
+[[noreturn]] void refuse_table(const Structure& structure, const std::string& why) {
   throw UserError("option -" + structure.name + "_soil_table " + structure.soil->table + ": " +
                   why);
 }
@@ -22,13 +22,13 @@ std::vector<std::size_t> structures_on(const Structure& first, const Scene& scen
     if (!structure.soil || structure.soil->table != first.soil->table) continue;
     std::size_t& place = found[static_cast<std::size_t>(structure.soil->table_mat - 1)];
     if (place != none) {
-      refuse(structure, "its mat " + std::to_string(structure.soil->table_mat) + " is that of " +
-                            scene.structures[place].name + "; give -" + structure.name +
-                            "_soil_table_mat");
+      refuse_table(structure, "its mat " + std::to_string(structure.soil->table_mat) +
+                                  " is that of " + scene.structures[place].name + "; give -" +
+                                  structure.name + "_soil_table_mat");
     }
     if (structure.soil->factor != first.soil->factor) {
-      refuse(structure, "-" + structure.name + "_soil_factor differs from that of " + first.name +
-                            ", and both are on the same soil");
+      refuse_table(structure, "-" + structure.name + "_soil_factor differs from that of " +
+                                  first.name + ", and both are on the same soil");
     }
     for (const Support& support : scene.supports) {
       if (std::ranges::none_of(support.groups, [&](const SupportedGroup& item) {
@@ -36,18 +36,19 @@ std::vector<std::size_t> structures_on(const Structure& first, const Scene& scen
           })) {
         continue;
       }
-      refuse(structure, "support " + support.name +
-                            " moves a part of its ground, and soil between mats needs all of it "
-                            "on one support; give -" +
-                            support.name + "_groups " + structure.name);
+      refuse_table(structure,
+                   "support " + support.name +
+                       " moves a part of its ground, and soil between mats needs all of it "
+                       "on one support; give -" +
+                       support.name + "_groups " + structure.name);
     }
     place = s;
   }
   const auto free = std::ranges::find(found, none) - found.begin();
   if (free < static_cast<std::ptrdiff_t>(mats)) {
-    refuse(first, "its mat " + std::to_string(free + 1) +
-                      " is that of no structure; each of its mats belongs to one, by "
-                      "-<structure>_soil_table and -<structure>_soil_table_mat");
+    refuse_table(first, "its mat " + std::to_string(free + 1) +
+                            " is that of no structure; each of its mats belongs to one, by "
+                            "-<structure>_soil_table and -<structure>_soil_table_mat");
   }
   return found;
 }
@@ -81,11 +82,12 @@ std::vector<SoilRow> find_soil_rows(const Scene& scene, std::span<const GlobalMe
     }
     seen.push_back(first.soil->table);
     if (!scene.export_matrices.empty()) {
-      refuse(first, "not with -export_matrices: no matrix of a structure holds soil between mats");
+      refuse_table(first,
+                   "not with -export_matrices: no matrix of a structure holds soil between mats");
     }
     if (scene.certificate.window > 0) {
-      refuse(first,
-             "not with -fidelity_window: structures go on alone in it, and the soil is shared");
+      refuse_table(
+          first, "not with -fidelity_window: structures go on alone in it, and the soil is shared");
     }
     const std::vector<std::size_t> structures = structures_on(first, scene);
     for (const SoilPart& part : first.soil->fitted->shared) {

@@ -9,7 +9,7 @@
 
 namespace pounding::interactions {
 
-/// Rows of the soil that mats of several structures share, of all files of such soil: what acts
+/// Rows of the soil that mats of several structures share, of all files of such soil: all that acts
 /// beside the springs that K of each structure has. The foundations are laid. Throws UserError
 /// where a mat of a file is that of no structure or of two, where factors of the soil differ, and
 /// for a structure of which a support moves a part. Serial, rank 0.
