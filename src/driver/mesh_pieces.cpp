@@ -57,6 +57,10 @@ Ingredients ingredients_of(const Scene& scene,
   for (const auto& [name, value] : scene.mesh_options) list.emplace_back("option " + name, value);
   for (const Structure& structure : scene.structures) {
     list.push_back({"mesh of " + structure.name, digest_of_file(structure.mesh).sha256});
+    if (structure.soil && structure.soil->is_fitted()) {
+      list.push_back(
+          {"soil table of " + structure.name, digest_of_file(structure.soil->table).sha256});
+    }
     if (structure.initial_state.empty()) continue;
     list.push_back(
         {"initial state of " + structure.name, digest_of_file(structure.initial_state).sha256});

@@ -7,7 +7,7 @@
 #include "checks/warnings.h"
 #include "common/progress.h"
 #include "interactions/pairing/absorbing_faces.h"
-#include "interactions/pairing/soil_rows.h"
+#include "interactions/pairing/find_soil_rows.h"
 #include "mesh/find_supported_nodes.h"
 #include "mesh/gmsh_reader.h"
 #include "mesh/order_bearings.h"

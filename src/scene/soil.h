@@ -38,8 +38,8 @@ struct FittedSoil {
   std::vector<DirectedImpedance> parts;  ///< of the mat alone; they act side by side
   std::vector<FitMisfit> misfits;
   int mats = 1;  ///< that the file is for
-  /// Of several mats all that acts beside the springs `parts` of each: springs between two of them,
-  /// whose stiffness may be negative, and all dashpots, masses and hidden motions.
+  /// All that acts between several mats beside the springs `parts` of each: springs between two of
+  /// them, whose stiffness may be negative, and all dashpots, masses and hidden motions.
   std::vector<SoilPart> shared;
 };
 

@@ -46,8 +46,8 @@ struct Equilibrium {
 ///     (K + sigma M) d = M g + p + R^T f - K u - g(u),       u <- u + d,
 ///     with f such that the rows are fulfilled by u + d
 ///
-/// with p the loads as they are before the run (LoadShapes). Springs between mats on one soil are in
-/// g(u) as well.
+/// with p the loads as they are before the run (LoadShapes). Springs between mats on one soil are
+/// in g(u) as well.
 /// sigma = 1 / s2 shrinks the error by 1 / (1 + omega^2 / sigma) at a held frequency omega, and
 /// refines the solution like any correction by its residual. Slopes of laws lie between 0 and those
 /// of K, with which it converges as well, sped up by the last steps together. Forces are measured

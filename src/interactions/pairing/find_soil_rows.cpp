@@ -1,4 +1,4 @@
-#include "interactions/pairing/soil_rows.h"
+#include "interactions/pairing/find_soil_rows.h"
 
 #include <algorithm>
 
