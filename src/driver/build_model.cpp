@@ -280,7 +280,8 @@ Model build_model(MPI_Comm comm, Scene& scene, std::span<const double> stiffness
   model.buildings.resize(scene.structures.size());
   model.systems.resize(scene.structures.size());
   on_every_rank(comm, [&] { read_histories(scene, model); });
-  build_meshes(comm, scene, stiffness_factors, profile, contacts_known, splits, model);
+  build_meshes(comm, scene, stiffness_factors, profile, contacts_known,
+               scene.meshes.splits + splits, model);
   try {
     build_structures(comm, scene, profile, model);
   } catch (const UserError&) {

@@ -65,7 +65,7 @@ WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model, int spl
   WholeMeshes whole{std::vector<GlobalMesh>(count), std::vector<MatOutline>(count), splits};
   std::vector<const Structure*> structures;
   for (const Structure& structure : scene.structures) structures.push_back(&structure);
-  MeshReader reader(std::move(structures), scene.mesh_time_limit, splits);
+  MeshReader reader(std::move(structures), scene.meshes.time_limit, splits);
   for (std::size_t s = 0; s < count; ++s) {
     read_whole_mesh(comm, scene, s, reader, whole, model);
     check_mesh(scene, s, whole.meshes[s], model);

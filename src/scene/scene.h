@@ -73,6 +73,20 @@ struct StruckPlaces {
   }
 };
 
+/// How meshes are read.
+struct MeshReading {
+  double time_limit = 0;  ///< for Gmsh to make or read one of them [s]
+  int splits = 0;         ///< of every element, see mesh/split_mesh.h
+
+  static void describe(auto& option) {
+    using namespace option_words;
+    // clang-format off
+    option(&MeshReading::time_limit, "mesh_time_limit", real("s", "600", positive), "time that Gmsh may take for one mesh", free_everywhere);
+    option(&MeshReading::splits, "mesh_splits", integer("-", "0", closed(0, 4)), "times that every element is split in the middle of its edges, into 8 of a solid, 4 of a shell, 2 of a beam; bars and springs stay whole");
+    // clang-format on
+  }
+};
+
 /// How the program came to the fidelity of a run by an accepted error.
 struct FidelityClimb {
   double target = 0;                 ///< that error, rms as above [-]; 0: none
@@ -146,7 +160,7 @@ struct Scene {
   double output_interval = 0;  ///< of the probes [s]
   double gap_interval = 0;     ///< of the gaps at least; 0: with every sample of the probes [s]
   int energy_interval = 0;     ///< steps between two lines of the energy ledger
-  double mesh_time_limit = 0;  ///< for Gmsh to make or read one mesh [s]
+  MeshReading meshes;
   bool dry_run = false;
   std::string vector_unit;         ///< whose kernels compute (use_vector_unit)
   double checkpoint_interval = 0;  ///< wall time between checkpoints [s]; 0: none
@@ -189,7 +203,7 @@ struct Scene {
     option(&Scene::output_interval, "output_interval", real("s", "5e-5", positive), "time between two samples of the probes", free_in_pieces);
     option(&Scene::gap_interval, "gap_interval", real("s", "0", not_negative), "time between two samples of the gaps, not a number in between unless they were looked at anyway; 0: with every sample of the probes", free_in_pieces);
     option(&Scene::energy_interval, "energy_interval", integer("steps", "100", at_least_1), "steps between two lines of the energy balance; each takes one more product with the stiffness", free_in_pieces);
-    option(&Scene::mesh_time_limit, "mesh_time_limit", real("s", "600", positive), "time that Gmsh may take for one mesh", free_everywhere);
+    option.part(&Scene::meshes);
     option(&Scene::law_cycles, "law_cycles", reals("-", "0", "amplitudes over the first corner", not_negative), "in place of a run: takes every law of the scene through cycles of these amplitudes and writes laws.csv; 0: none");
     option(&Scene::dry_run, "dry_run", flag(false), "check the model, print the cost of a run, and stop", free_everywhere);
     option(&Scene::vector_unit, "vector_unit", word("auto|v2|v3|v4", "auto"), "whose kernels compute: v2 (SSE4.2), v3 (AVX2 and FMA), v4 (AVX-512), or the best that every rank has", free_everywhere);

@@ -34,6 +34,14 @@ class Certificate(unittest.TestCase):
         self.assertLess(self.told["mesh"]["rms"]["1-400"] / true, 2, (self.told["mesh"], true))
         self.assertEqual(self.told["governs"], "mesh")
 
+    def test_split_meshes_are_those_of_more_cells(self):
+        """`mesh_splits` of boxes in bricks: the same cells, numbered otherwise."""
+        words = [*PIERS, "-end_time", 0.05]
+        split, finer = (program.must_run(self, [*words, *more]) for more in ((*cells(1), "-mesh_splits", 1), cells(2)))
+        for name in ("tall", "low"):
+            self.assertEqual(*(run[1]["structures"][name]["dofs"] for run in (split, finer)))
+        self.assertLess(true_error(*(pounding.load(run[0]) for run in (split, finer))), 1e-6)
+
     def test_all_errors_in_one(self):
         told = self.told
         self.assertEqual(list(told["mesh"]["channels"]), list(told["channels"]))

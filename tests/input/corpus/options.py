@@ -19,7 +19,7 @@ NUMBERS = [
     refused("-courant", "0", "(0, 1]"), refused("-courant", "1.5", "(0, 1]"),
     refused("-courant", "nan", "not a finite number"), refused("-courant", "0.9.1", "not a finite number"),
     refused("-time_step", "-1e-5", ">= 0"), refused("-modes", "-3", ">= 0"),
-    refused("-modes", "2.5", "not an integer"), refused("-modes", "99999999999", "not an integer"),
+    refused("-mesh_splits", "5", "[0, 4]"), refused("-modes", "2.5", "not an integer"), refused("-modes", "99999999999", "not an integer"),
     refused("-output_interval", "0", "> 0"), refused("-energy_interval", "0", ">= 1"),
     refused("-gap_tolerance", "-1e-9", ">= 0"), refused("-impact_merge_time", "-1", ">= 0"),
     refused("-gap_interval", "nan", "not a finite number"), refused("-checkpoint_steps", "-1", ">= 0"),
