@@ -62,9 +62,10 @@ void compare_window(const SeenWindow& seen, const SteppedWindow& stepped,
   }
 }
 
-/// Adds the spread of the reduced run to the distances in the window. Collective.
-void add_spread(MPI_Comm comm, const Scene& scene, const Model& model, const SeenWindow& seen,
-                std::span<const char> moving, FidelityEstimate& estimate) {
+/// Adds the spread of the reduced run to the distances in the window; that spread. Collective.
+std::vector<ChannelDistance> add_spread(MPI_Comm comm, const Scene& scene, const Model& model,
+                                        const SeenWindow& seen, std::span<const char> moving,
+                                        FidelityEstimate& estimate) {
   const Spectra whole = spectra_of(comm, scene, model, *model.motion, {0, seen.velocities});
   std::vector<std::vector<ChannelDistance>> spread;
   for (const double sign : {1.0, -1.0}) {
@@ -83,24 +84,36 @@ void add_spread(MPI_Comm comm, const Scene& scene, const Model& model, const See
     estimate.spread[b] = rms_of_channels(spread[0], b);
     estimate.rms[b] = rms_of_channels(estimate.channels, b);
   }
+  return std::move(spread[0]);
 }
 
 /// The error of a step of full order, by half of it and, where that may be the largest error, by a
-/// quarter. Collective.
+/// quarter, and by as much of the `spread` as the impulses of the half differ. Collective.
 ErrorPart step_error(MPI_Comm comm, const Scene& scene, const Model& model,
                      const SteppedWindow& stepped, const Spectra& full, std::int64_t first,
-                     std::span<const char> moving, double reduction) {
-  const auto spectra_by = [&](int parts) {
-    return spectra_of(comm, scene, model, *model.motion, {first, stepped.run(parts).velocities});
+                     std::span<const char> moving, std::span<const ChannelDistance> spread,
+                     const FidelityEstimate& estimate) {
+  const auto spectra_of_motion = [&](const SteppedWindow::Motion& motion) {
+    return spectra_of(comm, scene, model, *model.motion, {first, motion.velocities});
   };
-  const Spectra half = spectra_by(2);
+  const SteppedWindow::Motion finer = stepped.run(2);
+  const Spectra half = spectra_of_motion(finer);
   ErrorPart part{"step", 1, false, distances(model, full, half, moving), {}};
   const double change = rms_of_channels(part.channels, 0);
   if (change > round_off && change <= far_apart &&
-      part.extrapolation() * change > may_govern * reduction) {
-    const double next = rms_of_channels(distances(model, half, spectra_by(4), moving), 0);
-    part.order = order_of(change, next);
+      part.extrapolation() * change > may_govern * estimate.rms[0]) {
+    const Spectra quarter = spectra_of_motion(stepped.run(4));
+    part.order = order_of(change, rms_of_channels(distances(model, half, quarter, moving), 0));
     part.measured = true;
+  }
+  if (estimate.full_impulse > 0) {
+    const double share = std::abs(finer.impulse / estimate.full_impulse - 1) / estimate.disturbance;
+    for (std::size_t c = 0; c < part.channels.size(); ++c) {
+      for (std::size_t b = 0; b < compared_bands.size(); ++b) {
+        double& rms = part.channels[c].rms[b];
+        rms = joined(rms, share * spread[c].rms[b]);
+      }
+    }
   }
   part.extrapolate();
   return part;
@@ -130,9 +143,10 @@ FidelityEstimate estimate_fidelity(MPI_Comm comm, const Scene& scene, const Mode
   const std::vector<char> moving = moving_channels(full);
   estimate.channels = distances(model, reduced, full, moving);
   compare_window(seen, *stepped, motion, scene, estimate);
-  add_spread(comm, scene, model, seen, moving, estimate);
+  const std::vector<ChannelDistance> spread =
+      add_spread(comm, scene, model, seen, moving, estimate);
   estimate.parts.push_back(
-      step_error(comm, scene, model, *stepped, full, first, moving, estimate.rms[0]));
+      step_error(comm, scene, model, *stepped, full, first, moving, spread, estimate));
   stepped.reset();  // the mesh that is split next takes far more
   estimate.run_time_step = model.time_step;
   if (mesh != nullptr && std::ranges::equal(mesh->channels, estimate.channels, {},
@@ -171,8 +185,7 @@ std::string without_window(const Scene& scene) {
       return "the damping ratios of modes of " + structure.name + " are none of its full order";
     }
     for (const Region& region : structure.regions) {
-      const LawTrait in_modes = structure.modal ? has_element_law : LawTrait{};
-      if ((follows_law | has_power | has_series | in_modes)(region)) {
+      if ((follows_law | has_power | has_series | has_element_law)(region)) {
         return "group " + region.group + " of " + structure.name + " is not linear";
       }
     }

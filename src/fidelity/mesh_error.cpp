@@ -16,7 +16,6 @@
 #include "elements/element_traits.h"
 #include "fidelity/stepped_window.h"
 #include "observers/observed_run.h"
-#include "scene/law_kinds.h"
 
 namespace pounding {
 namespace {
@@ -25,6 +24,9 @@ namespace {
 constexpr std::size_t shifted_modes = 10;
 /// Dofs of a mesh split twice up to which it shows the order.
 constexpr double most_twice_split = 60000;
+/// Contact points of a structure up to which each has a vector of its own on the split mesh:
+/// patches are stiffer, and not symmetric where the faces are.
+constexpr int most_points = 300;
 /// Memory of a rank that has no model, about [bytes].
 constexpr double empty_rank = 1e8;
 /// Memory of a factor over the number of dofs, by an exponent: nested dissection in space.
@@ -36,9 +38,8 @@ constexpr int modes_in_place = 100;
 /// The scene with its structures at full order reduced, as far as modes can take their place.
 Scene all_reduced(Scene scene) {
   for (Structure& structure : scene.structures) {
-    const bool apart = std::ranges::any_of(structure.regions, [](const Region& region) {
-      return region.damping.has_value() || has_element_law(region);
-    });
+    const bool apart = std::ranges::any_of(
+        structure.regions, [](const Region& region) { return region.damping.has_value(); });
     if (structure.modal || apart) continue;
     structure.modal.emplace().modes = modes_in_place;
     structure.mass_scaling = 0;
@@ -96,8 +97,8 @@ double split_dofs(const Scene& scene, const Model& model, int splits) {
   return dofs;
 }
 
-/// A reduced scene for a finer mesh: as many modes, and as many patches of its faces as `model`,
-/// the reduced one on the mesh as it is, has points there.
+/// A reduced scene for a finer mesh: as many modes, and a vector for each point of its faces, of
+/// more than some hundred as many patches as `model`, the reduced one on the mesh as it is, has.
 Scene split_scene(Scene scene, const Model& model) {
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     Structure& structure = scene.structures[s];
@@ -105,7 +106,7 @@ Scene split_scene(Scene scene, const Model& model) {
     if (!structure.matrices.empty()) continue;
     const ModalBasis* basis = model.buildings[s].basis_or_null();
     if (structure.modal->patches == 0 && basis != nullptr) {
-      structure.modal->patches = basis->attachment_vectors;
+      structure.modal->patches = std::max(basis->attachment_vectors, most_points);
     }
   }
   scene.mesh_pieces.clear();

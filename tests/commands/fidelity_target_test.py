@@ -108,6 +108,8 @@ class Estimate(unittest.TestCase):
         words = PIERS + reduced(("tall", "low"), 6, 0.2)
         program.must_refuse(self, words + ["-tall_modal_damping", 0.03], "-fidelity_window", "ratios of modes of tall")
         program.must_refuse(self, words + ["-joint_sliding", 0.1], "-fidelity_window", "faces of contact joint slide")
+        cracks = ["-options_file", "petsc-options/trade/cracking-walls.yaml", "-pier_model", "modal", "-pier_modal_vectors", 6]
+        program.must_refuse(self, cracks + window, "-fidelity_window", "group walls of storey is not linear")
 
 
 class Target(unittest.TestCase):
