@@ -55,6 +55,8 @@ TABLES = {
     "memory": told("memory.md", "benchmark", "--scenes", "memory", "--ranks", 2, "--rounds", 1),
     "instructions": told("instructions.md", "benchmark", "--instructions", "cube,slab", "--rounds", 5),
     "ensembles": told("ensembles.md", "benchmark", "--ensembles", 16, "--ranks", 1, "--rounds", 3),
+    "certificates": told("certificates.md", "tradeoff", "--scene", *sorted((SOURCE / "petsc-options" / "trade").glob("*.yaml")),
+                         "--only", "modal-25", "--only", "modal-50", "--ranks", 1),
 }
 
 

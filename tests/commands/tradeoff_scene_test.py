@@ -13,14 +13,14 @@ PROCESSORS = 2  # it starts runs
 
 
 class SceneStudy(unittest.TestCase):
-    """A second of the two small buildings: full order, half the step, and 50 modes."""
+    """Less than a second of the two small buildings: full order, half the step, and 50 modes."""
 
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.mkdtemp(prefix="pounding-")
         cls.scene = two_buildings.own_scene(cls.folder, "modes: 0\n")
         cls.out = os.path.join(cls.folder, "study")
-        cls.words = ["tradeoff", "--scene", cls.scene, "--only", "modal-50", "--estimate", 0.3, "--output", cls.out]
+        cls.words = ["tradeoff", "--scene", cls.scene, "--only", "modal-50", "--estimate", 0.2, "--splits", 0, "--window", 0.8, "--output", cls.out]
         cls.done = program.command(*cls.words)
 
     def rows(self):
@@ -50,7 +50,7 @@ class SceneStudy(unittest.TestCase):
     def test_the_options_that_it_recommends_can_be_pasted(self):
         line = next(line.split(": ", 1)[1] for line in self.done.stdout.splitlines() if line.startswith("    modal-50: "))
         self.assertEqual(line, "-left_model modal -right_model modal -left_modal_vectors 50 -right_modal_vectors 50 "
-                         "-fidelity_window 0.3 -gap_interval 0.01")
+                         "-gap_interval 0.01")
 
     def test_names_are_looked_at_before_anything_runs(self):
         out = os.path.join(self.folder, "nothing")
@@ -73,7 +73,10 @@ class SceneStudy(unittest.TestCase):
 
     def test_mistakes_are_one_line(self):
         for words, part in ((("--scene", "nothing.yaml"), "no such file"), (("--scene", self.scene, "--gap", "gap2"), "--gap"),
-                            (("--only", "modal-51"), "none of"), (("--estimate", "1"), "--scene")):
+                            (("--only", "modal-51"), "none of"), (("--estimate", "1"), "--scene"),
+                            (("--splits", "2"), "--splits: for --scene"), (("--scene", self.scene, "--splits", "3"), "choose from 0, 2"),
+                            (("--scene", self.scene, "--accuracy", "-1"), "--accuracy"),
+                            (("--scene", self.scene, self.scene), "two of one name")):
             done = program.command("tradeoff", *words)
             self.assertNotEqual(done.returncode, 0)
             self.assertIn(part, done.stderr)

@@ -17,6 +17,15 @@ class Setting:
     noise: bool = False
     shells: bool = False
 
+    @property
+    def splits(self) -> int:
+        return dict(self.changes).get("mesh_splits", 0)
+
+    @property
+    def reduces(self) -> bool:
+        """Whether it changes the equations of full order."""
+        return any(name.endswith(("_model", "_mass_scaling")) for name, _ in self.changes)
+
 
 def both(option: str, value) -> tuple:
     """The same for the two buildings."""
@@ -31,40 +40,48 @@ def of_all(structures: list, option: str, value) -> tuple:
     return tuple((f"{name}_{option}", value) for name in structures)
 
 
-def of_scene(structures: list, dofs: int, time_step: float, estimate: float | None = None) -> list:
-    """Savings for any scene: `dofs` of its largest structure bound the modes, mass is scaled for multiples of its
-    `time_step` at full order [s]. `estimate`: seconds at full order by which reduced runs estimate their errors."""
-    fast = (("courant", 0.99), RARE)
+def in_modes(structures: list, count: int, told: tuple = ()) -> tuple:
+    """Structures of a scene in so many modes, with the options that let the run tell its error."""
+    return (*of_all(structures, "model", "modal"), *of_all(structures, "modal_vectors", count), *told, RARE)
+
+
+def of_scene(structures: list, reducible: list, solids: list, dofs: int, time_step: float, told: tuple = ()) -> list:
+    """Savings for any scene: `dofs` of its largest structure bound the modes of those that are `reducible`, mass is scaled
+    for multiples of its `time_step` at full order [s], `solids` are the structures with hexahedra. `told`: options by
+    which runs estimate their errors; the mesh, the same in all, is judged by the first that is run."""
     counts = [n for n in (25, 50, 100, 200, 400, 800) if n < dofs]
     step = {factor: float(f"{factor * time_step:.3g}") for factor in (2, 4)}
-    savings = [Setting("courant-0.99", "0.99 of the stable step", (("courant", 0.99),)),
-               Setting("intervals", "gaps recorded every 0.01 s, energy ledger every 2000 steps",
-                       (RARE, ("energy_interval", 2000)))]
+    fast = (*of_all(structures, "mass_scaling", step[4]), ("courant", 0.99))
+    savings = [Setting("courant-0.99", "0.99 of the stable step", (("courant", 0.99),))]
+    if solids:
+        savings.append(Setting("single", "hexahedra in 32 bits", of_all(solids, "numbers", "single")))
     savings += [Setting(f"mass-{factor}", f"stiff members scaled for a step of {value:.3g} s",
-                        of_all(structures, "mass_scaling", value)) for factor, value in step.items()]
-    told = (("fidelity_window", estimate),) if estimate else ()
-    for n in counts:
-        reduced = (*of_all(structures, "model", "modal"), *of_all(structures, "modal_vectors", n), *told)
-        savings.append(Setting(f"modal-{n}", f"{n} modes and attachment vectors, gaps every 0.01 s", (*reduced, RARE)))
-    for n in counts:
-        reduced = (*of_all(structures, "model", "modal"), *of_all(structures, "modal_vectors", n), *told)
-        savings.append(Setting(f"modal-{n}-fast", f"{n} modes, mass scaled for {step[4]:.3g} s, 0.99 of the stable step",
-                               (*reduced, *of_all(structures, "mass_scaling", step[4]), *fast)))
+                        (*of_all(structures, "mass_scaling", value), *told)) for factor, value in step.items()]
+    savings += [Setting(f"modal-{n}", f"{n} modes and attachment vectors, gaps every 0.01 s", in_modes(reducible, n, told))
+                for n in counts]
+    savings += [Setting(f"modal-{n}-fast", f"{n} modes, mass scaled for {step[4]:.3g} s, 0.99 of the stable step",
+                        (*in_modes(reducible, n, told), *fast)) for n in counts]
     return savings
 
 
 def pasted(setting: Setting) -> str:
     """Its options as words of a command line; bases go to the working folder."""
-    words = [f"-{name} {value}".replace("{folder}/", "") for name, value in setting.changes]
+    words = [f"-{name} {value}".replace("{folder}/", "") for name, value in setting.changes
+             if not name.startswith("fidelity_")]
     return " ".join(words) + ("  (in petsc-options/azalee/pair-b.yaml)" if setting.shells else "")
 
 
 HALF_STEP = "half the time step"
 
 
-def scene_noise(time_step: float) -> list:
-    """Disturbances of any scene whose `time_step` at full order [s] may come from stability or from what it resolves."""
-    return [Setting("noise-step", HALF_STEP, (("time_step", 0.5 * time_step),), noise=True)]
+def finer(time_step: float, splits: int) -> list:
+    """Finer runs of any scene, whose `time_step` at full order [s] may come from stability or from what it resolves: half
+    the step and, with meshes split so many times, a quarter and the scene at full order on each of them."""
+    steps = [Setting("noise-step", HALF_STEP, (("time_step", f"{0.5 * time_step:.6g}"),), noise=True),
+             Setting("noise-quarter", "a quarter of it", (("time_step", f"{0.25 * time_step:.6g}"),), noise=True)]
+    meshes = [Setting(f"split-{n}", f"full order, every element split {n}x", (("mesh_splits", n),))
+              for n in range(1, splits + 1)]
+    return steps[:2 if splits else 1] + meshes
 
 
 NOISE = [
