@@ -17,7 +17,7 @@ def draw(summary: list, path, spectra: str = "floor-2", taken: tuple = ()) -> No
     full = next(row for row in summary if row["setting"] == "full")
     noise = [row["rms"] for row in summary if row["noise"] and row["rms"] > 0 and full["rms"] == 0]
     if noise:
-        what = "shaking + 0.1 %, gaps + 0.01 mm, half the step" if of_pair else "half the step"
+        what = "shaking + 0.1 %, gaps + 0.01 mm, half the step" if len(noise) > 1 else "half the step"
         axes.axhspan(min(noise), max(noise), color="#DDDDDD", zorder=0, label=f"noise floor: {what}")
     told = [full[f"told {part}"] for part in ("step", "mesh") if full.get(f"told {part}")]
     for part, line in (("step", ":"), ("mesh", "-.")):
