@@ -13,14 +13,14 @@ PROCESSORS = 2  # it starts runs
 
 
 class SceneStudy(unittest.TestCase):
-    """Less than a second of the two small buildings: full order, half the step, and 50 modes."""
+    """A second of the two small buildings: full order, half the step, and 50 modes."""
 
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.mkdtemp(prefix="pounding-")
         cls.scene = two_buildings.own_scene(cls.folder, "modes: 0\n")
         cls.out = os.path.join(cls.folder, "study")
-        cls.words = ["tradeoff", "--scene", cls.scene, "--only", "modal-50", "--estimate", 0.2, "--splits", 0, "--window", 0.8, "--output", cls.out]
+        cls.words = ["tradeoff", "--scene", cls.scene, "--only", "modal-50", "--estimate", 0.2, "--splits", 0, "--ranks", 1, "--output", cls.out]
         cls.done = program.command(*cls.words)
 
     def rows(self):
@@ -62,14 +62,14 @@ class SceneStudy(unittest.TestCase):
     def test_finished_runs_are_kept(self):
         path = os.path.join(self.out, "scene", "full", "summary.json")
         before = os.stat(path).st_mtime_ns
-        reduced = os.path.join(self.out, "scene", "modal-50")
-        with open(os.path.join(reduced, "notes.txt"), "w") as file:
+        cut = os.path.join(self.out, "scene", "noise-step")
+        with open(os.path.join(cut, "notes.txt"), "w") as file:
             file.write("a user's")
-        os.truncate(os.path.join(reduced, "spectra.csv"), 1000)
+        os.truncate(os.path.join(cut, "spectra.csv"), 1000)
         again = program.must_do(self, *self.words)
         self.assertEqual(os.stat(path).st_mtime_ns, before)
-        self.assertTrue(os.path.exists(os.path.join(reduced, "notes.txt")))
-        self.assertGreater(os.path.getsize(os.path.join(reduced, "spectra.csv")), 1000)  # run again, whole
+        self.assertTrue(os.path.exists(os.path.join(cut, "notes.txt")))
+        self.assertGreater(os.path.getsize(os.path.join(cut, "spectra.csv")), 1000)  # run again, whole
 
     def test_mistakes_are_one_line(self):
         for words, part in ((("--scene", "nothing.yaml"), "no such file"), (("--scene", self.scene, "--gap", "gap2"), "--gap"),
