@@ -15,6 +15,7 @@
 #include "modal/reduced_system.h"
 #include "model/separation.h"
 #include "model/start_at_rest.h"
+#include "model/switched_modes.h"
 #include "model/time_step.h"
 #include "observers/field_plan.h"
 #include "observers/model_file.h"
@@ -262,6 +263,7 @@ void build_structures(MPI_Comm comm, Scene& scene, Profile& profile, Model& mode
     if (leans(scene.structures[s])) build_full(comm, scene, s, profile, model);
   }
   put_at_rest(comm, scene, model.meshes, profile, model);
+  give_modes(comm, scene, model);
   find_start_gaps(scene, model);
   on_rank0(comm, [&] { model.separations = find_separations(scene, model); });
   add_model_doubts(comm, scene, model);

@@ -15,6 +15,7 @@
 #include "io/new_file.h"
 #include "modal/modal_basis_file.h"
 #include "modal/shifted_solver.h"
+#include "model/switched_modes.h"
 #include "scene/stiffness_factor.h"
 #include "statics/assembled_statics.h"
 #include "system/finite_element_system.h"
@@ -88,7 +89,7 @@ void add_link_points(MPI_Comm comm, const Structure& structure, const GlobalMesh
   for (const TracePoint& point : links) list.add(point, request.other_points);
 }
 
-/// Options of reduced structure `s`, its loads and its start, and the places where a run asks for
+/// Options of structure `s`, its loads and its start, and the places where a run asks for
 /// its motion: contacts, along and across their normals, probes, links, forces, the bases of its
 /// storeys, and every node for its fields. `mesh` is read on rank 0 only. Collective.
 ModalRequest modal_request(MPI_Comm comm, const Scene& scene, std::size_t s, const GlobalMesh& mesh,
@@ -96,27 +97,30 @@ ModalRequest modal_request(MPI_Comm comm, const Scene& scene, std::size_t s, con
   const Structure& structure = scene.structures[s];
   const auto number = static_cast<int>(s);
   ModalRequest request;
-  request.modes = structure.modal->modes;
-  request.candidates = structure.modal->candidates;
-  request.cutoff = structure.modal->cutoff;
-  request.attachment = structure.modal->attachment;
+  const ModalModel& modal = *structure.basis();
+  const bool switched = structure.switched.has_value();
+  if (switched) request.switched_part = modal.switched_part;
+  request.modes = modal.modes;
+  request.candidates = modal.candidates;
+  request.cutoff = modal.cutoff;
+  request.attachment = modal.attachment;
   request.residual =
-      structure.modal->residual &&
+      modal.residual &&
       (!scene.supports.empty() || std::ranges::any_of(scene.motion, [](const auto& component) {
         return component.has_value();
       }));
-  request.patches = structure.modal->patches;
-  if (scene.preload) request.gravity = structure.gravity;
+  request.patches = modal.patches;
+  if (scene.preload || switched) request.gravity = structure.gravity;
   PointList list(number);
   add_contact_points(model.interface, number, list, request);
   for (const ResolvedProbe& probe : model.probes) {
     if (probe.structure == number) add_node_points(probe.nodes, 3, request.other_points);
   }
   add_link_points(comm, structure, mesh, list, request);
-  if (scene.fields_interval > 0) {
+  if (scene.fields_interval > 0 || switched) {
     std::vector<GlobalIndex> all(static_cast<std::size_t>(model.meshes[s].global_nodes));
     std::iota(all.begin(), all.end(), GlobalIndex{0});
-    add_node_points(all, 3, request.shown_points);
+    add_node_points(all, switched ? 6 : 3, request.shown_points);
   }
   for (const ResolvedForce& force : model.forces) {
     if (force.structure == number) add_node_points(force.nodes, 6, request.shown_points);
@@ -147,7 +151,8 @@ void forbid_damping_matrix(const Structure& structure) {
   if (!path.empty()) {
     throw UserError("option -" + structure.name + "_matrices " + structure.matrices + ": " + path +
                     " would be lost with -" + structure.name +
-                    "_model modal; take the file away and give -" + structure.name +
+                    (structure.switched ? "_model switched" : "_model modal") +
+                    "; take the file away and give -" + structure.name +
                     "_modal_damping or _damping, or -" + structure.name + "_model full");
   }
 }
@@ -225,11 +230,13 @@ Partition share_out(const Structure& structure, const GlobalMesh& mesh, const Wo
   return partition;
 }
 
-/// Mesh of a structure on its workers: one has all of it, several share it out.
+/// Mesh of a structure on its workers: one has all of it, unless the ranks have shared it out,
+/// several share it out.
 Mesh mesh_of_workers(MPI_Comm comm, const GlobalMesh& whole, const Mesh& owners,
                      const Reduction& reduction) {
   Mesh mesh;
-  if (reduction.workers.count == 1) {
+  const bool shared_out = reduction.structure.switched && size_of(comm) > 1;
+  if (reduction.workers.count == 1 && !shared_out) {
     if (reduction.workers.hold(rank_of(comm))) mesh = owners;
   } else {
     Partition partition;
@@ -300,7 +307,9 @@ void compute(const Model& model, Profile& profile, Reduction& reduction) {
   follow_supports(model, structure, mesh, SolverChoice::automatic, system);
   const std::optional<LinearSystem> damping = with_damping_factors(model, reduction);
   if (damping) reduction.request.damping = &*damping;
+  if (structure.switched) prepare_switched(mesh, system, reduction.request);
   reduction.basis = compute_modal_basis(system, mesh, reduction.request);
+  reduction.basis.load_parts.resize(reduction.request.loads.size() * reduction.basis.size());
 }
 
 }  // namespace
@@ -310,13 +319,15 @@ void find_bases(MPI_Comm comm, const Scene& scene, std::span<const GlobalMesh> m
   const std::vector<int> owners = owners_of_reduced(size_of(comm), scene);
   std::vector<Reduction> reductions;
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
-    if (!scene.structures[s].modal) continue;
+    if (scene.structures[s].basis() == nullptr) continue;
     Reduction& reduction = reductions.emplace_back();
     reduction.s = s;
     reduction.structure = scene.structures[s];
+    reduction.structure.modal = *scene.structures[s].basis();
     reduction.structure.mass_scaling = 0;
     reduction.request = modal_request(comm, scene, s, meshes[s], model);
-    prepare(comm, meshes[s], owners[s], model, reduction);
+    const int owner = owners[s] < 0 ? static_cast<int>(s) % size_of(comm) : owners[s];
+    prepare(comm, meshes[s], owner, model, reduction);
   }
   on_every_rank(comm, [&] {
     for (Reduction& reduction : reductions) {
@@ -333,7 +344,9 @@ void find_bases(MPI_Comm comm, const Scene& scene, std::span<const GlobalMesh> m
                   [&] { write_modal_basis(file, reduction.key, reduction.basis); });
       });
     }
-    model.buildings[reduction.s].basis = std::move(reduction.basis);
+    Building& building = model.buildings[reduction.s];
+    (reduction.structure.switched ? building.open_basis : building.basis) =
+        std::move(reduction.basis);
   }
 }
 

@@ -96,6 +96,12 @@ void TimeLoop::fill(RunStatistics& statistics) const {
   statistics.complete = step() >= model_.steps;
   statistics.steps = step() + 1 - first_step_;
   for (const auto& observer : observers_->list()) observer->report(statistics);
+  if (const CdLagrange::Order& order = scheme_.stepper().order(); order.least > 0) {
+    const double share = static_cast<double>(order.steps) / static_cast<double>(step() + 1);
+    statistics.findings.add("in_modes", {{"share", share}, {"left", order.left}},
+                            "  in modes for {in_modes/share:.1f %} of the steps, which were left "
+                            "{in_modes/left} times\n");
+  }
   if (scheme_.contact() != nullptr) {
     statistics.contact_rows = scheme_.contact()->rows();
     statistics.coupled_rows = scheme_.contact()->coupled_rows();

@@ -1,7 +1,10 @@
 #include "dynamics/cd_lagrange.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 #include "common/memory.h"
@@ -9,11 +12,19 @@
 #include "dynamics/state.h"
 
 namespace pounding {
+namespace {
+
+/// Steps between two looks whether to go to modes, per coordinate. A look and the change back read
+/// Phi some times, which costs about a quarter of these steps.
+constexpr std::int64_t looks_apart = 8;
+
+}  // namespace
 
 CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
                        const GroundMotion& motion, double time_step, Profile& profile,
                        const SupportMotion* supports, const LoadHistories* loads, BatchSlot slot)
-    : systems_(systems),
+    : comm_(comm),
+      systems_(systems),
       motion_(motion),
       support_motion_(supports),
       loads_(loads),
@@ -29,11 +40,19 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
   structure_steps_ = std::vector<std::optional<StructureStep<double>>>(systems_.size());
   runs_ = std::vector<std::optional<SteppedRun<double>>>(systems_.size());
   members_ = std::vector<std::optional<BatchMember>>(systems_.size());
+  switched_.resize(systems_.size());
   for (std::size_t s = 0; s < systems_.size(); ++s) {
     StructureState& state = state_.structures[s];
     start_filters(systems_[s], time_step, state);
     if (BatchStep* const batch = slot.of(s); batch != nullptr) {
       structures_.push_back(&members_[s].emplace(*batch, slot.number, state));
+    } else if (systems_[s].switched) {
+      StructureStep<double>& step =
+          structure_steps_[s].emplace(std::array{&systems_[s]}, state, time_step);
+      switched_[s] = std::make_unique<SwitchedRun>(systems_[s], s, step, state, energy_, time_step);
+      structures_.push_back(switched_[s].get());
+      order_.least = std::max(order_.least,
+                              looks_apart * std::ssize(systems_[s].switched->system.lumped_mass));
     } else {
       structure_steps_[s].emplace(std::array{&systems_[s]}, state, time_step);
       structures_.push_back(&runs_[s].emplace(*structure_steps_[s], 0, state));
@@ -46,6 +65,7 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
     stiffness_velocity_.push_back(zeros_on_large_pages(members_[s] ? 0 : state.velocity.size()));
     rest_forces_.push_back(rest_forces(systems_[s]));
   }
+  order_.next = order_.least;
 }
 
 CdLagrange::~CdLagrange() = default;
@@ -63,11 +83,18 @@ bool CdLagrange::open(bool look_at_gap, bool with_energies) {
   with_energies_ = with_energies || energy_.needs_energies();
   move_ground();
   const interactions::Step step = at_hand(look_at_gap);
+  if (order_.least > 0 && !order_.modes && state_.step >= order_.next) try_modes();
   for (const auto& interaction : interactions_) interaction->begin(step);
+  if (order_.modes && state_.step >= order_.next && is_struck()) {
+    leave_modes();
+    for (const auto& interaction : interactions_) interaction->begin(step);
+  }
+  if (order_.modes && corrects()) throw std::logic_error("an impulse where no gap could close");
   for (std::size_t s = 0; with_energies_ && s < systems_.size(); ++s) {
-    if (rest_forces_[s].empty()) continue;
+    if (const SwitchedRun* const run = in_modes(s)) rest_before_[s] = run->about_rest();
+    if (in_modes(s) || rest_forces_[s].empty()) continue;
     structures_[s]->bring_state();
-    rest_before_[s] = about_rest(s);
+    rest_before_[s] = rest_work(rest_forces_[s], systems_[s], state_.structures[s], time_step_);
   }
   return with_energies_;
 }
@@ -75,6 +102,8 @@ bool CdLagrange::open(bool look_at_gap, bool with_energies) {
 void CdLagrange::close() {
   const interactions::Step step = at_hand(false);
   for (const auto& interaction : interactions_) interaction->push(step);
+  if (order_.modes) ++order_.steps;
+  if (corrects()) order_.struck = state_.step;
   close_energy(step);
   for (auto* structure : structures_) {
     if (with_energies_) structure->bring_state();
@@ -96,18 +125,6 @@ void CdLagrange::move_ground() {
   supports_.begin(state_.supports, force_duration_);
 }
 
-double CdLagrange::about_rest(std::size_t structure) const {
-  const std::vector<double>& held = rest_forces_[structure];
-  const std::vector<double>& rest = systems_[structure].rest_displacement;
-  const StructureState& state = state_.structures[structure];
-  double sum = 0;
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    const double mean = state.displacement[i] - time_step_ / 2 * state.velocity[i];
-    sum += held[i] * (rest[i] / 2 - mean);
-  }
-  return sum;
-}
-
 bool CdLagrange::corrects() const {
   return std::ranges::any_of(interactions_, &interactions::Interaction::corrects);
 }
@@ -117,16 +134,20 @@ void CdLagrange::free_velocity(bool with_forces) {
   const ScopedTimer timer(profile_, Phase::step);
   with_forces = with_forces || corrects();
   for (std::size_t s = 0; with_energies_ && s < systems_.size(); ++s) {
-    if (members_[s]) continue;
+    if (!at_full_order(s)) continue;
     const double* const velocity = state_.structures[s].velocity.data();
     stiffness::StoredForces store(stiffness_velocity_[s].data());
     systems_[s].stiffness->apply({velocity, velocity, 0}, store);
   }
   for (std::size_t s = 0; s < systems_.size(); ++s) {
-    if (!members_[s]) systems_[s].stiffness->start(argument(s));
+    if (at_full_order(s)) systems_[s].stiffness->start(argument(s));
   }
   for (std::size_t s = 0; s < systems_.size(); ++s) {
-    if (members_[s]) continue;
+    if (SwitchedRun* const run = in_modes(s)) {
+      run->step(force_duration_, acceleration_, with_energies_, supports_.acceleration,
+                load_values_);
+    }
+    if (!at_full_order(s)) continue;
     sums_[s].extra_damping_before = apply_extra_damping(s);
     const double* const rate = with_energies_ ? stiffness_velocity_[s].data() : nullptr;
     structure_steps_[s]->begin(force_duration_, acceleration_, {rate, with_forces},
@@ -140,8 +161,10 @@ void CdLagrange::close_energy(const interactions::Step& step) {
   const ScopedEvent event(events_.close_energy);
   for (std::size_t s = 0; s < sums_.size(); ++s) {
     const double extra_damping_before = sums_[s].extra_damping_before;
-    sums_[s] = members_[s] ? members_[s]->sums() : structure_steps_[s]->sums(0);
-    if (!members_[s]) sums_[s].extra_damping_before = extra_damping_before;
+    sums_[s] = members_[s]   ? members_[s]->sums()
+               : in_modes(s) ? switched_[s]->sums()
+                             : structure_steps_[s]->sums(0);
+    if (at_full_order(s)) sums_[s].extra_damping_before = extra_damping_before;
   }
   for (std::size_t s = 0; with_energies_ && s < sums_.size(); ++s) {
     sums_[s].rest_before = rest_before_[s];
@@ -152,7 +175,56 @@ void CdLagrange::close_energy(const interactions::Step& step) {
   ++state_.step;
 }
 
+SwitchedRun* CdLagrange::in_modes(std::size_t structure) const {
+  return order_.modes ? switched_[structure].get() : nullptr;
+}
+
+void CdLagrange::try_modes() {
+  std::int64_t struck = order_.struck;
+  MPI_Allreduce(MPI_IN_PLACE, &struck, 1, MPI_INT64_T, MPI_MAX, comm_);
+  const std::int64_t quiet = state_.step - struck;
+  order_.next = state_.step + std::max(order_.least, quiet / 2);
+  if (struck >= 0 && quiet < order_.least) order_.next = struck + order_.least;
+  // Looks cost a sixteenth of the steps, and what those in modes spared.
+  const bool affordable = order_.looks * order_.least <= state_.step / 4 + 4 * order_.steps;
+  if (order_.next == struck + order_.least || !affordable) return;
+  ++order_.looks;
+  const auto fits = [](const auto& run) { return !run || run->fits_modes(); };
+  if (!std::ranges::all_of(switched_, fits)) return;
+  for (const auto& run : switched_) {
+    if (run) run->enter_modes();
+  }
+  order_.modes = true;
+  order_.next = state_.step;
+}
+
+bool CdLagrange::is_struck() {
+  order_.next = std::numeric_limits<std::int64_t>::max();
+  for (const auto& interaction : interactions_) {
+    order_.next = std::min(order_.next, interaction->next_action());
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &order_.next, 1, MPI_INT64_T, MPI_MIN, comm_);
+  return order_.next <= state_.step;
+}
+
+void CdLagrange::leave_modes() {
+  for (const auto& run : switched_) {
+    if (run) run->leave_modes();
+  }
+  order_.modes = false;
+  order_.next = state_.step + order_.least;
+  ++order_.left;
+}
+
 void CdLagrange::save(SavedState& saved) const {
+  for (const auto& run : switched_) {
+    if (run) run->save(saved);
+  }
+  if (order_.least > 0) {
+    Order order = order_;
+    MPI_Allreduce(MPI_IN_PLACE, &order.struck, 1, MPI_INT64_T, MPI_MAX, comm_);
+    saved.put("order", to_rows(std::vector{order}, Order::members));
+  }
   state_.save(saved);
   energy_.save(saved);
   for (const auto& interaction : interactions_) interaction->save(saved);
@@ -160,6 +232,14 @@ void CdLagrange::save(SavedState& saved) const {
 
 void CdLagrange::load(const SavedState& saved) {
   state_.load(saved);
+  for (const auto& run : switched_) {
+    if (run) run->load(saved);
+  }
+  if (order_.least > 0) {
+    std::vector<Order> order{order_};
+    from_rows(saved.table("order", 0), order, Order::members);
+    order_ = order.front();
+  }
   energy_.load(saved);
   for (const auto& interaction : interactions_) interaction->load(saved);
 }

@@ -12,6 +12,7 @@
 #include "dynamics/energy_balance.h"
 #include "dynamics/state.h"
 #include "dynamics/structure_step.h"
+#include "dynamics/switched_run.h"
 #include "interactions/interaction.h"
 #include "motion/ground_motion.h"
 #include "motion/load_histories.h"
@@ -101,19 +102,47 @@ class CdLagrange {
   }
   /// Displacement over the owned dofs of a structure, in a batch as well.
   const std::vector<double>& displacement(std::size_t structure) const {
+    if (const SwitchedRun* const run = in_modes(structure)) run->bring_all();
     structures_[structure]->bring_state();
     return structures_[structure]->displacement();
+  }
+  /// Brings displacement and velocity of some owned dofs into the state of a structure in modes.
+  void bring(std::size_t structure, std::span<const LocalIndex> dofs) const {
+    structures_[structure]->bring(dofs);
+  }
+  /// q of a structure in modes, on every rank; else none.
+  std::span<const double> coordinates(std::size_t structure) const {
+    if (const SwitchedRun* const run = in_modes(structure)) return run->coordinates();
+    return {};
   }
   /// See BatchMember; in a batch, of a structure that the step brakes.
   double braked(std::size_t structure, std::size_t coordinate) const {
     return members_[structure]->braked(coordinate);
   }
 
-  /// All that the next step needs, interactions and ledger included, between two steps.
+  /// How a run changes between modes and full order, all structures that may be in modes together.
+  /// The same on all ranks but for `struck`.
+  struct Order {
+    bool modes = false;
+    std::int64_t next = 2;     ///< step in which to look next whether to change
+    std::int64_t struck = -1;  ///< last step in which this rank saw an impulse
+    std::int64_t looks = 0;    ///< whether the state fits the modes, so far
+    std::int64_t steps = 0;    ///< in modes
+    std::int64_t left = 0;     ///< times that modes were left
+    std::int64_t least = 0;    ///< steps between looks, and without an impulse before one; 0: none
+
+    static constexpr auto members = [](auto& self, const auto& take) {
+      take(self.modes, self.next, self.struck, self.looks, self.steps, self.left);
+    };
+  };
+  const Order& order() const { return order_; }
+
+  /// All that the next step needs, interactions and ledger included, between two steps. Collective.
   void save(SavedState& saved) const;
   void load(const SavedState& saved);
 
-  /// State that the next step starts from; in a batch, where a line of the ledger was asked for.
+  /// State that the next step starts from; in a batch, where a line of the ledger was asked for;
+  /// in modes what was brought.
   const State& state() const { return state_; }
   /// State of a structure as PETSc vectors.
   const StateVectors& vectors(std::size_t structure) const { return vectors_[structure]; }
@@ -131,6 +160,17 @@ class CdLagrange {
   std::span<const double> load_values() const { return load_values_; }
 
  private:
+  /// Goes to modes if nothing struck for a while and next to nothing lies outside them. Collective.
+  void try_modes();
+  /// Whether an interaction acts in this step, in modes; else when to look again. Collective.
+  bool is_struck();
+  void leave_modes();
+  /// Null at full order.
+  SwitchedRun* in_modes(std::size_t structure) const;
+  bool at_full_order(std::size_t structure) const {
+    return !members_[structure] && in_modes(structure) == nullptr;
+  }
+
   /// The step at hand, for interactions.
   interactions::Step at_hand(bool look_at_gap) const;
   /// Motion of ground and supports at t_n.
@@ -138,9 +178,6 @@ class CdLagrange {
   /// The ledger of the step.
   void close_energy(const interactions::Step& step);
 
-  /// (K u_0)^T (u_0 / 2 - u_n + dt/2 v-) of this rank [J], 0 but where uniform damping acts about a
-  /// rest.
-  double about_rest(std::size_t structure) const;
   stiffness::StiffnessArgument argument(std::size_t structure) const;
   /// Forces of the extra damping D; returns v-^T D v- [W].
   double apply_extra_damping(std::size_t structure);
@@ -150,6 +187,7 @@ class CdLagrange {
     LogEvent close_energy{"close_energy"};
   };
 
+  MPI_Comm comm_;
   std::span<const LinearSystem> systems_;
   const GroundMotion& motion_;
   const SupportMotion* support_motion_;
@@ -162,6 +200,8 @@ class CdLagrange {
   std::vector<std::optional<StructureStep<double>>> structure_steps_;
   std::vector<std::optional<SteppedRun<double>>> runs_;
   std::vector<std::optional<BatchMember>> members_;
+  std::vector<std::unique_ptr<SwitchedRun>> switched_;  ///< per structure, null: it never is
+  Order order_;
   std::vector<std::unique_ptr<interactions::Interaction>> interactions_;
   EnergyBalance energy_;
   std::vector<StepSums> sums_;

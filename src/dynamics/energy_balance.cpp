@@ -34,7 +34,8 @@ void EnergyBalance::take_energies(std::span<const StepSums> sums) {
     energies_[b] = energy(b, sums[b]);
     if (steps_ == 1) initial_ += energies_[b].energy();
   }
-  stored_work_ = stored_work(sums);
+  stored_work_ = 0;
+  for (std::size_t b = 0; b < systems_.size(); ++b) stored_work_ += stored_work(b, sums[b]);
 }
 
 void EnergyBalance::add_step(std::span<const StepSums> sums,
@@ -61,14 +62,17 @@ void EnergyBalance::add_step(std::span<const StepSums> sums,
   ++steps_;
 }
 
-double EnergyBalance::stored_work(std::span<const StepSums> sums) const {
-  double stored = 0;
-  for (std::size_t b = 0; b < systems_.size(); ++b) {
-    const double beta = systems_[b].damping.beta;
-    if (beta == 0) continue;
-    stored += sums[b].strain_back / 2 - time_step_ / 4 * beta * sums[b].stiffness_before;
-  }
-  return stored;
+double EnergyBalance::stored_work(std::size_t structure, const StepSums& sums) const {
+  const double beta = systems_[structure].damping.beta;
+  return beta == 0 ? 0 : sums.strain_back / 2 - time_step_ / 4 * beta * sums.stiffness_before;
+}
+
+void EnergyBalance::change_order(std::size_t structure, const StepSums& before,
+                                 const StepSums& after) {
+  closed_[ledger_row("switch_loss")].add(energy(structure, before).energy() -
+                                         energy(structure, after).energy());
+  closed_[ledger_row("damping_loss")].add(stored_work(structure, after) -
+                                          stored_work(structure, before));
 }
 
 void EnergyBalance::open_rows(std::span<const StepSums> sums,

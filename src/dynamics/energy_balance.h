@@ -87,6 +87,8 @@ inline constexpr auto ledger_rows = std::to_array<LedgerRow>({
     {"plastic_loss", "plastic", 1, plain<&StepSums::plastic_loss>, nullptr,
      &StepSums::plastic_loss_before, "yielding elements",
      "  yielding, damage and crushing took {plastic:.4g}\n"},
+    {"switch_loss", "switch", 1, nullptr, nullptr, nullptr, "",
+     "  left out between full order and modes {switch:.4g}\n"},  // see change_order
 });
 
 /// Number of a row; another name is no constant, and does not compile.
@@ -166,6 +168,12 @@ class EnergyBalance {
   /// structure and its ground acceleration; `with_energies`: these are among the sums.
   void add_step(std::span<const StepSums> sums, const std::array<double, 3>& ground_acceleration,
                 bool with_energies = true);
+  /// A structure's state before the next step, which is not the first, was put in place of another
+  /// one of its motion: the energies of both, as the sums of a step from there would have them. Of
+  /// this rank.
+  void change_order(std::size_t structure, const StepSums& before, const StepSums& after);
+  /// Energies of a structure before a step by its sums. Of this rank.
+  StructureEnergy energy(std::size_t structure, const StepSums& sums) const;
   /// The energies are read from the sums of the next step.
   bool needs_energies() const { return steps_ == 1; }
 
@@ -201,9 +209,8 @@ class EnergyBalance {
   void take_energies(std::span<const StepSums> sums);
   /// Opens the rows of the step just made; of the first one, those that count from it on.
   void open_rows(std::span<const StepSums> sums, const std::array<double, 3>& ground_acceleration);
-  /// Stored part of the work of q at a line, of structures with beta: above, in brackets [J].
-  double stored_work(std::span<const StepSums> sums) const;
-  StructureEnergy energy(std::size_t structure, const StepSums& sums) const;
+  /// Stored part of the work of q at a line, of a structure with beta: above, in brackets [J].
+  double stored_work(std::size_t structure, const StepSums& sums) const;
 
   MPI_Comm comm_;
   std::span<const LinearSystem> systems_;

@@ -139,4 +139,14 @@ std::vector<double> rest_forces(const LinearSystem& system) {
   return forces;
 }
 
+double rest_work(const std::vector<double>& forces, const LinearSystem& system,
+                 const StructureState& state, double time_step) {
+  double sum = 0;
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const double mean = state.displacement[i] - time_step / 2 * state.velocity[i];
+    sum += forces[i] * (system.rest_displacement[i] / 2 - mean);
+  }
+  return sum;
+}
+
 }  // namespace pounding

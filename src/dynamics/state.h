@@ -65,4 +65,8 @@ bool any_damped_about_rest(const LinearSystem& system);
 /// K u_0 of the owned dofs where that is so, else nothing [N, N m]. Collective likewise.
 std::vector<double> rest_forces(const LinearSystem& system);
 
+/// (K u_0)^T (u_0 / 2 - u_n + dt/2 v-) of these forces on this rank [J]; 0 without.
+double rest_work(const std::vector<double>& forces, const LinearSystem& system,
+                 const StructureState& state, double time_step);
+
 }  // namespace pounding

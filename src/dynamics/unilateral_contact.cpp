@@ -58,6 +58,7 @@ void UnilateralContact::detect_contact(const interactions::Step& step) {
   for (std::size_t s = 0; s < before_.size(); ++s) {
     std::span<const double> points;
     if (step.look_at_gap) points = step.structures[s]->points(problem_.trace(s));
+    step.structures[s]->bring(problem_.trace(s).dofs());
     if (points.empty()) {
       problem_.set_displacement(s, step.structures[s]->displacement().data(),
                                 step.supports.displacement);
@@ -206,7 +207,7 @@ double GapWatch::rate_bound(std::int64_t look, std::int64_t step) const {
 
 void GapWatch::looked(std::int64_t step, double clearance, bool touching) {
   if (touching) last_touch_ = step;
-  next_look_ = step + 1;
+  next_look_ = touching ? step : step + 1;
   const bool known = !touching && step > 0 && (!needs_energy_ || energy_step_ > last_touch_);
   if (!possible_ || clearance <= 0 || !known) return;
   // The bound rises with time: its value at the last step holds for all steps before.

@@ -105,6 +105,7 @@ class GapWatch {
   void looked(std::int64_t step, double clearance, bool touching);
 
   bool due(std::int64_t step) const { return step >= next_look_; }
+  std::int64_t next_look() const { return next_look_; }
   /// Whether a look that finds nothing closed is worth `measure` and `looked`: one that was made
   /// for another reason, before it was due, leaves the last bound in force where to measure costs
   /// as much as to look.
@@ -150,6 +151,9 @@ class UnilateralContact final : public interactions::Interaction {
   /// Detects contact.
   void begin(const interactions::Step& step) override;
   bool corrects() const override { return touching_; }
+  std::int64_t next_action() const override {
+    return problem_.member() ? watch_.next_look() : Interaction::next_action();
+  }
   /// Solves for the impulses, and corrects.
   void push(const interactions::Step& step) override;
   void finish(const interactions::Step& step) override;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -93,6 +94,10 @@ class SteppedStructure {
   virtual const std::vector<double>& velocity() const = 0;
   /// Brings the state of its run up to date where the step keeps it in a batch.
   virtual void bring_state() const {}
+  /// It is stepped in modes, its dashpots with it; displacement and velocity of dofs are brought
+  /// where they are asked for.
+  virtual bool in_modes() const { return false; }
+  virtual void bring(std::span<const LocalIndex> /*dofs*/) const {}
   /// u_n at the known points of a trace [m, rad], where members of a batch ask for it; else empty.
   virtual std::span<const double> points(const Trace& /*trace*/) { return {}; }
   /// Dofs that `correct` may change. Allocates; before the first step. `always`: in any step; else
@@ -139,6 +144,8 @@ class Interaction {
   virtual void begin(const Step& step) = 0;
   /// It corrects dofs in this step that are not watched always. After `begin`.
   virtual bool corrects() const { return false; }
+  /// The first step in which it may act, as far as this rank knows. After `begin`.
+  virtual std::int64_t next_action() const { return std::numeric_limits<std::int64_t>::max(); }
   /// v+ += M^-1 b^T lambda, lambda by its law; u_{n+1} follows.
   virtual void push(const Step& step) = 0;
   /// Adds the energies held and lost to the ledger, after every `push`.

@@ -104,6 +104,8 @@ class LinkRows final : public StructureLinks {
   void begin(const Step& step) override {
     const ScopedTimer timer(step.profile, Phase::step);
     const SteppedStructure& structure = *step.structures[structure_];
+    rates_known_ = rates_known_ && !structure.in_modes();
+    if (structure.in_modes()) return;
     auto& [before, now, free_after] = elongations_;
     for (const std::size_t b : in_waves_) {
       const std::vector<double>& along = links_[b].incident;
@@ -125,6 +127,7 @@ class LinkRows final : public StructureLinks {
   void push(const Step& step) override {
     const ScopedTimer timer(step.profile, Phase::step);
     SteppedStructure& structure = *step.structures[structure_];
+    if (structure.in_modes()) return;
     auto& [before, now, free_after] = elongations_;
     std::fill(force_.begin(), force_.end(), 0.0);
     if (solver_.is_idle(now, memory_)) return;
@@ -147,6 +150,7 @@ class LinkRows final : public StructureLinks {
     structure.correct(trace_.dofs(), held_, velocity_);
   }
   void finish(const Step& step) override {
+    if (step.structures[structure_]->in_modes()) return;
     LedgerPart& ledger = *step.ledger[structure_];
     const auto& [before, now, free_after] = elongations_;
     measure_carried(step.structures[structure_]->velocity(), step.supports.velocity, rate_);

@@ -282,6 +282,10 @@ BasisKey basis_key(const Structure& structure, const GlobalMesh& mesh,
   vectors.add_all(
       std::array{static_cast<double>(request.modes), request.cutoff, request.attachment ? 1. : 0.});
   if (request.residual) vectors.add("residual");
+  if (request.switched_part > 0) {
+    vectors.add("switched");
+    vectors.add(request.switched_part);
+  }
   if (request.candidates > request.modes) vectors.add(static_cast<double>(request.candidates));
   if (request.gravity != Vector3{0, 0, 0}) vectors.add_all(request.gravity);
   if (structure.p_delta) vectors.add("p_delta");

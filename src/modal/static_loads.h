@@ -30,6 +30,7 @@ struct ModalRequest {
   std::vector<SupportColumn> supports;      ///< columns of the supports' motion
   Vector3 start_displacement{0, 0, 0};      ///< of the others [m]
   Vector3 start_velocity{0, 0, 0};          ///< of the others [m/s]
+  double switched_part = 0;                 ///< of a structure that is switched [-]; 0: it is not
   /// The structure with (1 + d) / 2 of each element's stiffness, d the factor on its damping; null:
   /// all are 1.
   const LinearSystem* damping = nullptr;

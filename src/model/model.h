@@ -62,6 +62,8 @@ struct Building {
   interactions::AbsorbingReport absorbing;  ///< on rank 0 only
   std::vector<SpreadReport> spread;         ///< on rank 0 only
   std::optional<ModalBasis> basis;          ///< if the structure is reduced; no rows
+  /// If it is stepped in modes while nothing strikes it; without rows in the end.
+  std::optional<ModalBasis> open_basis;
   ModalResult modal;
   std::vector<double> mode_gaps;     ///< change of the gap of each contact row by each mode,
                                      ///< shape (modes, rows), see modes_at_contacts

@@ -1,7 +1,8 @@
 #include "observers/base_motion.h"
 
-namespace pounding {
+#include <numeric>
 
+namespace pounding {
 BaseMotion::BaseMotion(std::span<const ResolvedProbe> bases, std::span<const LinearSystem> systems,
                        std::span<const Mesh> meshes) {
   for (const ResolvedProbe& base : bases) {
@@ -26,6 +27,7 @@ BaseMotion::BaseMotion(std::span<const ResolvedProbe> bases, std::span<const Lin
         row.carried.resize(carried.size());
         for (std::size_t c = 0; c < carried.size(); ++c) row.carried[c] += share * carried[c];
       }
+      if (system.switched) row.in_modes = system.switched->weighted(row.dofs, row.weights);
     }
   }
 }
@@ -50,11 +52,15 @@ std::vector<double> probe_means(
   return rows;
 }
 
-void BaseMotion::put(const State& state, double* out) const {
+void BaseMotion::put(const CdLagrange& stepper, double* out) const {
+  const State& state = stepper.state();
   for (const Row& row : rows_) {
     const std::vector<double>& owned = state.structures[row.structure].displacement;
-    double sum = 0;
-    for (std::size_t i = 0; i < row.dofs.size(); ++i) sum += row.weights[i] * owned[row.dofs[i]];
+    const std::span<const double> q = stepper.coordinates(row.structure);
+    double sum = std::inner_product(q.begin(), q.end(), row.in_modes.begin(), 0.0);
+    for (std::size_t i = 0; q.empty() && i < row.dofs.size(); ++i) {
+      sum += row.weights[i] * owned[row.dofs[i]];
+    }
     for (std::size_t c = 0; c < row.carried.size(); ++c) {
       sum += row.carried[c] * state.supports.displacement[c];
     }

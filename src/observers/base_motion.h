@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/state.h"
+#include "dynamics/cd_lagrange.h"
 #include "mesh/mesh.h"
 #include "mesh/probe_set.h"
 #include "system/linear_system.h"
@@ -24,7 +24,7 @@ class BaseMotion {
   /// Three per base.
   std::size_t values() const { return rows_.size(); }
   /// This rank's part of the displacements, relative to the ground, shape (bases, 3) [m].
-  void put(const State& state, double* out) const;
+  void put(const CdLagrange& stepper, double* out) const;
 
  private:
   /// A component of a mean: a sum over owned dofs and over the motion of the supports.
@@ -32,7 +32,8 @@ class BaseMotion {
     std::size_t structure = 0;
     std::vector<LocalIndex> dofs;
     std::vector<double> weights;
-    std::vector<double> carried;  ///< per column of the supports' motion
+    std::vector<double> in_modes;  ///< weights of coordinates of a structure that may be in modes
+    std::vector<double> carried;   ///< per column of the supports' motion
   };
   std::vector<Row> rows_;
 };

@@ -190,6 +190,8 @@ StepNeeds FieldWriter::begin(const CdLagrange& stepper) {
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     StructureFields& fields = structures_[s];
     const std::vector<double>& moved = state.structures[s].displacement;
+    stepper.bring(s, fields.displacement.dofs());
+    if (fields.rotation) stepper.bring(s, fields.rotation->dofs());
     fields.displacement.apply(moved.data(), fields.quantities[0].owned.data(), 1,
                               state.supports.displacement);
     if (fields.rotation) {
@@ -211,6 +213,7 @@ void FieldWriter::observe(const CdLagrange& stepper) {
   const State& state = stepper.state();
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     StructureFields& fields = structures_[s];
+    stepper.bring(s, fields.displacement.dofs());
     fields.displacement.apply(state.structures[s].velocity.data(),
                               fields.quantities[1].owned.data(), 1, state.supports.velocity);
     const auto impulse = std::ranges::find(fields.quantities, "contact_impulse", &Quantity::name);

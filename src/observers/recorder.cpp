@@ -183,11 +183,12 @@ void Recorder::follow(const CdLagrange& stepper) {
   }
 }
 
-void Recorder::put(const State& state, std::vector<double> StructureState::*quantity,
+void Recorder::put(const CdLagrange& stepper, std::vector<double> StructureState::*quantity,
                    std::span<const double> supports, std::size_t offset) {
   double* const record = buffer_.data() + buffered_ * width_;
   for (StructureNodes& nodes : structures_) {
-    const std::vector<double>& owned = state.structures[nodes.structure].*quantity;
+    stepper.bring(nodes.structure, nodes.trace.dofs());
+    const std::vector<double>& owned = stepper.state().structures[nodes.structure].*quantity;
     if (nodes.mean_rows.empty()) {
       nodes.trace.apply(owned.data(), nodes.values.data(), 1, supports);
     } else {
@@ -203,14 +204,13 @@ void Recorder::put(const State& state, std::vector<double> StructureState::*quan
 
 StepNeeds Recorder::begin(const CdLagrange& stepper) {
   const State& state = stepper.state();
-  put(state, &StructureState::displacement, state.supports.displacement, 0);
-  bases_.put(state, base_values_.data());
+  put(stepper, &StructureState::displacement, state.supports.displacement, 0);
+  bases_.put(stepper, base_values_.data());
   return {};
 }
 
 void Recorder::observe(const CdLagrange& stepper) {
-  const State& state = stepper.state();
-  put(state, &StructureState::velocity, state.supports.velocity, 3);
+  put(stepper, &StructureState::velocity, stepper.state().supports.velocity, 3);
   double* out = buffer_.data() + buffered_ * width_ + values_per_node * nodes_;
   for (const RecordColumns& columns : columns_) {
     out = std::copy(columns.values.begin(), columns.values.end(), out);
@@ -239,11 +239,11 @@ std::vector<double> Recorder::gather_rows(std::size_t rows, std::vector<int>& of
 
 void Recorder::start(const CdLagrange& stepper, const SavedState* continued) {
   if (continued != nullptr) return take_over(*continued);
-  take_start(stepper.state());
+  take_start(stepper);
 }
 
-void Recorder::take_start(const State& state) {
-  put(state, &StructureState::velocity, state.supports.velocity, 3);
+void Recorder::take_start(const CdLagrange& stepper) {
+  put(stepper, &StructureState::velocity, stepper.state().supports.velocity, 3);
   std::vector<int> offsets;
   const std::vector<double> gathered = gather_rows(1, offsets);
   if (rank_of(run_.comm) != 0) return;

@@ -97,10 +97,10 @@ class Recorder final : public Observer {
 
   StructureNodes find_nodes(std::size_t structure, std::vector<GlobalIndex>& found) const;
   /// Writes a quantity of the state into the record at hand, `offset` values into each node.
-  void put(const State& state, std::vector<double> StructureState::*quantity,
+  void put(const CdLagrange& stepper, std::vector<double> StructureState::*quantity,
            std::span<const double> supports, std::size_t offset);
   /// The velocities that a run starts with.
-  void take_start(const State& state);
+  void take_start(const CdLagrange& stepper);
   void take_over(const SavedState& saved);
   void name_channels();
   RecordColumns base_columns() const;

@@ -145,6 +145,7 @@ void SlideWatch::gather(const auto& of, std::span<const double> supports) {
 StepNeeds SlideWatch::begin(const CdLagrange& stepper) {
   if (!gather_.member()) return {};
   const State& state = stepper.state();
+  for (std::size_t s = 0; s < traces_.size(); ++s) stepper.bring(s, traces_[s].dofs());
   gather([&](std::size_t s) { return state.structures[s].displacement.data(); },
          state.supports.displacement);
   look(static_cast<double>(state.step) * stepper.time_step());

@@ -5,6 +5,7 @@
 #include "checks/model_doubts.h"
 #include "common/facts_of.h"
 #include "common/types.h"
+#include "model/switched_modes.h"
 #include "report/report.h"
 #include "stability/stable_time_step.h"
 
@@ -215,8 +216,9 @@ void add_residual_facts(const ModalModel& modal, const ModalBasis& basis, Facts&
 }  // namespace
 
 Facts reduction_facts(const Building& building) {
-  const ModalModel& modal = *building.structure->modal;
-  const ModalBasis& basis = *building.basis;
+  const Structure& structure = *building.structure;
+  const ModalModel& modal = *structure.basis();
+  const ModalBasis& basis = structure.switched ? *building.open_basis : *building.basis;
   const MassScaling& scaling = building.system->mass_scaling;
   Facts facts{{{"coordinates", basis.size()},
                {"modes", basis.modes},
@@ -225,6 +227,15 @@ Facts reduction_facts(const Building& building) {
                {"mass_in_modes", mass_in_modes(basis)},
                {"largest_frequency", hertz(basis.squared_frequency.back())}}};
   if (!modal.damping_ratios.empty()) facts.add("damping_ratios", modal.damping_ratios);
+  if (structure.switched) {
+    const double omega = 2 * std::numbers::pi * highest_mode(basis);
+    const double part = modal.switched_part;
+    facts.add("switched_part", part,
+              "  switched: in modes once at most {switched_part:g} of its energy");
+    facts.add(
+        "settling_time", settling_time(*building.system, omega, part),
+        " is outside, to which motions above its highest mode fall in {settling_time:.3g} s\n");
+  }
   facts.say(
       "  modal reduction: {coordinates} generalised coordinates for {} dofs\n    {modes} modes",
       {basis.full_dofs});
@@ -240,7 +251,7 @@ Facts reduction_facts(const Building& building) {
       "mass "
       "along x, {mass_in_modes/1:.1f %} along y, {mass_in_modes/2:.1f %} along z\n"
       "    {attachment_vectors} attachment vectors{}\n",
-      {modal.attachment ? "" : " (not asked for)"});
+      {modal.attachment || structure.switched ? "" : " (not asked for)"});
   add_residual_facts(modal, basis, facts);
   facts.say("    largest frequency {largest_frequency:.4g} Hz\n");
   facts.say("[    mass scaled for a step of {:.4e} s: {} coordinates\n]",

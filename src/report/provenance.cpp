@@ -205,7 +205,9 @@ void note_model(MPI_Comm comm, const Scene& scene, std::span<const Building> bui
       for (const std::string& file : building.findings.files.opened) inputs.add("included", file);
     }
     for (const Structure& structure : scene.structures) {
-      if (structure.modal) inputs.add(structure.name + "_modal_basis", structure.modal->basis_file);
+      if (structure.basis() != nullptr) {
+        inputs.add(structure.name + "_modal_basis", structure.basis()->basis_file);
+      }
     }
     provenance.inputs = std::move(inputs.files);
   });

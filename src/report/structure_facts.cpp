@@ -289,7 +289,7 @@ Facts structure_facts(const Building& building) {
               "{mesh_waves/element_size:.3g} m of {mesh_waves/group}\n");
   }
   facts.say("  stiffness: {stiffness}\n");
-  if (building.basis) facts.add("modal", reduction_facts(building));
+  if (structure.basis() != nullptr) facts.add("modal", reduction_facts(building));
   facts.add(damping_facts(building));
   if (const auto& compression = building.compression) {
     facts.add("p_delta",

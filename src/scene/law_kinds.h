@@ -36,6 +36,7 @@ inline constexpr LawTrait is_full_order{16};
 /// Dashpots whose force is no matrix times the rates of their ends.
 inline constexpr LawTrait has_power{32};
 inline constexpr LawTrait has_series{64};
+inline constexpr LawTrait any_law{127};
 
 /// A kind of law that elements have beside K u, an option each: a line of a list in law_kinds.cpp.
 struct LawKind {

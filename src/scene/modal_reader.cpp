@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/error.h"
+#include "scene/damping_reader.h"
 
 namespace pounding {
 namespace {
@@ -16,18 +17,27 @@ constexpr std::string_view cutoff = "<structure>_modal_cutoff";
 constexpr std::string_view damping = "<structure>_modal_damping";
 constexpr std::string_view basis = "<structure>_modal_basis";
 constexpr std::string_view ranks = "<structure>_modal_ranks";
+constexpr std::string_view switched_part = "<structure>_switched_part";
 
-void refuse_couplings(const OptionReader& options, const Structure& structure) {
+/// Refuses parts of a structure that couple its modes; of one that is switched, all that a step in
+/// modes does not know.
+void refuse_couplings(const OptionReader& options, const Structure& structure,
+                      const std::string& kind) {
+  const bool switched = kind == "switched";
+  const std::string chosen = "-" + option_name(model, {structure.name});
+  const std::string remedy = "not in a structure with " + chosen + " " + kind +
+                             "; leave it out, or give " + chosen + " full";
   for (const Region& region : structure.regions) {
     const Names names{structure.name, region.group};
-    const std::string remedy = "not in a structure with -" + option_name(model, {structure.name}) +
-                               " modal; leave it out, or give -" +
-                               option_name(model, {structure.name}) + " full";
-    if (const auto* law = is_full_order.of(region)) options.forbid(law->option, names, remedy);
+    const LawTrait apart = switched ? any_law : is_full_order;
+    if (const auto* law = apart.of(region)) options.forbid(law->option, names, remedy);
+    if (switched && region.damping_factor != 1) {
+      options.refuse(region_damping_factor, names, remedy);
+    }
     if (is_nonlinear(region) && structure.uniform_damping) {
       options.forbid(
           is_nonlinear.of(region)->option, names,
-          "not with -" + option_name(model, {structure.name}) + " modal and -" + structure.name +
+          "not with " + chosen + " modal and -" + structure.name +
               "_damping_uniform, which would damp slack and yielding elements; leave one of "
               "the three out");
     }
@@ -37,17 +47,25 @@ void refuse_couplings(const OptionReader& options, const Structure& structure) {
       }
     }
   }
+  for (const char* option : {"p_delta", "mass_scaling", "time_step_target", "rigid", "diaphragm",
+                             "join", "pin", "levels", "tie", "absorbing", "absorbing_base",
+                             "soil_mat", "modal_damping", "modal_attachment", "modal_patches"}) {
+    if (!switched) break;
+    options.forbid(std::string("<structure>_") + option, {structure.name}, remedy);
+  }
 }
 
 }  // namespace
 
-std::optional<ModalModel> read_modal_model(OptionReader& options, const Structure& structure) {
+void read_model(OptionReader& options, Structure& structure) {
   const Names names{structure.name};
-  if (options.choice(model, names) == "full") {
+  const std::string kind = options.choice(model, names);
+  if (kind != "switched") options.forbid(switched_part, names, goes_with(model, names, "switched"));
+  if (kind == "full") {
     options.forbid_all<ModalModel>(names, goes_with(model, names, "modal"));
-    return std::nullopt;
+    return;
   }
-  refuse_couplings(options, structure);
+  refuse_couplings(options, structure, kind);
   ModalModel modal;
   options.read(modal, names);
   if (modal.candidates > 0 && modal.candidates < modal.modes) {
@@ -55,7 +73,7 @@ std::optional<ModalModel> read_modal_model(OptionReader& options, const Structur
                    "at least as many as -" + option_name(vectors, names) + " " +
                        std::to_string(modal.modes) + ", which are chosen from them");
   }
-  if (modal.modes == 0 && modal.cutoff == 0) {
+  if (kind == "modal" && modal.modes == 0 && modal.cutoff == 0) {
     throw UserError("option -" + option_name(model, names) + " modal: give -" +
                     option_name(vectors, names) + " (number of lowest modes) or -" +
                     option_name(cutoff, names) + " (every mode below it, in Hz)");
@@ -79,7 +97,36 @@ std::optional<ModalModel> read_modal_model(OptionReader& options, const Structur
         "several ranks do not find the same bits twice: give a file that keeps the basis (-" +
             option_name(basis, names) + ")");
   }
-  return modal;
+  if (kind == "modal") {
+    structure.modal = std::move(modal);
+    return;
+  }
+  modal.attachment = false;
+  if (modal.switched_part > 0) structure.switched = std::move(modal);
+}
+
+void check_switched(const OptionReader& options, const Scene& scene, bool ensemble) {
+  for (const Structure& structure : scene.structures) {
+    if (!structure.switched) continue;
+    std::string apart;
+    if (ensemble) apart = "-ensemble, whose members take their steps together";
+    if (scene.certificate.window > 0 || scene.fidelity.target > 0) {
+      apart = "-fidelity_window or _target, which judge a run of one order";
+    }
+    for (const Contact& contact : scene.contacts) {
+      const bool hard = !contact.filler && !contact.is_elastic();
+      if (!hard) apart = "contact " + contact.name + ", which has forces beside hard contact";
+    }
+    for (const Loop& loop : scene.loops) {
+      if (loop.structure == structure.name) apart = "loop " + loop.name;
+    }
+    for (const ForceItem& force : scene.forces) {
+      const bool of_nodes = force.kind < ForceKind::members;
+      if (of_nodes && force.structure == structure.name) apart = "force " + force.name;
+    }
+    if (apart.empty()) continue;
+    options.refuse(model, {structure.name}, "not with " + apart + "; give full");
+  }
 }
 
 }  // namespace pounding

@@ -1,15 +1,17 @@
 #pragma once
 
-#include <optional>
-
 #include "scene/option_reader.h"
 #include "scene/scene.h"
 
 namespace pounding {
 
-/// How a structure is reduced; nothing where it is not. `structure` holds its regions: dashpots,
-/// bars with tension_only and regions with damping of their own have no modes that are independent
-/// of each other, and are refused. Throws UserError.
-std::optional<ModalModel> read_modal_model(OptionReader& options, const Structure& structure);
+/// Reads how a structure is reduced, if it is. `structure` holds its regions: dashpots, bars with
+/// tension_only and regions with damping of their own have no modes that are independent of each
+/// other, and are refused. Throws UserError.
+void read_model(OptionReader& options, Structure& structure);
+
+/// Refuses what does not go with structures that are switched, once contacts, loops and forces are
+/// read. Throws UserError.
+void check_switched(const OptionReader& options, const Scene& scene, bool ensemble);
 
 }  // namespace pounding

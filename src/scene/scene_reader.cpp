@@ -12,6 +12,7 @@
 #include "scene/held_nodes_reader.h"
 #include "scene/idle_options.h"
 #include "scene/load_reader.h"
+#include "scene/modal_reader.h"
 #include "scene/motion_reader.h"
 #include "scene/option_blocks.h"
 #include "scene/option_reader.h"
@@ -80,6 +81,7 @@ class SceneReader {
     for (const std::string& name : listed_.at(OptionBlock::force)) {
       scene_.forces.push_back(read_force(options_, scene_, name));
     }
+    check_switched(options_, scene_, !ensemble_.empty());
     read_spectra();
     for (const std::string& name : listed_.at(OptionBlock::equipment)) {
       scene_.equipment.push_back(read_equipment(options_, scene_, name));
@@ -150,7 +152,7 @@ class SceneReader {
     }
     if (!scene_.mesh_pieces.empty() &&
         std::ranges::any_of(scene_.structures,
-                            [](const Structure& s) { return s.modal.has_value(); })) {
+                            [](const Structure& s) { return s.basis() != nullptr; })) {
       options_.refuse("mesh_pieces", {},
                       "a structure is reduced, and its basis needs the whole mesh");
     }
@@ -224,8 +226,9 @@ class SceneReader {
   /// A file holds the basis of one structure.
   void require_own_basis(const Structure& structure) const {
     for (const Structure& other : scene_.structures) {
-      if (structure.modal && !structure.modal->basis_file.empty() && other.modal &&
-          other.name != structure.name && other.modal->basis_file == structure.modal->basis_file) {
+      if (structure.basis() != nullptr && !structure.basis()->basis_file.empty() &&
+          other.basis() != nullptr && other.name != structure.name &&
+          other.basis()->basis_file == structure.basis()->basis_file) {
         options_.refuse("<structure>_modal_basis", {structure.name},
                         "that is the file of structure " + other.name);
       }

@@ -27,6 +27,8 @@ struct ModalModel {
                                        ///< empty: the structure's Rayleigh damping
   std::string basis_file;              ///< where the basis is kept; empty: nowhere
   int ranks = 1;                       ///< that compute the basis together, if there are so many
+  /// Part of the largest energy that may lie outside the basis where a structure goes to modes [-].
+  double switched_part = 1e-6;
 
   bool counts() const { return modes > 0; }
   bool counts_none() const { return modes == 0; }
@@ -44,6 +46,7 @@ struct ModalModel {
     option(&ModalModel::patches, "<structure>_modal_patches", integer("-", "0", closed(0, 10000)), "modal: attachment vectors of so many patches of contact points in place of one each; 0: one each", needs(&ModalModel::attaches, "not with -<structure>_modal_attachment false"));
     option(&ModalModel::damping_ratios, "<structure>_modal_damping", reals("-", absent("left out: that of the structure"), "a comma-separated list of numbers", damping_ratio), "modal: damping ratio of mode 1, 2, ..., the last one for all that follow and for vectors that are no mode");
     option(&ModalModel::basis_file, "<structure>_modal_basis", text("file", "none", "a file or none"), "modal: where the basis is kept, to be used again while the structure stays the same");
+    option(&ModalModel::switched_part, "<structure>_switched_part", real("-", "1e-6", closed(0, .01)), "switched: part of the structure's largest energy outside its basis below which it goes to modes; 0: full order throughout");
     // clang-format on
   }
 };
@@ -141,6 +144,7 @@ struct Structure {
   Rayleigh damping;
   std::optional<UniformDamping> uniform_damping;  ///< in place of Rayleigh damping, which is 0 then
   std::optional<ModalModel> modal;                ///< nothing: the finite-element model itself
+  std::optional<ModalModel> switched;     ///< likewise, in these modes while nothing strikes it
   std::optional<Soil> soil;               ///< under its mat; one of the regions is its element
   Numbers numbers = Numbers::in_double;   ///< K is that of the rounded numbers
   bool p_delta = false;                   ///< forces at rest turn with the columns
@@ -151,6 +155,8 @@ struct Structure {
   std::string initial_state;              ///< file of those of single nodes; empty: none
   Vector3 gravity{0, 0, 0};               ///< constant body acceleration [m/s2]
 
+  /// The basis that it needs; null where it needs none.
+  const ModalModel* basis() const { return modal ? &*modal : switched ? &*switched : nullptr; }
   /// Some node starts away from its place, or in motion; a file may say either.
   bool starts_displaced() const {
     return initial_displacement != Vector3{0, 0, 0} || !initial_state.empty() ||
@@ -195,7 +201,7 @@ struct Structure {
     option(&Structure::ignored_groups, "<structure>_ignore", names("none"), "physical groups of the mesh that are left out on purpose");
     option(&Structure::allow_loose, "<structure>_allow_loose", flag(false), "pieces that nothing holds, and coincident nodes that nothing joins, are meant");
     option(&Structure::matrices, "<structure>_matrices", text("folder", "none", "a folder with dofs.csv, stiffness.mtx, mass.mtx, or none"), "its matrices, in place of its elements' own; the mesh says where faces and probes are");
-    option("<structure>_model", word("full|modal", "full"), "the finite elements themselves, or a reduction to modes and attachment vectors");
+    option("<structure>_model", word("full|modal|switched", "full"), "the finite elements themselves, a reduction to modes and attachment vectors, or modes while nothing strikes and the finite elements else");
     option.template part<ModalModel>();
     option(&Structure::numbers, "<structure>_numbers", word("double|single", "double"), "numbers that hexahedra of general shape keep for their products, in 64 or 32 bits: in 32 they are read in half of the time, and frequencies move by some 1e-8");
     option(&Structure::mass_scaling, "<structure>_mass_scaling", real("s", "0", not_negative), "stable time step for which elements that allow less (not tension-only bars), or fast generalised coordinates, get mass in proportion to their stiffness; 0: none");

@@ -258,7 +258,7 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   if (structure.uniform_damping) {
     forbid_damping_beside_uniform(options, structure);
   }
-  structure.modal = read_modal_model(options, structure);
+  read_model(options, structure);
   structure.absorbing = read_absorbing(options, structure);
   forbid_mass_scaling(options, structure);
   read_step_target(options, structure);

@@ -28,6 +28,7 @@ class Links;
 struct LoadShapes;
 struct StartState;
 struct SupportShapes;
+struct SwitchedModes;
 
 /// A displacement component of a node, by numbers that do not depend on the partition.
 struct TracePoint {
@@ -81,6 +82,8 @@ struct LinearSystem {
   std::vector<interactions::RegionLaw> laws;
   /// How it follows supports that move on their own; null where the ground moves as one.
   std::shared_ptr<const SupportShapes> supports;
+  /// Modes in which it is stepped while nothing strikes it; null: it never is.
+  std::shared_ptr<const SwitchedModes> switched;
   /// Loads with a history of their own; null where none acts on it.
   std::shared_ptr<const LoadShapes> loads;
   std::shared_ptr<stiffness::Stiffness> extra_damping;  ///< D [N s/m, N m s]; null if there is none

@@ -122,7 +122,7 @@ def of_structures(options):
     lists = ("contacts", "loads", "forces", "supports")
     items = tuple(f"{name}_" for key in lists for name in options.get(key, "").split(",") if name)
     return {key: value for key, value in options.items() if not key.startswith(items) and key not in (
-        *lists, "loops", "ensemble", "mesh_pieces", "fields_interval") and not re.match(r"[ab]_(matrices|model|modal_)", key)}
+        *lists, "loops", "ensemble", "mesh_pieces", "fields_interval") and not re.match(r"[ab]_(matrices|model|modal_|switched_)", key)}
 
 
 class Cell:

@@ -187,6 +187,7 @@ FEATURES = [
     Feature("few modes", "model", {"@_model": "modal", "@_modal_vectors": 8}),
     Feature("chosen modes", "model", {"@_model": "modal", "@_modal_vectors": 8, "@_modal_candidates": 20}),
     Feature("patches of contact", "model", {"@_model": "modal", "@_modal_vectors": 8, "@_modal_patches": 2}),
+    Feature("modes between strikes", "model", {"@_model": "switched", "@_modal_vectors": 8, "@_switched_part": 1e-4}),
     Feature("matrices", "model", {"@_matrices": "$@"}),
     Feature("ensemble", "model", {"ensemble": "$members.csv", "a_model": "modal", "a_modal_vectors": 12, "b_model": "modal", "b_modal_vectors": 12}),
     Feature("mass scaling", "model", {"@_mass_scaling": 1e-3},

@@ -157,7 +157,7 @@ class Labels(unittest.TestCase):
                           "tangential_impulse", "slip", "friction_loss", "window_force"])
         self.assertEqual(list(self.fine.csv["energy.csv"]),
                          ["time", "kinetic", "strain", "damping_loss", "contact_work", "friction_loss", "input_work",
-                          "gravity_work", "load_work", "device_work", "plastic_loss", "residual"])
+                          "gravity_work", "load_work", "device_work", "plastic_loss", "switch_loss", "residual"])
         self.assertEqual(list(self.fine.csv["spectra.csv"]),
                          ["probe", "direction", "treatment", "damping", "frequency", "period", "displacement",
                           "pseudo_velocity", "pseudo_acceleration", "interval", "valid_up_to", "start", "broadening"])
@@ -261,8 +261,8 @@ class Labels(unittest.TestCase):
         column = {name: self.fine.column("energy.csv", name) for name in self.fine.csv["energy.csv"]}
         residual = column["residual"]
         terms = [column[name] for name in ("kinetic", "strain", "damping_loss", "device_work", "plastic_loss", "friction_loss",
-                                           "contact_work", "input_work")]
-        left = sum(terms[:6]) - terms[6] - terms[7] - residual
+                                           "switch_loss", "contact_work", "input_work")]
+        left = sum(terms[:7]) - terms[7] - terms[8] - residual
         largest = abs(numpy.array(terms)).max()
         self.assertLess(abs(left - left[0]).max(), 1e-12 * largest)
         self.assertLess(abs(residual).max(), 1e-10 * largest)
@@ -274,7 +274,7 @@ class Labels(unittest.TestCase):
             summary = results.summary
             for key, column in (("kinetic", "kinetic"), ("strain", "strain"), ("damping", "damping_loss"),
                                 ("contact", "contact_work"), ("friction", "friction_loss"), ("input", "input_work"), ("devices", "device_work"),
-                                ("plastic", "plastic_loss")):
+                                ("plastic", "plastic_loss"), ("switch", "switch_loss")):
                 last = results.column("energy.csv", column)[-1]
                 self.assertAlmostEqual(summary["energy"][key], last, delta=1e-9 * abs(last) + 1e-12, msg=key)
             column = {name: results.column("impacts.csv", name)
