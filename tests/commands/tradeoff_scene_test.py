@@ -76,6 +76,7 @@ class SceneStudy(unittest.TestCase):
                             (("--only", "modal-51"), "none of"), (("--estimate", "1"), "--scene"),
                             (("--splits", "2"), "--splits: for --scene"), (("--scene", self.scene, "--splits", "3"), "choose from 0, 2"),
                             (("--scene", self.scene, "--accuracy", "-1"), "--accuracy"),
+                            (("--scene", self.scene, "--accuracy", "5"), "0.05 for 5 %"),
                             (("--scene", self.scene, self.scene), "two of one name")):
             done = program.command("tradeoff", *words)
             self.assertNotEqual(done.returncode, 0)

@@ -23,7 +23,7 @@ from pounding import tables
 from pounding.arguments import positive, ranks
 from pounding.files import write_text
 from pounding.plot import tradeoff_figure
-from pounding.runs import SOURCE, Job, RunError, environment, finish, program
+from pounding.runs import SOURCE, Job, RunError, clear, environment, finish, program
 from pounding.study import alone_in, build
 from pounding.tradeoff import runs, settings, study
 from pounding.tradeoff.told import PARTS, SECONDS, Errors
@@ -66,6 +66,8 @@ def arguments() -> argparse.Namespace:
     for scene in options.scene:
         if not scene.is_file():
             parser.error(f"{scene}: no such file")
+    if (options.accuracy or 0) > 1:
+        parser.error("--accuracy: a part, 0.05 for 5 %")
     if len({scene.stem for scene in options.scene}) < len(options.scene):
         parser.error("--scene: two of one name")
     if options.scene and options.gap:
@@ -135,6 +137,7 @@ def reducible(case: runs.SceneCase, structures: list, told: tuple, options: argp
             trial = settings.Setting("trial", "", (*settings.in_modes(left, 1, words), ("dry_run", "true")))
             failure = finish(lambda: Job(case.words(trial, folder), folder / "trial", options.ranks, case.folder,
                                          environment()))
+            clear(folder / "trial")
             if not failure:
                 return left, why
             kept = [name for name in left if not re.search(rf"(?<![A-Za-z0-9]){name}(?![A-Za-z0-9])", failure)]
@@ -154,6 +157,9 @@ def scene_study(scene: Path, options: argparse.Namespace, folder: Path) -> tuple
     if not full.moving():
         raise RunError(f"{scene}: no spectrum of a probe to compare; has it probes, and does the ground move?")
     structures, step = full.summary["structures"], full.summary["time_step"]
+    reduced = [name for name, one in structures.items() if "modal" in one]
+    if reduced:
+        raise RunError(f"{scene}: {reduced[0]} is in modes; leave -{reduced[0]}_model and its options out, the study sets them")
     dofs = [one["dofs"] for one in structures.values()]
     splits = options.splits if options.splits is not None else 2 * (sum(dofs) <= SMALL)
     window = (("fidelity_window", options.estimate or 1),)
