@@ -185,7 +185,7 @@ void CdLagrange::try_modes() {
   const std::int64_t quiet = state_.step - struck;
   order_.next = state_.step + std::max(order_.least, quiet / 2);
   if (struck >= 0 && quiet < order_.least) order_.next = struck + order_.least;
-  // Looks cost a sixteenth of the steps, and what those in modes spared.
+  // Looks cost a sixteenth of the steps, and the time that those in modes spared.
   const bool affordable = order_.looks * order_.least <= state_.step / 4 + 4 * order_.steps;
   if (order_.next == struck + order_.least || !affordable) return;
   ++order_.looks;

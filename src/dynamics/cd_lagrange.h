@@ -142,7 +142,7 @@ class CdLagrange {
   void load(const SavedState& saved);
 
   /// State that the next step starts from; in a batch, where a line of the ledger was asked for;
-  /// in modes what was brought.
+  /// in modes the dofs that were brought.
   const State& state() const { return state_; }
   /// State of a structure as PETSc vectors.
   const StateVectors& vectors(std::size_t structure) const { return vectors_[structure]; }

@@ -81,7 +81,7 @@ class SwitchedRun final : public SteppedRun<double> {
   StepSums energies(const LinearSystem& system, const std::vector<double>& displacement,
                     const std::vector<double>& velocity) const;
   StepSums energies_in_modes() const;
-  /// Of the motion in modes about the rest, into the largest so far; `outside`: beside it [J].
+  /// Largest energy so far, with that of the motion in modes about the rest and `outside` [J].
   void note_energy(double outside);
 
   const LinearSystem& system_;

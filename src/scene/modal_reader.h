@@ -10,7 +10,7 @@ namespace pounding {
 /// other, and are refused. Throws UserError.
 void read_model(OptionReader& options, Structure& structure);
 
-/// Refuses what does not go with structures that are switched, once contacts, loops and forces are
+/// Refuses parts of a scene that go with no switched structure, once contacts, loops and forces are
 /// read. Throws UserError.
 void check_switched(const OptionReader& options, const Scene& scene, bool ensemble);
 

@@ -67,7 +67,7 @@ class Switched(RestartCase):
         self.assertEqual(found, {False, True})
 
     def test_buildings_on_soil_under_their_weight(self):
-        folders = [self.complete(PLANT), self.complete(switched(PLANT, 1e-5, names=("block", "frame"), modes=60))]
+        folders = [self.complete(PLANT), self.complete(switched(PLANT, 1e-5, names=("block", "frame"), modes=150))]
         self.assertGreater(in_modes(folders[1])["share"], 0.3)
         self.assertLess(program.summary(folders[1])["energy"]["relative_residual"], 1e-10)
         self.assert_close(*map(history, folders), ("displacement", "velocity"), 3e-3)
