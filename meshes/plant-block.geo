@@ -3,8 +3,9 @@
 // m: elements along a module, so that an element is about 3.05 / m wide. opening_* = 1 leaves a module
 // out of the slabs over the basement and the first storey, for stairs. post: height of a cabinet. pipe: radius
 // of a penetration through a module of the slab over the first storey, 0: none; elements along its rim are
-// `finer` times smaller than the others. The walls that face neighbours are east_face (large x) and west_face.
-DefineConstant[ m = 6, opening = 1, post = 1.8, pipe = 0, finer = 8 ];
+// `finer` times smaller than the others. pool = 1: group "pool", floor and walls of the room on the slab over the
+// basement whose outer wall faces the neighbour. The walls that face neighbours are east_face (large x) and west_face.
+DefineConstant[ m = 6, opening = 1, post = 1.8, pipe = 0, finer = 8, pool = 0 ];
 
 module = 3.048;
 count = 8;               // modules along x and along y
@@ -57,7 +58,7 @@ For k In {0:levels-1}
   EndFor
 EndFor
 
-mat() = {}; slabs() = {}; roofs() = {};
+mat() = {}; slabs() = {}; roofs() = {}; room() = {};
 basement() = {}; sides_x() = {}; sides_y() = {}; inner() = {}; outer() = {}; tower() = {}; east() = {}; west() = {};
 For k In {0:levels-1}
   For j In {0:count-1}
@@ -87,6 +88,7 @@ For k In {0:levels-1}
         Recombine Surface{s};
         roof = k == levels - 1 ||
                (k == tower_from && (i < first || i >= last || j < first || j >= last));
+        If (k == 1 && i >= 6 && j >= 4 && j < 6) room() += s; EndIf
         If (k == 0) mat() += s; ElseIf (roof) roofs() += s; Else slabs() += s; EndIf
       EndIf
     EndFor
@@ -109,6 +111,8 @@ For k In {0:levels-2}
         s = news; Plane Surface(s) = {l};
         Transfinite Surface{s}; Recombine Surface{s};
         edge = line == 0 || line == count;
+        across = way == 0 ? (line == 4 || line == 6) && run >= 6 : line >= 6 && run >= 4 && run < 6;
+        If (k == 1 && across) room() += s; EndIf
         If (k >= tower_from) tower() += s;
         ElseIf (k == 0 && edge)
           basement() += s;
@@ -132,6 +136,9 @@ Physical Surface("outer_walls") = outer();
 Physical Surface("tower_walls") = tower();
 Physical Surface("east_face") = east();
 Physical Surface("west_face") = west();
+If (pool == 1)
+  Physical Surface("pool") = room();
+EndIf
 // Where the soil meets the basement, by the axis that the walls face.
 Physical Surface("embedded_x") = sides_x();
 Physical Surface("embedded_y") = sides_y();

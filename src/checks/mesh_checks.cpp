@@ -44,12 +44,13 @@ std::string found_at(const Places& places, const char* what) {
   return std::to_string(places.count) + what + place_text(places.first);
 }
 
-/// Groups that clamps, rigid groups, soil, contacts, supports, loads and probes name, and those
-/// left out.
+/// Groups that clamps, rigid groups, soil, pools, contacts, supports, loads and probes name, and
+/// those left out.
 std::set<std::string> named_groups(const Scene& scene, const Structure& structure) {
   std::set<std::string> names(structure.ignored_groups.begin(), structure.ignored_groups.end());
   for (const Clamp& clamp : structure.clamps) names.insert(clamp.group);
   if (structure.soil) names.insert(structure.soil->mat);
+  for (const Pool& pool : structure.pools) names.insert(pool.faces.begin(), pool.faces.end());
   for (const AbsorbingFace& face : structure.absorbing) names.insert(face.group);
   for (const RigidGroup& rigid : structure.rigid_groups) {
     names.insert(rigid.group);

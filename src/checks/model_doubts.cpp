@@ -44,6 +44,7 @@ void doubt_mat(const Structure& structure, const GlobalMesh& mesh, Doubts doubts
 void doubt_springs(const Structure& structure, const GlobalMesh& mesh, Doubts doubts) {
   for (const ElementSet& set : mesh.regions) {
     if (traits_of(set.type).family != ElementFamily::spring) continue;
+    if (structure.regions[static_cast<std::size_t>(set.region)].of_water) continue;
     constexpr double along = 0.999;  // cosine
     double longest = 0;
     bool doubted = false;

@@ -51,6 +51,18 @@ void doubt_pendulums(const RunStatistics& statistics, Doubts doubts) {
   }
 }
 
+void doubt_spills(const RunStatistics& statistics, Doubts doubts) {
+  const Json& findings = statistics.findings.values;
+  if (!findings.contains("pools")) return;
+  for (const auto& [name, waves] : findings["pools"].items()) {
+    if (waves["wave_height"] <= waves["freeboard"]) continue;
+    doubts.add("pool " + name,
+               "its waves rise to {:.3g} m, over the freeboard of {:.3g} m, at {:.4g} s: it "
+               "spills, and linear waves no longer hold",
+               {waves["wave_height"], waves["freeboard"], waves["time"]});
+  }
+}
+
 void doubt_coarse_spectra(const Scene& scene, std::span<const TargetSpectrum> capacities,
                           Doubts doubts) {
   constexpr double widest = 1.1 * (1 + 1e-6);  // as Regulatory Guide 1.122 has it
@@ -186,6 +198,7 @@ std::vector<std::string> run_doubts(const Scene& scene, const Model& model,
   doubt_coarse_spectra(scene, capacities, doubts);
   doubt_closings(scene, run, doubts);
   doubt_pendulums(run, doubts);
+  doubt_spills(run, doubts);
   doubts.add(lowered_peak_warnings(scene, recorder.interval(), model.time_step));
   if (run.all_impacts.episodes > 0) doubt_sampled_peaks(scene, run.peaks, recorder, doubts);
   return lines;

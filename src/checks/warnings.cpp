@@ -34,6 +34,12 @@ void doubt_rayleigh(const std::string& owner, const Rayleigh& damping,
 }
 
 /// Uniform damping whose filters are too few, or whose band is too narrow for the modes.
+/// A mode of the water of a pool, which is damped by itself.
+bool is_wave(const Structure& structure, const Mode& mode) {
+  const int region = mode.region.region;
+  return region >= 0 && structure.regions[static_cast<std::size_t>(region)].of_water;
+}
+
 void doubt_uniform(const Structure& structure, const std::vector<Mode>& modes, Doubts doubts) {
   constexpr double large_ripple = 0.2;
   constexpr double doubtful_part = 0.8;
@@ -49,6 +55,7 @@ void doubt_uniform(const Structure& structure, const std::vector<Mode>& modes, D
     const double found = uniform.ratio_at(2 * std::numbers::pi * mode.frequency);
     const bool inside = mode.frequency >= uniform.lowest && mode.frequency <= uniform.highest;
     if (!mode.location.empty() || inside || found >= doubtful_part * uniform.ratio) continue;
+    if (is_wave(structure, mode)) continue;
     doubts.add("structure " + name,
                "a mode of {:.3g} Hz lies outside of the band of its uniform damping and has "
                "{:.3g %} of critical instead of {:.3g %}; give a wider -{}_damping_band",
@@ -282,7 +289,8 @@ std::vector<std::string> damping_warnings(const Structure& structure, const Moda
   constexpr double highest = 50;  // Hz
   std::vector<double> frequencies;
   for (const Mode& mode : modal.modes) {
-    const bool vibrates = mode.location.empty();  // else its frequency is round-off
+    // The frequency of one near zero is round-off.
+    const bool vibrates = mode.location.empty() && !is_wave(structure, mode);
     if (vibrates && (frequencies.empty() || mode.frequency <= highest)) {
       frequencies.push_back(mode.frequency);
     }
@@ -297,7 +305,8 @@ std::vector<std::string> damping_warnings(const Structure& structure, const Moda
     doubt_rayleigh(owner, structure.damping, frequencies, doubts);
   }
   for (const Region& region : structure.regions) {
-    if (by_mode || (!region.damping && region.damping_factor == 1)) continue;
+    if (by_mode || region.of_water) continue;
+    if (!region.damping && region.damping_factor == 1) continue;
     doubt_rayleigh(owner + ", group " + region.group, structure.damping_of(region), frequencies,
                    doubts);
   }

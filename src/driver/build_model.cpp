@@ -21,6 +21,7 @@
 #include "observers/model_file.h"
 #include "observers/storeys.h"
 #include "report/report.h"
+#include "scene/pool_reader.h"
 #include "scene/soil_file.h"
 #include "scene/soil_reader.h"
 #include "scene/stiffness_factor.h"
@@ -51,6 +52,7 @@ void share_findings(MPI_Comm comm, Scene& scene, WholeMeshes& whole,
                        [&](auto&... values) { broadcast_values(comm, 0, values...); });
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     Structure& structure = scene.structures[s];
+    fill_pools(whole.pools[s], structure);
     if (!structure.soil) continue;
     share_fit(comm, *structure.soil);
     lay_foundation(whole.mats[s], structure);
@@ -109,7 +111,8 @@ void read_meshes(MPI_Comm comm, Scene& scene, Profile& profile, const ContactsKn
 void build_meshes(MPI_Comm comm, Scene& scene, std::span<const double> stiffness_factors,
                   Profile& profile, const ContactsKnown& contacts_known, int splits, Model& model) {
   const std::size_t count = scene.structures.size();
-  WholeMeshes whole{std::vector<GlobalMesh>(count), std::vector<MatOutline>(count), splits};
+  WholeMeshes whole{std::vector<GlobalMesh>(count), std::vector<MatOutline>(count),
+                    std::vector<std::vector<PoolOutline>>(count), splits};
   (scene.mesh_pieces.empty() ? share_meshes : read_meshes)(comm, scene, profile, contacts_known,
                                                            whole, model);
   for (const Mesh& mesh : model.meshes) {

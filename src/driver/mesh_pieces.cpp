@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* common_kind = "pounding mesh pieces 6";
+constexpr const char* common_kind = "pounding mesh pieces 7";
 constexpr const char* piece_kind = "pounding mesh piece 1";
 
 std::string common_path(const Scene& scene) {

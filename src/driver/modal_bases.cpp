@@ -75,18 +75,22 @@ void add_contact_points(const interactions::Interface& interface, int s, PointLi
   }
 }
 
-/// Ends of links and of sections that yield. Rank 0 knows them alone, which has the mesh.
+/// Ends of links, of sections that yield and of the springs of waves. Rank 0 knows them alone,
+/// which has the mesh.
 void add_link_points(MPI_Comm comm, const Structure& structure, const GlobalMesh& mesh,
                      PointList& list, ModalRequest& request) {
   std::vector<TracePoint> links;
   std::vector<TracePoint> sections;
+  std::vector<TracePoint> waves;
   if (rank_of(comm) == 0) {
     links = link_points(structure, mesh);
     sections = section_points(structure, mesh);
+    waves = wave_points(structure, mesh);
   }
-  broadcast_values(comm, 0, links, sections);
+  broadcast_values(comm, 0, links, sections, waves);
   for (const TracePoint& point : sections) list.add(point, request.yielding_points);
   for (const TracePoint& point : links) list.add(point, request.other_points);
+  for (const TracePoint& point : waves) list.add(point, request.shown_points);
 }
 
 /// Options of structure `s`, its loads and its start, and the places where a run asks for

@@ -14,6 +14,7 @@
 #include "mesh/soil_node.h"
 #include "mesh/start_states.h"
 #include "model/applied_loads.h"
+#include "scene/pool_reader.h"
 #include "scene/soil_file.h"
 #include "scene/soil_reader.h"
 #include "system/mass_scaling.h"
@@ -52,6 +53,8 @@ void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, MeshReader& rea
     whole.mats[s] = mat_outline(structure, mesh);
     lay_foundation(whole.mats[s], structure);
   }
+  whole.pools[s] = mesh.pools;
+  fill_pools(whole.pools[s], structure);
   model.buildings[s].absorbing = interactions::find_absorbing_nodes(scene, structure, mesh);
   model.buildings[s].spread = find_spread_springs(mesh);
   order_sliding_bearings(structure, mesh);
@@ -62,7 +65,8 @@ void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, MeshReader& rea
 
 WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model, int splits) {
   const std::size_t count = scene.structures.size();
-  WholeMeshes whole{std::vector<GlobalMesh>(count), std::vector<MatOutline>(count), splits};
+  WholeMeshes whole{std::vector<GlobalMesh>(count), std::vector<MatOutline>(count),
+                    std::vector<std::vector<PoolOutline>>(count), splits};
   std::vector<const Structure*> structures;
   for (const Structure& structure : scene.structures) structures.push_back(&structure);
   MeshReader reader(std::move(structures), scene.meshes.time_limit, splits);

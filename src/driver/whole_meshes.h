@@ -16,16 +16,17 @@ namespace pounding {
 /// The meshes of a scene as rank 0 has them before they are cut, and findings in them beside the
 /// model's own part.
 struct WholeMeshes {
-  std::vector<GlobalMesh> meshes;  ///< per structure
-  std::vector<MatOutline> mats;    ///< likewise, of those on soil
-  int splits = 0;                  ///< how often their elements are split when they are read
+  std::vector<GlobalMesh> meshes;               ///< per structure
+  std::vector<MatOutline> mats;                 ///< likewise, of those on soil
+  std::vector<std::vector<PoolOutline>> pools;  ///< of each structure
+  int splits = 0;  ///< how often their elements are split when they are read
 };
 
 /// Hands all that ranks have to know of the whole meshes beside their parts to
 /// `stream(values...)`.
 void pass_shared_findings(auto& whole, auto& model, auto&& stream) {
-  stream(whole.mats, model.interface, model.probes, model.recorded, model.forces, model.loads,
-         model.starts);
+  stream(whole.mats, whole.pools, model.interface, model.probes, model.recorded, model.forces,
+         model.loads, model.starts);
 }
 
 /// The meshes of all structures, checked, with contacts, probes and forces found in them; every

@@ -42,6 +42,7 @@ struct ElementProperties {
   double drilling_factor = 1;         ///< of shells, see flat_shell.h
   double added_mass = 0;              ///< of a shell [kg/m2], of a beam or bar [kg/m]
   double mass = 0;                    ///< of a point
+  Vector3 mass_along{1, 1, 1};        ///< parts of it that move along x, y, z
   Vector3 rotary_inertia{0, 0, 0};    ///< of a point, about x, y, z
   std::array<double, 6> stiffness{};  ///< of a spring: along x, y, z, about x, y, z
   std::array<double, 6> dashpot{};    ///< of its dashpot, in the same order [N s/m, N m s]

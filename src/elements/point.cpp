@@ -8,7 +8,8 @@ namespace pounding {
 
 void point_lumped_mass(const ElementProperties& properties, std::span<double> lumped_mass) {
   for (std::size_t i = 0; i < lumped_mass.size(); ++i) {
-    lumped_mass[i] = i < 3 ? properties.mass : properties.rotary_inertia[i - 3];
+    lumped_mass[i] =
+        i < 3 ? properties.mass * properties.mass_along[i] : properties.rotary_inertia[i - 3];
   }
 }
 

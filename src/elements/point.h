@@ -9,8 +9,8 @@
 /// nodes, uncoupled along and about the global axes.
 namespace pounding {
 
-/// Mass [kg] on the displacements and, if `lumped_mass` has six entries, inertia [kg m2] on the
-/// rotations of a node.
+/// Mass [kg] on the displacements, as much of it as moves along each, and, if `lumped_mass` has six
+/// entries, inertia [kg m2] on the rotations of a node.
 void point_lumped_mass(const ElementProperties& properties, std::span<double> lumped_mass);
 
 /// Matrix of six springs (or dashpots) `values` along and about x, y, z: diagonal for one node,

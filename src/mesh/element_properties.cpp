@@ -12,7 +12,8 @@ ElementProperties element_properties(const Region& region, double share) {
   properties.rotary_inertia_factor = region.rotary_inertia_factor;
   properties.drilling_factor = region.drilling_factor;
   properties.added_mass = region.added_mass;
-  properties.mass = region.mass;
+  properties.mass = share * region.mass;
+  properties.mass_along = region.mass_along;
   properties.rotary_inertia = region.rotary_inertia;
   for (std::size_t c = 0; c < region.stiffness.size(); ++c) {
     properties.stiffness[c] = share * region.stiffness[c];

@@ -46,7 +46,7 @@ BoundingBox bounding_box(std::span<const GlobalMesh> meshes) {
 std::vector<SpreadReport> find_spread_springs(const GlobalMesh& mesh) {
   std::vector<SpreadReport> found;
   for (const ElementSet& set : mesh.regions) {
-    if (set.share.empty()) continue;
+    if (set.share.empty() || !is_grounded(set.type)) continue;
     SpreadReport& report = found.emplace_back();
     report.region = set.region;
     report.nodes = static_cast<std::int64_t>(set.tags.size());

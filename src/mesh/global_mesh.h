@@ -85,8 +85,9 @@ struct ElementSet {
   ElementType type = ElementType::hex8;
   std::vector<std::int64_t> tags;         ///< as in the file
   std::vector<GlobalIndex> connectivity;  ///< shape (n_elements, nodes of the type)
-  /// Share of each element in the length [m] or area [m2] over which its region is spread; empty
-  /// where it is not. Then elements are nodes, and have their tags.
+  /// Share of each element in the length [m] or area [m2] over which its region is spread, or in
+  /// the masses and springs of a region of water [-]; empty where there is none. Elements that are
+  /// nodes have the tags of these then.
   std::vector<double> share;
   bool inelastic = false;  ///< an element law adds to their forces
   double share_of(std::size_t element) const { return share.empty() ? 1 : share[element]; }
@@ -143,6 +144,7 @@ struct GlobalMesh : NodeMarks {
   std::map<std::string, NodeGroup> groups;
   std::vector<std::string> doubts;     ///< of ties, one line each
   std::vector<UnusedElements> unused;  ///< points do not count
+  std::vector<PoolOutline> pools;      ///< of the structure, in their order
   /// One bit per free component of a node: 0-2 translations, 3-5 rotations. Rotations exist where
   /// an element asks for them; clamped components are not free.
   std::vector<std::uint8_t> free_components;

@@ -13,6 +13,7 @@
 #include "elements/element_traits.h"
 #include "mesh/element_checks.h"
 #include "mesh/facet_point.h"
+#include "mesh/pool_water.h"
 #include "mesh/probe_set.h"
 #include "mesh/rigid_nodes.h"
 #include "mesh/soil_node.h"
@@ -86,7 +87,7 @@ class MeshBuilder {
 
   GlobalMesh build() {
     for (const Region& region : structure_.regions) {
-      if (!region.foundation && !region.at_points) read_region(region);
+      if (!region.foundation && !region.at_points && !region.of_water) read_region(region);
     }
     number_nodes();
     share_out();
@@ -98,6 +99,7 @@ class MeshBuilder {
     check_element_sizes(structure_.name, mesh_);
     check_repeated_elements(structure_.name, mesh_);
     std::ranges::move(find_unused(raw_, mesh_, taken_), std::back_inserter(mesh_.unused));
+    add_pools(structure_, mesh_);
     return std::move(mesh_);
   }
 

@@ -11,6 +11,7 @@ OutputKind contact_history_output();
 OutputKind loops_output();
 OutputKind struck_output();
 OutputKind uplift_output();
+OutputKind pool_output();
 OutputKind forces_output();
 OutputKind history_output();
 OutputKind fields_output();
@@ -31,6 +32,7 @@ const std::vector<OutputKind>& output_kinds() {
       loops_output(),
       struck_output(),
       uplift_output(),
+      pool_output(),
       forces_output(),
       history_output(),
       fields_output(),

@@ -295,7 +295,7 @@ Facts damping_facts(const Building& building) {
     facts.say("  damping ratio at 1, 10, 100, 400 Hz:{}", {told_ratios(structure.damping)});
   }
   for (const Region& region : structure.regions) {
-    if (!region.damping && region.damping_factor == 1) continue;
+    if (region.of_water || (!region.damping && region.damping_factor == 1)) continue;
     const Rayleigh damping = structure.damping_of(region);
     facts.values["region_damping"][region.group] = FACTS_OF(damping, alpha, beta);
     if (uniform || by_mode) continue;

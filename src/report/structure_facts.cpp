@@ -6,6 +6,7 @@
 #include "common/types.h"
 #include "elements/element_traits.h"
 #include "report/report.h"
+#include "scene/pool_reader.h"
 #include "scene/soil_file.h"
 #include "scene/spring_reader.h"
 
@@ -140,6 +141,38 @@ Facts rigid_facts(const Building& building) {
       facts.text += told(rigid.kind == RigidKind::tie ? ", {dofs} dofs that follow"
                                                       : ", {dofs} dofs by {motions} motions",
                          of);
+    }
+    facts.say("\n");
+  }
+  return facts;
+}
+
+/// Water of a pool: its masses against motions along x and y.
+Facts pool_facts(const Structure& structure, const Pool& pool) {
+  const double mass = pool.density * pool.outline.volume();
+  Facts facts{FACTS_OF(pool.outline, corner, sides, depth, freeboard)};
+  facts.add("mass", mass);
+  facts.say(
+      "  pool {}: {mass:.0f} kg of water, part of the mass, {depth:.4g} m deep in {sides/0} x "
+      "{sides/1} m, freeboard {freeboard:.4g} m\n",
+      {pool.name});
+  for (const std::size_t d : {0, 1}) {
+    const TankWater water = pool.water_along(d);
+    const auto part = [&](const WaterMass& of) {
+      return Json{{"mass", of.mass * mass},
+                  {"height", of.height * pool.outline.depth},
+                  {"height_with_floor", of.height_with_floor * pool.outline.depth},
+                  {"frequency", of.circular_frequency / (2 * std::numbers::pi)}};
+    };
+    Json& along = facts.values[direction_names[d]] = {{"impulsive", part(water.impulsive)}};
+    facts.text += told(
+        "    along {}: {impulsive/mass:.0f} kg with the walls, {impulsive/height:.3g} m "
+        "above the floor, waves",
+        along, {direction_names[d]});
+    for (const WaterMass& wave : water.convective) {
+      Json& of = along["waves"].emplace_back(part(wave));
+      of["damping"] = wave_damping(structure, pool, wave.circular_frequency);
+      facts.text += told(" of {frequency:.3g} Hz {mass:.0f} kg ({damping:.2g %})", of);
     }
     facts.say("\n");
   }
@@ -297,6 +330,11 @@ Facts structure_facts(const Building& building) {
               "  P-Delta: at rest up to {p_delta/largest_compression} N press {p_delta/place}\n");
   }
   if (structure.soil) facts.add("soil", soil_facts(structure));
+  for (const Pool& pool : structure.pools) {
+    const Facts water = pool_facts(structure, pool);
+    facts.values["pools"][pool.name] = water.values;
+    facts.text += water.text;
+  }
   if (!structure.absorbing.empty()) facts.add("absorbing", absorbing_facts(building));
   if (!building.spread.empty()) facts.add("spread_springs", spread_facts(building));
   facts.add(mode_facts(building));

@@ -27,6 +27,7 @@ enum class OptionBlock {
   support_motion,
   support_rotation,
   load,
+  pool,
   probe,
   span,
   force,

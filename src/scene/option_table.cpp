@@ -32,6 +32,7 @@ std::vector<OptionRow> rows_of_scene() {
   add<SupportMotionOptions>(OptionBlock::support_motion, rows);
   add<SupportRotationOptions>(OptionBlock::support_rotation, rows);
   add<Load>(OptionBlock::load, rows);
+  add<Pool>(OptionBlock::pool, rows);
   add<Probe>(OptionBlock::probe, rows);
   add<Span>(OptionBlock::span, rows);
   add<ForceItem>(OptionBlock::force, rows);
@@ -74,6 +75,7 @@ std::span<const OptionOwner> option_owners() {
       {support_motion, "support_motion", "Motion of a support along an axis", ""},
       {support_rotation, "support_rotation", "Rotation of a support about an axis", ""},
       {load, "load", "Loads, forces with a history of their own", "loads"},
+      {pool, "pool", "Pools, water in tanks of structures", "pools"},
       {probe, "probe", "Probes", "probes"},
       {span, "span", "Spans from one structure to another", "spans"},
       {force, "force", "Forces", "forces"},

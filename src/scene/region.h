@@ -83,6 +83,7 @@ struct Region {
   double added_mass = 0;             ///< shells [kg/m2], beams and bars [kg/m]
   double mass = 0;                   ///< point masses, at each node of the group [kg]
   Vector3 rotary_inertia{0, 0, 0};   ///< point masses [kg m2]
+  Vector3 mass_along{1, 1, 1};       ///< parts of their mass that move along x, y, z [-]
   /// Grounded springs: `stiffness` and `dashpot` are per length or area then.
   Spread spread = Spread::none;
   std::array<double, 6> stiffness{};  ///< springs: along and about x, y, z [N/m, N m]
@@ -97,6 +98,7 @@ struct Region {
   /// Displacement [m] and velocity [m/s] of its nodes at t = 0, in place of the structure's.
   std::optional<Vector3> initial_displacement;
   std::optional<Vector3> initial_velocity;
+  bool of_water = false;  ///< of a pool: its numbers are there once the mesh is, see fill_pools
   std::optional<Foundation> foundation;  ///< soil: empty until the mesh is read, see lay_foundation
 
   ElementFamily family() const { return traits_of(element).family; }

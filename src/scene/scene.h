@@ -184,7 +184,7 @@ struct Scene {
     option("forces", names("none"), "forces that are recorded: reactions, storeys, members, shells, cuts");
     option("supports", names("none"), "parts of the ground that move otherwise than the motion says");
     option("loads", names("none"), "forces on groups of structures beside gravity and the motion of the ground");
-    option("equipment", names("none"), "items of equipment whose capacity is set beside the spectra of their floors");
+    option("pools", names("none"), "water in tanks of the structures"); option("equipment", names("none"), "items of equipment whose capacity is set beside the spectra of their floors");
     option(&Scene::end_time, "end_time", real("s", required, positive), "duration of the run", free_of_steps);
     option(&Scene::courant, "courant", real("-", "0.9", fraction), "fraction of the stable time step that is used", free_of_steps);
     option(&Scene::time_step, "time_step", real("s", "0", not_negative), "time step; 0: courant x the stable one, or a shorter one that resolves vibrations up to the last of spectra_frequencies", free_of_steps);

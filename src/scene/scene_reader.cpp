@@ -17,6 +17,7 @@
 #include "scene/option_blocks.h"
 #include "scene/option_reader.h"
 #include "scene/option_values.h"
+#include "scene/pool_reader.h"
 #include "scene/resolved_options.h"
 #include "scene/standard_parts.h"
 #include "scene/stiffness_factor.h"
@@ -44,6 +45,7 @@ class SceneReader {
     read_run();
     for (const std::string& name : listed_.at(OptionBlock::structure)) {
       scene_.structures.push_back(read_structure(options_, name));
+      read_pools(options_, listed_.at(OptionBlock::pool), scene_.structures.back());
       stiffness_factors_.push_back(read_stiffness_factor(options_, scene_.structures.back()));
       if (!options_.given("<structure>_gravity", {name})) {
         scene_.structures.back().gravity = {0, 0, -gravity_};
@@ -52,6 +54,7 @@ class SceneReader {
       require_own_basis(scene_.structures.back());
       require_full_order(scene_.structures.back());
     }
+    require_structures_of_pools();
     for (const std::string& name : listed_.at(OptionBlock::contact)) {
       scene_.contacts.push_back(read_contact(options_, scene_, name));
     }
@@ -95,6 +98,13 @@ class SceneReader {
   }
 
  private:
+  void require_structures_of_pools() {
+    constexpr std::string_view pattern = "<pool>_structure";
+    for (const std::string& name : listed_.at(OptionBlock::pool)) {
+      named_structure(options_, scene_, pattern, {name}, options_.text(pattern, {name}));
+    }
+  }
+
   /// Gravity is a magnitude: its direction is given for single structures only.
   double read_gravity() {
     if (options_.given("gravity")) {

@@ -10,6 +10,7 @@
 #include "common/types.h"
 #include "scene/law_kinds.h"
 #include "scene/option_row.h"
+#include "scene/pool.h"
 #include "scene/soil.h"
 #include "scene/uniform_damping.h"
 
@@ -146,6 +147,7 @@ struct Structure {
   std::optional<ModalModel> modal;                ///< nothing: the finite-element model itself
   std::optional<ModalModel> switched;     ///< likewise, in these modes while nothing strikes it
   std::optional<Soil> soil;               ///< under its mat; one of the regions is its element
+  std::vector<Pool> pools;                ///< the last of the regions are their water
   Numbers numbers = Numbers::in_double;   ///< K is that of the rounded numbers
   bool p_delta = false;                   ///< forces at rest turn with the columns
   double mass_scaling = 0;                ///< step [s] for which stiff elements get mass; 0: none
@@ -180,9 +182,9 @@ struct Structure {
     const Rayleigh own = region.damping.value_or(damping);
     return {region.damping_factor * own.alpha, region.damping_factor * own.beta};
   }
-  /// A factor on the stiffness of its elements is one on its whole K: neither soil nor the forces
-  /// at rest that turn with its columns have a part in it.
-  bool scales_as_a_whole() const { return !soil && !p_delta; }
+  /// A factor on the stiffness of its elements is one on its whole K: neither soil, waves nor the
+  /// forces at rest that turn with its columns have a part in it.
+  bool scales_as_a_whole() const { return !soil && pools.empty() && !p_delta; }
 
   static void describe(auto& option) {
     using namespace option_words;

@@ -298,6 +298,10 @@ ElementSorter::Slots ElementSorter::slots(const Element& element) const {
   for (LocalIndex& dof : dofs) {
     if (dof >= 0) dof = slots_.of_dof[dof];
   }
+  const Region& region = structure_.regions[block.region];
+  for (std::size_t i = 0; region.of_water && i < dofs.size(); ++i) {
+    if (!is_spring(block.type) || region.mass_along[i % 3] == 0) dofs[i] = -1;  // no stiffness
+  }
   return dofs;
 }
 

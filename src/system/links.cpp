@@ -219,6 +219,17 @@ std::vector<TracePoint> section_points(const Structure& structure, const GlobalM
   return points;
 }
 
+std::vector<TracePoint> wave_points(const Structure& structure, const GlobalMesh& mesh) {
+  std::vector<TracePoint> points;
+  for (const ElementSet& set : mesh.regions) {
+    const Region& region = structure.regions[set.region];
+    if (!region.of_water || set.type != ElementType::spring) continue;
+    const int direction = region.mass_along[0] > 0 ? 0 : 1;
+    for (const GlobalIndex node : set.connectivity) points.push_back({node, direction});
+  }
+  return points;
+}
+
 std::vector<TracePoint> link_points(const Structure& structure, const GlobalMesh& mesh) {
   std::vector<TracePoint> points;
   for (const ElementSet& set : mesh.regions) {

@@ -90,6 +90,9 @@ class Links {
 /// some more than once.
 std::vector<TracePoint> section_points(const Structure& structure, const GlobalMesh& mesh);
 
+/// Ends of the springs of waves in pools, along these; some more than once.
+std::vector<TracePoint> wave_points(const Structure& structure, const GlobalMesh& mesh);
+
 /// Nodes of a structure's links, and components along which these may pull; some more than once.
 std::vector<TracePoint> link_points(const Structure& structure, const GlobalMesh& mesh);
 

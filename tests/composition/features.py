@@ -183,6 +183,10 @@ FEATURES = [
                                        "@_tie": "curb_foot:upside"}),
     Feature("eccentric join", "element", {"@_mast_element": "beam", "@_mast_material": "steel", "@_mast_section": "post", "@_join": "mast_foot:upside"}),
     Feature("levels", "element", {"@_levels": "upside"}),
+    Feature("pool", "element", {"@_basin_element": "shell", "@_basin_material": "concrete", "@_basin_thickness": .1, "pools": "+tank",
+                                "tank_structure": "@", "tank_faces": "basin,upside", "tank_level": 3.5, "tank_density": 1000.0,
+                                "tank_gravity": 9.80665, "tank_damping": .02}, beside="damping",
+            spared={"all modes": "in modes the structure's damping is taken off the waves by strain energy"}),
 
     Feature("few modes", "model", {"@_model": "modal", "@_modal_vectors": 8}),
     Feature("chosen modes", "model", {"@_model": "modal", "@_modal_vectors": 8, "@_modal_candidates": 20}),

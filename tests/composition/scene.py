@@ -120,6 +120,10 @@ def houses(name, groups):
     feet = [find(x, y, 0) for x, y in corners]
     prisms, tets = ((0, 1, 2, 4, 5, 6), (0, 2, 3, 4, 6, 7)), ((0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6))
 
+    rise = (3.5 - top) / 2
+    round_it = [(0, 0), (.5, 0), (1, 0), *((1, v) for v in steps[1:]), (.5, 1), (0, 1), *((0, v) for v in steps[-2::-1])]
+    edge = list(zip(round_it, round_it[1:]))
+
     def level(z):
         return "quadrangle", [[find(x, y, z) for x, y in cell] for cell in grid]
 
@@ -145,6 +149,8 @@ def houses(name, groups):
         "strut": lambda: ("line", [[find(far, 0, 0), find(far, 1, h)]]),
         "wall": lambda: ("quadrangle", [[find(x, 0, z), find(x + .5, 0, z), find(x + .5, 0, z + h / 2), find(x, 0, z + h / 2)]
                                         for x in (0, .5) for z in (0, h / 2)]),
+        "basin": lambda: ("quadrangle", [[find(*a, z), find(*b, z), find(*b, z + rise), find(*a, z + rise)] for a, b in edge
+                                         for z in (top, top + rise)]),
         "base": lambda: ("point", [[i] for i in feet]),
         "feet": lambda: ("point", [[i] for i in feet]),
         "west": lambda: ("point", [[feet[0]], [feet[3]]]),
@@ -183,7 +189,7 @@ def kept(write, kind):
     return name
 
 
-GROUPS = ("slab skewed prisms tets deck face upside column pier stay brace strut wall base feet west east pad ground pump nib block raft subgrade mast mast_foot "
+GROUPS = ("slab skewed prisms tets deck face upside column pier stay brace strut wall basin base feet west east pad ground pump nib block raft subgrade mast mast_foot "
           "bottom curb curb_foot").split()
 
 BASE = {
@@ -233,6 +239,7 @@ class Scene:
         own = f"{structure}_"
         keys = [key.removeprefix(own) for key in self.options if key.startswith(own)]
         texts = [value for key, value in self.options.items() if key.startswith((own, f"p{own}")) and isinstance(value, str)]
+        texts += [value for key, value in self.options.items() if key.endswith("_faces") and self.options[key[:-5] + "structure"] == structure]
         texts += re.findall(rf"\b{structure}:(\w+)", " ".join(v for v in self.options.values() if isinstance(v, str)))
         return {g for g in GROUPS if any(key.startswith(f"{g}_") for key in keys) or re.search(rf"\b{g}\b", " ".join(texts))}
 

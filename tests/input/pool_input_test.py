@@ -1,0 +1,40 @@
+"""What is refused of a pool: one line, exit status 1."""
+import unittest
+
+import program
+
+BASIN = ["-structures", "t", "-t_body_element", "shell", "-t_body_material", "concrete", "-t_body_thickness", .2,
+         "-material_concrete_young", 3e10, "-material_concrete_poisson", .2, "-material_concrete_density", 2400, "-t_clamp", "floor",
+         "-t_ignore", "walls,high_x,low_x,tank", "-end_time", .01, "-dry_run"]
+POOL = ["-pools", "tank", "-tank_structure", "t", "-tank_faces", "body", "-tank_level", 2.5]
+
+
+class Refused(unittest.TestCase):
+    def refused(self, words, *parts, mesh="h=3", ranks=1):
+        program.must_refuse(self, [*BASIN, "-t_mesh", "tests/meshes/basin.geo", "-t_mesh_set", mesh, *POOL, *words], *parts, ranks=ranks)
+
+    def test_options(self):
+        for option, value in (("structure", "u"), ("faces", "none"), ("faces", "body,body"), ("level", "high"), ("density", 0), ("density", -1),
+                              ("modes", 0), ("modes", 10), ("damping", 1), ("gravity", 0), ("freeboard", -1)):
+            self.refused([f"-tank_{option}", value], f"-tank_{option} {value}")
+        self.refused(["-tank_depth", 2], "-tank_depth")
+        self.refused(["-t_matrices", "somewhere"], "-tank_structure t", "-t_matrices")
+
+    def test_faces(self):
+        for ranks in (1, 2):
+            self.refused(["-tank_faces", "basin"], "-tank_faces", "'basin'", "walls", ranks=ranks)
+            self.refused(["-tank_faces", "walls"], "-tank_faces", "the floor has none", ranks=ranks)
+        self.refused(["-tank_faces", "floor"], "-tank_faces", "the wall at x = 0 m has none", "open")
+        self.refused(["-tank_faces", "tank"], "-tank_faces", "the wall at y = 0 m has none", "open", mesh="h=3,open=1")
+        self.refused(["-tank_faces", "body,high_x"], "-tank_faces", "the wall at x = 6 m has 24 m2, and as a rectangle it has 12 m2")
+        self.refused([], "-tank_faces", "no rectangle", mesh="h=3,tilt=.2")
+        self.refused([], "-tank_faces", "the wall at x = 0 m", "as a rectangle", mesh="h=3,lower=.1")
+
+    def test_level(self):
+        self.refused(["-tank_level", 3.2], "-tank_level", "z = 3 m")
+        self.refused(["-tank_level", 0], "-tank_level", "z = 0 m", "leave the pool out")
+        self.refused(["-tank_level", .5], "-tank_level", "too few rows of nodes", mesh="h=3,nz=3")
+
+
+if __name__ == "__main__":
+    unittest.main()
