@@ -54,7 +54,10 @@ void require_shared_modes(const Scene& scene, const MemberTable& table) {
     const std::string column = structure.name + "_stiffness_factor";
     if (structure.scales_as_a_whole() || std::ranges::count(table.columns, column) == 0) continue;
     throw UserError("column " + column + ": the modes of structure " + structure.name +
-                    " hold its " + (structure.soil ? "soil" : "forces at rest (p_delta)") +
+                    " hold its " +
+                    (structure.soil      ? "soil"
+                     : structure.p_delta ? "forces at rest (p_delta)"
+                                         : "waves") +
                     " as well; make an ensemble for each factor, which its scene gives, or single "
                     "runs");
   }
@@ -219,7 +222,8 @@ void lay_foundations(const Scene& scene, MemberScene& member) {
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     const std::vector<Region>& regions = scene.structures[s].regions;
     for (std::size_t r = 0; r < regions.size(); ++r) {
-      if (regions[r].foundation) member.scene.structures[s].regions[r] = regions[r];
+      if (!regions[r].foundation && !regions[r].of_water) continue;
+      member.scene.structures[s].regions[r] = regions[r];
     }
   }
 }

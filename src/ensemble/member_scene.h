@@ -33,7 +33,8 @@ void require_ensemble_scene(const Scene& scene);
 MemberScene read_member(const Scene& shared, const OptionsDatabase& scene, const MemberTable& table,
                         std::size_t member);
 
-/// Lays the foundations on soil that a scene got from its meshes into that of a member.
+/// Lays the foundations on soil and the water that a scene got from its meshes into that of a
+/// member.
 void lay_foundations(const Scene& scene, MemberScene& member);
 
 /// Gives a row the initial gap of the scene of a member, or that of the meshes, and its filler;
