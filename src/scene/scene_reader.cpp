@@ -43,18 +43,7 @@ class SceneReader {
     refuse_unknown_options(options_.database(), listed_);
     mention_structures_left_out();
     read_run();
-    for (const std::string& name : listed_.at(OptionBlock::structure)) {
-      scene_.structures.push_back(read_structure(options_, name));
-      read_pools(options_, listed_.at(OptionBlock::pool), scene_.structures.back());
-      stiffness_factors_.push_back(read_stiffness_factor(options_, scene_.structures.back()));
-      if (!options_.given("<structure>_gravity", {name})) {
-        scene_.structures.back().gravity = {0, 0, -gravity_};
-      }
-      require_one_start(scene_.structures.back());
-      require_own_basis(scene_.structures.back());
-      require_full_order(scene_.structures.back());
-    }
-    require_structures_of_pools();
+    read_structures();
     for (const std::string& name : listed_.at(OptionBlock::contact)) {
       scene_.contacts.push_back(read_contact(options_, scene_, name));
     }
@@ -98,6 +87,21 @@ class SceneReader {
   }
 
  private:
+  void read_structures() {
+    for (const std::string& name : listed_.at(OptionBlock::structure)) {
+      scene_.structures.push_back(read_structure(options_, name));
+      read_pools(options_, listed_.at(OptionBlock::pool), scene_.structures.back());
+      stiffness_factors_.push_back(read_stiffness_factor(options_, scene_.structures.back()));
+      if (!options_.given("<structure>_gravity", {name})) {
+        scene_.structures.back().gravity = {0, 0, -gravity_};
+      }
+      require_one_start(scene_.structures.back());
+      require_own_basis(scene_.structures.back());
+      require_full_order(scene_.structures.back());
+    }
+    require_structures_of_pools();
+  }
+
   void require_structures_of_pools() {
     constexpr std::string_view pattern = "<pool>_structure";
     for (const std::string& name : listed_.at(OptionBlock::pool)) {

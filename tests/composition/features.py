@@ -81,9 +81,9 @@ def soil(*_):
 def shared_soil_file():
     whole = two_mats()
     for matrix in (whole.stiffness, whole.dashpots, whole.masses):
-        matrix /= 10
+        matrix /= 100
     for part in whole.hidden:
-        part.dashpot, part.spring, part.mass = part.dashpot / 10, part.spring / 10, part.mass / 10
+        part.dashpot, part.spring, part.mass = part.dashpot / 100, part.spring / 100, part.mass / 100
     return write_parts(whole)
 
 
