@@ -33,7 +33,7 @@ from .process import called, parser_of
 NAME = called("run/tradeoff")
 GOES_ON = True
 NAMES = [setting.name for setting in settings.SAVINGS]
-SCENE_NAMES = [setting.name for setting in settings.of_scene([], [], ["any"], sys.maxsize, 1.0)]  # with any number of dofs
+SCENE_NAMES = [setting.name for setting in settings.of_scene([], ["any"], ["any"], sys.maxsize, 1.0)]  # with any number of dofs
 SMALL = 3000  # dofs of a scene that is run on the mesh split twice as well, of bricks with 64 times as many
 
 

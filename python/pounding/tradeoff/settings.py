@@ -55,6 +55,8 @@ def of_scene(structures: list, reducible: list, solids: list, dofs: int, time_st
     savings = [Setting("courant-0.99", "0.99 of the stable step", (("courant", 0.99),))]
     if solids:
         savings.append(Setting("single", "hexahedra in 32 bits", of_all(solids, "numbers", "single")))
+    if reducible:
+        savings.append(Setting("switched", "modes between strikes, full order else", of_all(reducible, "model", "switched")))
     savings += [Setting(f"mass-{factor}", f"stiff members scaled for a step of {value:.3g} s",
                         (*of_all(structures, "mass_scaling", value), *told)) for factor, value in step.items()]
     savings += [Setting(f"modal-{n}", f"{n} modes and attachment vectors, gaps every 0.01 s", in_modes(reducible, n, told))
