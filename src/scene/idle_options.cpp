@@ -12,19 +12,6 @@ namespace {
 
 using Names = OptionReader::Names;
 
-/// Whether a value equals the default, in other digits perhaps.
-bool is_preset(const OptionRow& row, const std::string& value) {
-  if (!row.preset.has_value) return false;
-  const auto numbers = parse_reals(value);
-  const auto preset = parse_reals(std::string(row.preset.text));
-  if (numbers && preset) return *numbers == *preset;
-  const auto flag = parse_boolean(value);
-  if (row.kind == OptionKind::boolean && flag) {
-    return flag == parse_boolean(std::string(row.preset.text));
-  }
-  return value == row.preset.text;
-}
-
 /// Collects options without effect.
 class IdleOptions {
  public:
@@ -167,6 +154,18 @@ class IdleOptions {
 };
 
 }  // namespace
+
+bool is_preset(const OptionRow& row, const std::string& value) {
+  if (!row.preset.has_value) return false;
+  const auto numbers = parse_reals(value);
+  const auto preset = parse_reals(std::string(row.preset.text));
+  if (numbers && preset) return *numbers == *preset;
+  const auto flag = parse_boolean(value);
+  if (row.kind == OptionKind::boolean && flag) {
+    return flag == parse_boolean(std::string(row.preset.text));
+  }
+  return value == row.preset.text;
+}
 
 std::vector<std::string> idle_options(const OptionReader& options, const Scene& scene,
                                       const ListedNames& listed) {

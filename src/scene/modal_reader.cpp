@@ -4,6 +4,7 @@
 
 #include "common/error.h"
 #include "scene/damping_reader.h"
+#include "scene/idle_options.h"
 
 namespace pounding {
 namespace {
@@ -50,8 +51,12 @@ void refuse_couplings(const OptionReader& options, const Structure& structure,
   for (const char* option : {"p_delta", "mass_scaling", "time_step_target", "rigid", "diaphragm",
                              "join", "pin", "levels", "tie", "absorbing", "absorbing_base",
                              "soil_mat", "modal_damping", "modal_attachment", "modal_patches"}) {
-    if (!switched) break;
-    options.forbid(std::string("<structure>_") + option, {structure.name}, remedy);
+    const std::string pattern = std::string("<structure>_") + option;
+    const auto given = options.database().find(option_name(pattern, {structure.name}));
+    if (switched && given != options.database().end() &&
+        !is_preset(option_row(pattern), given->second)) {
+      options.forbid(pattern, {structure.name}, remedy);
+    }
   }
 }
 
@@ -60,13 +65,15 @@ void refuse_couplings(const OptionReader& options, const Structure& structure,
 void read_model(OptionReader& options, Structure& structure) {
   const Names names{structure.name};
   const std::string kind = options.choice(model, names);
-  if (kind != "switched") options.forbid(switched_part, names, goes_with(model, names, "switched"));
   if (kind == "full") {
+    options.forbid(switched_part, names, goes_with(model, names, "switched"));
     options.forbid_all<ModalModel>(names, goes_with(model, names, "modal"));
     return;
   }
   refuse_couplings(options, structure, kind);
   ModalModel modal;
+  modal.switched = kind == "switched";
+  modal.attachment = !modal.switched;
   options.read(modal, names);
   if (modal.candidates > 0 && modal.candidates < modal.modes) {
     options.refuse(candidates, names,
@@ -101,7 +108,6 @@ void read_model(OptionReader& options, Structure& structure) {
     structure.modal = std::move(modal);
     return;
   }
-  modal.attachment = false;
   if (modal.switched_part > 0) structure.switched = std::move(modal);
 }
 

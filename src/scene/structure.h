@@ -28,9 +28,12 @@ struct ModalModel {
                                        ///< empty: the structure's Rayleigh damping
   std::string basis_file;              ///< where the basis is kept; empty: nowhere
   int ranks = 1;                       ///< that compute the basis together, if there are so many
+  bool switched = false;               ///< modes while nothing strikes, full order else
   /// Part of the largest energy that may lie outside the basis where a structure goes to modes [-].
   double switched_part = 1e-6;
 
+  bool is_switched() const { return switched; }
+  bool is_lasting() const { return !switched; }
   bool counts() const { return modes > 0; }
   bool counts_none() const { return modes == 0; }
   bool attaches() const { return attachment; }
@@ -41,13 +44,13 @@ struct ModalModel {
     option(&ModalModel::modes, "<structure>_modal_vectors", integer("-", absent("this or the cut-off"), at_least_1), "modal: number of modes, the lowest ones");
     option(&ModalModel::candidates, "<structure>_modal_candidates", integer("-", absent("as many as modes"), at_least_1), "modal: number of lowest modes computed, of which as many as wanted are kept: the lowest, and those that move the contact points most", needs(&ModalModel::counts, "goes with -<structure>_modal_vectors, which is not given"));
     option(&ModalModel::cutoff, "<structure>_modal_cutoff", real("Hz", absent("this or the number"), positive), "modal: every mode below this frequency", needs(&ModalModel::counts_none, "give either this or -<structure>_modal_vectors, not both"));
-    option(&ModalModel::attachment, "<structure>_modal_attachment", flag(true), "modal: static responses to unit forces at the contact dofs beside the modes");
+    option(&ModalModel::attachment, "<structure>_modal_attachment", flag(true), "modal: static responses to unit forces at the contact dofs beside the modes", needs(&ModalModel::is_lasting));
     option(&ModalModel::residual, "<structure>_modal_residual", flag(true), "modal: static responses to the motion of the ground beside the modes (residual vectors, missing mass)");
     option(&ModalModel::ranks, "<structure>_modal_ranks", integer("-", "1", at_least_1), "modal: ranks that compute its basis together; more than one need a file for it");
     option(&ModalModel::patches, "<structure>_modal_patches", integer("-", "0", closed(0, 10000)), "modal: attachment vectors of so many patches of contact points in place of one each; 0: one each", needs(&ModalModel::attaches, "not with -<structure>_modal_attachment false"));
     option(&ModalModel::damping_ratios, "<structure>_modal_damping", reals("-", absent("left out: that of the structure"), "a comma-separated list of numbers", damping_ratio), "modal: damping ratio of mode 1, 2, ..., the last one for all that follow and for vectors that are no mode");
     option(&ModalModel::basis_file, "<structure>_modal_basis", text("file", "none", "a file or none"), "modal: where the basis is kept, to be used again while the structure stays the same");
-    option(&ModalModel::switched_part, "<structure>_switched_part", real("-", "1e-6", closed(0, .01)), "switched: part of the structure's largest energy outside its basis below which it goes to modes; 0: full order throughout");
+    option(&ModalModel::switched_part, "<structure>_switched_part", real("-", "1e-6", closed(0, .01)), "switched: part of the structure's largest energy outside its basis below which it goes to modes; 0: full order throughout", needs(&ModalModel::is_switched, "goes with -<structure>_model switched, which is not given"));
     // clang-format on
   }
 };

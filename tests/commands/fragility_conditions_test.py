@@ -92,7 +92,7 @@ class Surveyed(StudyCommand):
     def test_the_program_takes_the_survey(self):
         found = self.study()
         plan = design.build(found)
-        options = {**runs.scene_options(found, True, self.place), "end_time": 0.01}
+        options = {**runs.scene_options(found, "reduced", self.place), "end_time": 0.01}
         options |= {column: value for column, value in zip(plan.columns, next(one for one in plan.members if one.gap == 0).values)}
         options.pop("include")
         words = [word for name, value in options.items() for word in (f"-{name}", value)]

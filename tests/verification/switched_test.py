@@ -99,6 +99,11 @@ class Switched(RestartCase):
                 line = program.must_refuse(self, [*switched(PAIR, 1e-6), *words], expected)
                 self.assertIn("-s1_", line)
 
+    def test_options_in_force_are_read_again(self):
+        for words in (switched(PAIR, 1e-6), [*PAIR, "-s1_model", "modal", "-s1_modal_vectors", 4]):
+            folder, _ = program.must_run(self, [*words, "-end_time", 1e-4])
+            program.must_run(self, ["-options_file", os.path.join(folder, "resolved.yaml")])
+
     def test_the_part_goes_with_the_model(self):
         program.must_refuse(self, [*PAIR, "-s1_switched_part", 1e-6], "-s1_switched_part", "goes with -s1_model switched")
 
