@@ -119,7 +119,7 @@ class Members(unittest.TestCase):
 
             def base(only_look=False):
                 found = study.read(Path(place) / "study.yaml")
-                return members.Runner(found, design.build(found), Path(place) / "out", 1, 1, "auto", only_look).bases[True]
+                return members.Runner(found, design.build(found), Path(place) / "out", 1, 1, "auto", only_look).bases["reduced"]
 
             with unittest.mock.patch.object(members.Runner, "_scout", scout):
                 with self.assertRaisesRegex(UserError, "nothing is there yet"):
