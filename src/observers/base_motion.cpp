@@ -3,33 +3,58 @@
 #include <numeric>
 
 namespace pounding {
+
+DisplacementSum::DisplacementSum(std::size_t structure, std::span<const TracePoint> points,
+                                 std::span<const double> weights, const LinearSystem& system,
+                                 const Mesh& mesh)
+    : structure_(structure) {
+  const Trace trace(system, mesh, points, false);
+  dofs_ = trace.dofs();
+  weights_.resize(dofs_.size());
+  std::size_t free = 0;  // points of a mesh that are not clamped
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    for (std::size_t i = 0; system.generalised && i < dofs_.size(); ++i) {
+      weights_[i] += weights[k] * trace.row(k)[i];
+    }
+    if (!system.generalised && trace.dof(k) >= 0) weights_[free++] = weights[k];
+    const std::span<const double> carried = trace.carried(k);
+    carried_.resize(carried.size());
+    for (std::size_t c = 0; c < carried.size(); ++c) carried_[c] += weights[k] * carried[c];
+  }
+  if (system.switched) in_modes_ = system.switched->weighted(dofs_, weights_);
+}
+
+double DisplacementSum::of(const CdLagrange& stepper) const {
+  const State& state = stepper.state();
+  const std::vector<double>& owned = state.structures[structure_].displacement;
+  const std::span<const double> q = stepper.coordinates(structure_);
+  double sum = std::inner_product(q.begin(), q.end(), in_modes_.begin(), 0.0);
+  for (std::size_t i = 0; q.empty() && i < dofs_.size(); ++i) {
+    sum += weights_[i] * owned[dofs_[i]];
+  }
+  for (std::size_t c = 0; c < carried_.size(); ++c) {
+    sum += carried_[c] * state.supports.displacement[c];
+  }
+  return sum;
+}
+
 BaseMotion::BaseMotion(std::span<const ResolvedProbe> bases, std::span<const LinearSystem> systems,
                        std::span<const Mesh> meshes) {
   for (const ResolvedProbe& base : bases) {
     const auto s = static_cast<std::size_t>(base.structure);
-    const LinearSystem& system = systems[s];
-    const double share = 1 / static_cast<double>(base.nodes.size());
     for (int d = 0; d < 3; ++d) {
       std::vector<TracePoint> places;
       for (const GlobalIndex node : base.nodes) {
         if (meshes[s].owned_node(node) >= 0) places.push_back({node, d});
       }
-      const Trace trace(system, meshes[s], places, false);
-      Row& row = rows_.emplace_back();
-      row.structure = s;
-      row.dofs = trace.dofs();
-      row.weights.assign(row.dofs.size(), system.generalised ? 0 : share);
-      for (std::size_t k = 0; k < places.size(); ++k) {
-        for (std::size_t i = 0; system.generalised && i < row.dofs.size(); ++i) {
-          row.weights[i] += share * trace.row(k)[i];
-        }
-        const std::span<const double> carried = trace.carried(k);
-        row.carried.resize(carried.size());
-        for (std::size_t c = 0; c < carried.size(); ++c) row.carried[c] += share * carried[c];
-      }
-      if (system.switched) row.in_modes = system.switched->weighted(row.dofs, row.weights);
+      const std::vector<double> shares(places.size(), 1 / static_cast<double>(base.nodes.size()));
+      rows_.emplace_back(s, places, shares, systems[s], meshes[s]);
     }
   }
+}
+
+void BaseMotion::put(const CdLagrange& stepper, double* out) const {
+  for (const DisplacementSum& row : rows_) *out++ = row.of(stepper);
 }
 
 std::vector<double> probe_means(
@@ -50,22 +75,6 @@ std::vector<double> probe_means(
     place += 3 * nodes;
   }
   return rows;
-}
-
-void BaseMotion::put(const CdLagrange& stepper, double* out) const {
-  const State& state = stepper.state();
-  for (const Row& row : rows_) {
-    const std::vector<double>& owned = state.structures[row.structure].displacement;
-    const std::span<const double> q = stepper.coordinates(row.structure);
-    double sum = std::inner_product(q.begin(), q.end(), row.in_modes.begin(), 0.0);
-    for (std::size_t i = 0; q.empty() && i < row.dofs.size(); ++i) {
-      sum += row.weights[i] * owned[row.dofs[i]];
-    }
-    for (std::size_t c = 0; c < row.carried.size(); ++c) {
-      sum += row.carried[c] * state.supports.displacement[c];
-    }
-    *out++ = sum;
-  }
 }
 
 }  // namespace pounding

@@ -12,6 +12,26 @@
 
 namespace pounding {
 
+/// This rank's part of a weighted sum of displacements of points of a structure: over owned dofs,
+/// over coordinates while it is in modes, and over the motion of the supports that carries them.
+class DisplacementSum {
+ public:
+  /// `weights`: of the points that this rank knows, in the order of `points`. References need not
+  /// outlive this object. Local.
+  DisplacementSum(std::size_t structure, std::span<const TracePoint> points,
+                  std::span<const double> weights, const LinearSystem& system, const Mesh& mesh);
+
+  /// Before the next step, relative to the ground [m].
+  double of(const CdLagrange& stepper) const;
+
+ private:
+  std::size_t structure_;
+  std::vector<LocalIndex> dofs_;
+  std::vector<double> weights_;
+  std::vector<double> in_modes_;  ///< weights of coordinates of a structure that may be in modes
+  std::vector<double> carried_;   ///< per column of the supports' motion
+};
+
 /// Mean displacements of the supports of structures, where these move. Each rank has its part of a
 /// mean, so that bases of many nodes cost a record three numbers.
 class BaseMotion {
@@ -27,15 +47,7 @@ class BaseMotion {
   void put(const CdLagrange& stepper, double* out) const;
 
  private:
-  /// A component of a mean: a sum over owned dofs and over the motion of the supports.
-  struct Row {
-    std::size_t structure = 0;
-    std::vector<LocalIndex> dofs;
-    std::vector<double> weights;
-    std::vector<double> in_modes;  ///< weights of coordinates of a structure that may be in modes
-    std::vector<double> carried;   ///< per column of the supports' motion
-  };
-  std::vector<Row> rows_;
+  std::vector<DisplacementSum> rows_;
 };
 
 /// Means, or weighted sums, of the rows of places over probes of a structure in generalised

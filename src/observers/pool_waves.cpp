@@ -5,21 +5,13 @@
 
 #include "common/parallel.h"
 #include "common/saved_state.h"
+#include "observers/base_motion.h"
 #include "observers/observed_run.h"
 #include "observers/run_statistics.h"
 #include "scene/pool_reader.h"
-#include "system/trace.h"
 
 namespace pounding {
 namespace {
-
-/// Height of the waves at the walls of a pool across a direction, over the dofs of this rank.
-struct WaveRow {
-  std::size_t structure = 0;
-  std::vector<LocalIndex> dofs;
-  std::vector<double> weights;  ///< of these
-  std::vector<double> carried;  ///< of the supports' motion
-};
 
 /// Adds, per node of this rank, the springs of one wave: the node of the wave less the mean of the
 /// walls, times the height of the wave per displacement.
@@ -38,31 +30,16 @@ void add_wave(const Mesh& mesh, int region, std::size_t direction, double height
   }
 }
 
-WaveRow row_of(const Model& model, std::size_t structure,
-               const std::map<TracePoint, double>& weights) {
-  const LinearSystem& system = model.systems[structure];
+/// Height of the waves at the walls of a pool across a direction, by the weights of points.
+DisplacementSum row_of(const Model& model, std::size_t structure,
+                       const std::map<TracePoint, double>& of_points) {
   std::vector<TracePoint> points;
-  for (const auto& [point, weight] : weights) points.push_back(point);
-  const Trace trace(system, model.meshes[structure], points, false);
-  WaveRow row{structure, {}, {}, {}};
-  if (system.generalised) {
-    row.dofs = trace.dofs();
-    row.weights.resize(row.dofs.size());
+  std::vector<double> weights;
+  for (const auto& [point, weight] : of_points) {
+    points.push_back(point);
+    weights.push_back(weight);
   }
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const double weight = weights.at(points[k]);
-    for (std::size_t i = 0; system.generalised && i < row.dofs.size(); ++i) {
-      row.weights[i] += weight * trace.row(k)[i];
-    }
-    if (!system.generalised && trace.dof(k) >= 0) {
-      row.dofs.push_back(trace.dof(k));
-      row.weights.push_back(weight);
-    }
-    const std::span<const double> carried = trace.carried(k);
-    row.carried.resize(carried.size());
-    for (std::size_t c = 0; c < carried.size(); ++c) row.carried[c] += weight * carried[c];
-  }
-  return row;
+  return {structure, points, weights, model.systems[structure], model.meshes[structure]};
 }
 
 /// Largest height of the waves of each pool, at a corner of its walls: the sum of those along x and
@@ -88,10 +65,10 @@ class PoolWaves final : public Observer {
   void look();
 
   ObservedRun run_;
-  std::vector<WaveRow> rows_;    ///< two per pool, along x and y
-  std::vector<double> times_;    ///< of the samples since the last look
-  std::vector<double> samples_;  ///< of these, part of this rank in each row [m]
-  std::vector<double> peaks_;    ///< per pool: height [m], time [s]; alike on all ranks
+  std::vector<DisplacementSum> rows_;  ///< two per pool, along x and y
+  std::vector<double> times_;          ///< of the samples since the last look
+  std::vector<double> samples_;        ///< of these, part of this rank in each row [m]
+  std::vector<double> peaks_;          ///< per pool: height [m], time [s]; alike on all ranks
 };
 
 PoolWaves::PoolWaves(const ObservedRun& run) : run_(run) {
@@ -117,17 +94,7 @@ PoolWaves::PoolWaves(const ObservedRun& run) : run_(run) {
 }
 
 StepNeeds PoolWaves::begin(const CdLagrange& stepper) {
-  const State& state = stepper.state();
-  for (const WaveRow& row : rows_) {
-    const std::vector<double>& owned = state.structures[row.structure].displacement;
-    double height = 0;
-    for (std::size_t i = 0; i < row.dofs.size(); ++i) height += row.weights[i] * owned[row.dofs[i]];
-    // One rank alone knows each point, and how far supports carry it.
-    for (std::size_t c = 0; c < row.carried.size(); ++c) {
-      height += row.carried[c] * state.supports.displacement[c];
-    }
-    samples_.push_back(height);
-  }
+  for (const DisplacementSum& row : rows_) samples_.push_back(row.of(stepper));
   times_.push_back(stepper.time());
   if (times_.size() == most_samples) look();
   return {};

@@ -140,6 +140,14 @@ class HitTank(unittest.TestCase):
         self.assertLess(abs(motion - all_modes).max(), 1e-8 * abs(motion).max())
         self.assertAlmostEqual(there["pools"]["tank"]["wave_height"] / found["pools"]["tank"]["wave_height"], 1, delta=1e-8)
 
+    def test_waves_of_a_structure_in_modes_between_strikes(self):
+        """Their height is that of full order, though the arrays of displacements are not brought in modes."""
+        words = [*self.HIT, *self.MOTION, "-tank_damping", 0, "-joint_gap", 1]
+        full = Recorded(self, words).summary
+        run = Recorded(self, [*words, "-t_model", "switched", "-t_modal_vectors", 60, "-t_switched_part", 1e-2]).summary
+        self.assertGreater(run["in_modes"]["share"], .5)
+        self.assertAlmostEqual(run["pools"]["tank"]["wave_height"] / full["pools"]["tank"]["wave_height"], 1, delta=1e-2)
+
     def test_continues(self):
         whole, continued = assert_continues(self, [*self.HIT, *self.MOTION], .05, 2000)
         self.assertEqual(whole["pools"], continued["pools"])
