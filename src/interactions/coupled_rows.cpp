@@ -22,6 +22,33 @@ CoupledRows::CoupledRows(MPI_Comm comm, const std::vector<Constraint>& constrain
       values_(fields * rows_.dofs(), 0.0),
       dof_impulse_(rows_.dofs(), 0.0) {
   find_couplings(systems.size());
+  for (std::size_t s = 0; s < systems.size(); ++s) {
+    const std::size_t dofs = rows_.trace(s).dofs().size();
+    before_step_.emplace_back(dofs);
+    velocity_.emplace_back(dofs, 0.0);
+  }
+}
+
+void CoupledRows::attach(std::span<SteppedStructure* const> structures) {
+  for (std::size_t s = 0; s < structures.size(); ++s) {
+    structures[s]->watch(rows_.trace(s).dofs(), true);
+  }
+}
+
+void CoupledRows::begin(const Step& step, std::span<const double> displacement,
+                        std::span<const double> velocity) {
+  for (std::size_t s = 0; s < step.structures.size(); ++s) {
+    const SteppedStructure& structure = *step.structures[s];
+    set_displacement(s, structure.displacement().data(), displacement);
+    set_velocity(s, structure.velocity().data(), velocity);
+    structure.remember(rows_.trace(s).dofs(), before_step_[s]);
+  }
+}
+
+void CoupledRows::take_velocities(const Step& step, std::span<const double> supports) {
+  for (std::size_t s = 0; s < step.structures.size(); ++s) {
+    set_velocity(s, step.structures[s]->velocity().data(), supports);
+  }
 }
 
 void CoupledRows::find_couplings(std::size_t structures) {
@@ -98,10 +125,16 @@ double CoupledRows::largest_eigenvalue(std::size_t structure,
   return bound;
 }
 
-void CoupledRows::set_impulses(std::span<const double> impulses) {
+void CoupledRows::push(const Step& step, std::span<const double> impulses) {
   std::fill(dof_impulse_.begin(), dof_impulse_.end(), 0.0);
   for (std::size_t r = 0; r < impulses.size(); ++r) {
     rows_.rows().add_transposed(static_cast<int>(r), impulses[r], dof_impulse_);
+  }
+  for (std::size_t s = 0; s < step.structures.size(); ++s) {
+    const Trace& trace = rows_.trace(s);
+    trace.restrict_to_dofs(step.structures[s]->velocity().data(), velocity_[s].data());
+    rows_.add_velocity_change(s, dof_impulse_, velocity_[s].data());
+    step.structures[s]->correct(trace.dofs(), before_step_[s], velocity_[s]);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <mpi.h>
 
+#include "interactions/interaction.h"
 #include "interactions/interface_rows.h"
 #include "solvers/law_solver.h"
 #include "system/linear_system.h"
@@ -43,13 +44,17 @@ class CoupledRows {
   /// structure, for springs k [N/m] at the rows. The same on all ranks; not collective.
   double largest_eigenvalue(std::size_t structure, std::span<const double> stiffness) const;
 
-  /// Impulses [N s] of all rows, along L^T.
-  void set_impulses(std::span<const double> impulses);
-  /// v += M^-1 T^T L^T of these over the dofs of the structure's trace.
-  void add_velocity_change(std::size_t structure, double* velocity) {
-    rows_.add_velocity_change(structure, dof_impulse_, velocity);
-  }
-  /// Their work on a structure's supports, see InterfaceRows.
+  /// See Interaction::attach.
+  void attach(std::span<SteppedStructure* const> structures);
+  /// Takes u_n and v- of all structures, carried along by these motions of supports, and remembers
+  /// the state that `push` corrects. Members only.
+  void begin(const Step& step, std::span<const double> displacement,
+             std::span<const double> velocity);
+  /// Takes v+ of all structures, likewise.
+  void take_velocities(const Step& step, std::span<const double> supports);
+  /// Corrects all structures by impulses [N s] of the rows, along L^T. Members only.
+  void push(const Step& step, std::span<const double> impulses);
+  /// Work of these on a structure's supports, see InterfaceRows.
   double support_work(std::size_t structure, std::span<const double> velocity) {
     return rows_.support_work(structure, dof_impulse_, velocity);
   }
@@ -63,8 +68,10 @@ class CoupledRows {
   std::vector<std::vector<Coupling>> couplings_;
   /// Per structure and row, its part of H.
   std::vector<std::vector<std::vector<Coupling>>> parts_;
-  std::vector<double> values_;       ///< shape (2, dofs)
-  std::vector<double> dof_impulse_;  ///< L^T lambda
+  std::vector<double> values_;                 ///< shape (2, dofs)
+  std::vector<double> dof_impulse_;            ///< L^T lambda
+  std::vector<Before> before_step_;            ///< per structure
+  std::vector<std::vector<double>> velocity_;  ///< per structure, of the trace's dofs
 };
 
 }  // namespace pounding::interactions

@@ -109,31 +109,15 @@ FillerRows::FillerRows(MPI_Comm comm, const Interface& interface, std::span<cons
        {&rate_, &rate_before_, &force_, &force_before_, &held_, &row_loss_, &driven_, &impulse_}) {
     values->assign(laws_.size(), 0.0);
   }
-  for (std::size_t s = 0; s < systems.size(); ++s) {
-    const std::size_t dofs = pairs_.rows().trace(s).dofs().size();
-    before_step_.emplace_back(dofs);
-    velocity_.emplace_back(dofs, 0.0);
-  }
 }
 
 FillerRows::~FillerRows() = default;
-
-void FillerRows::attach(std::span<SteppedStructure* const> structures) {
-  for (std::size_t s = 0; s < structures.size(); ++s) {
-    structures[s]->watch(pairs_.rows().trace(s).dofs(), true);
-  }
-}
 
 void FillerRows::begin(const Step& step) {
   if (!pairs_.rows().member()) return;
   const ScopedTimer timer(step.profile, Phase::contact);
   auto& [before, now, free_after] = compression_;
-  for (std::size_t s = 0; s < step.structures.size(); ++s) {
-    const SteppedStructure& structure = *step.structures[s];
-    pairs_.set_displacement(s, structure.displacement().data(), step.supports.displacement);
-    pairs_.set_velocity(s, structure.velocity().data(), step.supports.velocity_before);
-    structure.remember(pairs_.rows().trace(s).dofs(), before_step_[s]);
-  }
+  pairs_.begin(step, step.supports.displacement, step.supports.velocity_before);
   rate_before_.swap(rate_);
   force_before_.swap(force_);
   pairs_.gather(now, rate_);
@@ -171,9 +155,7 @@ void FillerRows::push(const Step& step) {
   support_input_ = 0;
   duration_ = step.share() * time_step_;
   if (solver_.is_idle(now, memory_)) return;
-  for (std::size_t s = 0; s < step.structures.size(); ++s) {
-    pairs_.set_velocity(s, step.structures[s]->velocity().data(), step.supports.velocity);
-  }
+  pairs_.take_velocities(step, step.supports.velocity);
   pairs_.gather(impulse_, free_after);  // the rates alone are used
   for (std::size_t r = 0; r < laws_.size(); ++r) {
     free_after[r] = now[r] + time_step_ * free_after[r];
@@ -182,12 +164,8 @@ void FillerRows::push(const Step& step) {
   for (std::size_t r = 0; r < laws_.size(); ++r) {
     impulse_[r] = duration_ * force_[r];
   }
-  pairs_.set_impulses(impulse_);
+  pairs_.push(step, impulse_);
   for (std::size_t s = 0; s < step.structures.size(); ++s) {
-    const Trace& trace = pairs_.rows().trace(s);
-    trace.restrict_to_dofs(step.structures[s]->velocity().data(), velocity_[s].data());
-    pairs_.add_velocity_change(s, velocity_[s].data());
-    step.structures[s]->correct(trace.dofs(), before_step_[s], velocity_[s]);
     support_input_ -= pairs_.support_work(s, step.supports.velocity_mean);
   }
   note_peaks();

@@ -68,7 +68,7 @@ class FillerRows final : public Interaction {
              std::span<const LinearSystem> systems, std::span<const Mesh> meshes, double time_step);
   ~FillerRows() override;
 
-  void attach(std::span<SteppedStructure* const> structures) override;
+  void attach(std::span<SteppedStructure* const> structures) override { pairs_.attach(structures); }
   void begin(const Step& step) override;
   void push(const Step& step) override;
   void finish(const Step& step) override;
@@ -109,13 +109,11 @@ class FillerRows final : public Interaction {
   std::vector<double> row_loss_;      ///< of the step before [J]
   std::vector<double> driven_;        ///< no wave drives a filler: zeros
   std::vector<double> impulse_;
-  double support_input_ = 0;                   ///< work of supports against the fillers [J]
-  double loss_ = 0;                            ///< of the step before, of stops [J]
-  double plastic_loss_ = 0;                    ///< likewise, of crushing
-  bool made_ = false;                          ///< a step was
-  double duration_ = 0;                        ///< of the forces in the step just made [s]
-  std::vector<Before> before_step_;            ///< per structure
-  std::vector<std::vector<double>> velocity_;  ///< per structure, of the trace's dofs
+  double support_input_ = 0;  ///< work of supports against the fillers [J]
+  double loss_ = 0;           ///< of the step before, of stops [J]
+  double plastic_loss_ = 0;   ///< likewise, of crushing
+  bool made_ = false;         ///< a step was
+  double duration_ = 0;       ///< of the forces in the step just made [s]
   std::vector<FillerTotals> totals_;
   std::vector<double> contact_force_;  ///< per contact
   LinkRecords records_;

@@ -47,29 +47,13 @@ SoilRows::SoilRows(MPI_Comm comm, const Interface& interface, std::span<const Li
   for (auto* values : {&rate_, &rate_before_, &force_, &held_, &driven_, &impulse_}) {
     values->assign(laws_.size(), 0.0);
   }
-  for (std::size_t s = 0; s < systems.size(); ++s) {
-    const std::size_t dofs = rows_.rows().trace(s).dofs().size();
-    before_step_.emplace_back(dofs);
-    velocity_.emplace_back(dofs, 0.0);
-  }
-}
-
-void SoilRows::attach(std::span<SteppedStructure* const> structures) {
-  for (std::size_t s = 0; s < structures.size(); ++s) {
-    structures[s]->watch(rows_.rows().trace(s).dofs(), true);
-  }
 }
 
 void SoilRows::begin(const Step& step) {
   if (!rows_.rows().member()) return;
   const ScopedTimer timer(step.profile, Phase::step);
   auto& [before, now, free_after] = elongations_;
-  for (std::size_t s = 0; s < step.structures.size(); ++s) {
-    const SteppedStructure& structure = *step.structures[s];
-    rows_.set_displacement(s, structure.displacement().data(), {});
-    rows_.set_velocity(s, structure.velocity().data(), {});
-    structure.remember(rows_.rows().trace(s).dofs(), before_step_[s]);
-  }
+  rows_.begin(step, {}, {});
   rate_before_.swap(rate_);
   rows_.gather(now, rate_);
   for (std::size_t r = 0; r < laws_.size(); ++r) {
@@ -99,9 +83,7 @@ void SoilRows::push(const Step& step) {
   if (!rows_.rows().member()) return;
   const ScopedTimer timer(step.profile, Phase::step);
   auto& [before, now, free_after] = elongations_;
-  for (std::size_t s = 0; s < step.structures.size(); ++s) {
-    rows_.set_velocity(s, step.structures[s]->velocity().data(), {});
-  }
+  rows_.take_velocities(step, {});
   rows_.gather(impulse_, free_after);  // the rates alone are used
   for (std::size_t r = 0; r < laws_.size(); ++r) {
     free_after[r] = now[r] + time_step_ * free_after[r];
@@ -111,13 +93,7 @@ void SoilRows::push(const Step& step) {
   for (std::size_t r = 0; r < laws_.size(); ++r) {
     impulse_[r] = -step.share() * time_step_ * force_[r];
   }
-  rows_.set_impulses(impulse_);
-  for (std::size_t s = 0; s < step.structures.size(); ++s) {
-    const Trace& trace = rows_.rows().trace(s);
-    trace.restrict_to_dofs(step.structures[s]->velocity().data(), velocity_[s].data());
-    rows_.add_velocity_change(s, velocity_[s].data());
-    step.structures[s]->correct(trace.dofs(), before_step_[s], velocity_[s]);
-  }
+  rows_.push(step, impulse_);
 }
 
 void SoilRows::finish(const Step& step) {

@@ -32,7 +32,7 @@ class SoilRows final : public Interaction {
   SoilRows(MPI_Comm comm, const Interface& interface, std::span<const LinearSystem> systems,
            std::span<const Mesh> meshes, double time_step);
 
-  void attach(std::span<SteppedStructure* const> structures) override;
+  void attach(std::span<SteppedStructure* const> structures) override { rows_.attach(structures); }
   void begin(const Step& step) override;
   void push(const Step& step) override;
   void finish(const Step& step) override;
@@ -59,10 +59,8 @@ class SoilRows final : public Interaction {
   std::vector<double> held_;         ///< W_{n-1/2}
   std::vector<double> driven_;       ///< no wave drives these rows: zeros
   std::vector<double> impulse_;
-  double loss_ = 0;                            ///< of the step before [J]
-  bool made_ = false;                          ///< a step was
-  std::vector<Before> before_step_;            ///< per structure
-  std::vector<std::vector<double>> velocity_;  ///< per structure, of the trace's dofs
+  double loss_ = 0;    ///< of the step before [J]
+  bool made_ = false;  ///< a step was
 };
 
 }  // namespace pounding::interactions
