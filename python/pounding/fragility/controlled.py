@@ -63,9 +63,9 @@ def settle(runner, may_run: bool) -> Numbers:
         if not may_run:
             raise UserError(f"{study.path}: full_order: accuracy: its pilot has not been run; run/fragility {study.path} --pilot does so")
         print(f"fragility: pilot of {asked.pilot} samples at {len(study.orders)} orders", flush=True)
-        pilot = plain(runner.design, 0, asked.pilot)
-        costs = _measured(runner, {order: pilot for order in study.orders})
-        runner.run((1, 1), {order: pilot for order in study.orders})
+        pilot = dict.fromkeys(study.orders, plain(runner.design, 0, asked.pilot))
+        costs = _measured(runner, pilot)
+        runner.run((1, 1), pilot)
         orders = sorted(study.orders, key=lambda order: (order != FULL, order == REDUCED, -costs[order]))
         full, *cheap = (np.concatenate(_planned(_analysis(runner, asked.pilot, order)), axis=1) for order in orders)
         moving = full.mean(0) > 0
@@ -84,8 +84,8 @@ def _cautious(rho: np.ndarray, count: int) -> np.ndarray:
 
 def run(runner, numbers: Numbers, part: tuple) -> str:
     """Runs what is missing of the study's samples at all orders, of a part i of n; returns how. Throws UserError."""
-    members = {order: plain(runner.design, numbers.pilot, numbers.pilot + count) for order, count in numbers.counts.items()}
-    members = {REDUCED: runner.design.members, **{order: some for order, some in members.items() if order != REDUCED}}
+    members = {REDUCED: runner.design.members, **{order: plain(runner.design, numbers.pilot, numbers.pilot + count)
+                                                  for order, count in numbers.counts.items() if order != REDUCED}}
     mine = {order: some[part[0] - 1::part[1]] for order, some in members.items()}
     if all(mine.values()):
         _measured(runner, mine)

@@ -43,16 +43,16 @@ class Envelope:
         return self.first.frequencies_shown(SHOWN)
 
     def governing(self, values) -> tuple:
-        """The largest of a value of each condition, and the places of that condition."""
+        """Number of the condition whose value is the largest, and its places."""
         at = int(np.argmax(values))
-        return values[at], self.conditions[at].place
+        return at, self.conditions[at].place
 
     def most_hit(self, event, gap: float | None, level: float) -> tuple:
         """Members in which an event comes about and their number, where their share is largest, and the places of that condition."""
         number = self.study.levels.index(level)
         counts = [(int(one.hits(event, gap)[:, number].sum()), one.study.samples) for one in self.analyses.values()]
-        _, place = self.governing([count / samples for count, samples in counts])
-        return *counts[next(k for k, one in enumerate(self.conditions) if one.place == place)], place
+        at, place = self.governing([count / samples for count, samples in counts])
+        return *counts[at], place
 
     # Tables.
 
@@ -75,8 +75,8 @@ class Envelope:
             for number, level in enumerate(self.study.levels):
                 for part in EXCEEDED:
                     found = [quantile(values[:, number], 1 - part, self.study.confidence) for values in needed]
-                    largest, place = self.governing([value for value, _, _ in found])
-                    _, low, high = next(one for one in found if one[0] == largest)
+                    at, place = self.governing([value for value, _, _ in found])
+                    largest, low, high = found[at]
                     rows.append({"joint": name, "pga [m/s2]": level, "exceeded in": f"{100 * part:g} %", "needed [m]": largest,
                                  "low": low, "high": high, **place})
         return rows
@@ -85,8 +85,7 @@ class Envelope:
         rows = []
         of_each = [one.probability_rows() for one in self.analyses.values()]
         for same in zip(*of_each):
-            _, place = self.governing([row["probability"] for row in same])
-            at = next(number for number, one in enumerate(self.conditions) if one.place == place)
+            at, place = self.governing([row["probability"] for row in same])
             rows.append({**same[at], **place})
         return rows
 

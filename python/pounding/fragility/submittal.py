@@ -62,14 +62,15 @@ def answers(one: Envelope, told: Submittal) -> list:
     lines, study = [], one.study
     for words, level in dict.fromkeys((("at design level", told.design), ("beyond design", told.beyond))):
         at = study.levels.index(level)
-        needed, place = one.governing([np.quantile(each.needed()[:, at], 0.84) for each in one.analyses.values()])
+        widths = [np.quantile(each.needed()[:, at], 0.84) for each in one.analyses.values()]
+        most, place = one.governing(widths)
         shares = []
         for gap in study.gaps:
             count, samples, where = one.most_hit(CONTACT, gap, level)
             shares.append(f"in a {study.joint_named(gap)} they touch in {count} of {samples} cases"
                           + (f" ({governs(where)})" if len(one.conditions) > 1 and count else ""))
         lines.append(f"{words.capitalize()} ({level:g} m/s²) {'; '.join(shares)}; so that it stays open in 84 % of the "
-                     f"cases it {study.width_told(needed)}" + (f" ({governs(place)})." if len(one.conditions) > 1 else "."))
+                     f"cases it {study.width_told(widths[most])}" + (f" ({governs(place)})." if len(one.conditions) > 1 else "."))
         lines += [f"At full order, with the reduced runs as controls, that joint {study.width_told(row['value'])}"
                   + (f" ({1e3 * row['low']:.3g} to {1e3 * row['high']:.3g} mm at {100 * study.confidence:g} % confidence)." if "" not in (row["low"], row["high"]) else ".")
                   for row in shown_at_full_order(one, [level]) if row["quantity"].startswith("joint needed, exceeded in 16 %")]
