@@ -53,9 +53,7 @@ class IdleOptions {
   void look_at(const Structure& structure) {
     const Names names{structure.name};
     const auto is_given = [&](const char* damping) {
-      const std::string pattern = std::string("<structure>_") + damping;
-      return options_.given(pattern, names) &&
-             !is_preset(option_row(pattern), value(pattern, names));
+      return options_.changed(std::string("<structure>_") + damping, names);
     };
     const bool damped = !structure.matrices.empty() || is_given("damping_alpha") ||
                         is_given("damping_beta") || is_given("damping_ratio") ||
@@ -137,8 +135,7 @@ class IdleOptions {
   }
 
   void look(std::string_view pattern, const Names& names, bool has_effect, const std::string& why) {
-    if (has_effect || !options_.given(pattern, names)) return;
-    if (!is_preset(option_row(pattern), value(pattern, names))) add(pattern, names, why);
+    if (!has_effect && options_.changed(pattern, names)) add(pattern, names, why);
   }
 
   /// An option of the run that goes with another one. Given, that one was switched off on purpose.
@@ -154,18 +151,6 @@ class IdleOptions {
 };
 
 }  // namespace
-
-bool is_preset(const OptionRow& row, const std::string& value) {
-  if (!row.preset.has_value) return false;
-  const auto numbers = parse_reals(value);
-  const auto preset = parse_reals(std::string(row.preset.text));
-  if (numbers && preset) return *numbers == *preset;
-  const auto flag = parse_boolean(value);
-  if (row.kind == OptionKind::boolean && flag) {
-    return flag == parse_boolean(std::string(row.preset.text));
-  }
-  return value == row.preset.text;
-}
 
 std::vector<std::string> idle_options(const OptionReader& options, const Scene& scene,
                                       const ListedNames& listed) {

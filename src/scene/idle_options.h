@@ -9,9 +9,6 @@
 
 namespace pounding {
 
-/// Whether the value of an option equals its default, in other digits perhaps.
-bool is_preset(const OptionRow& row, const std::string& value);
-
 /// Lines of doubt about options that are given and that nothing of the scene uses, one each, with
 /// name, value and the feature they go with. An option at its default is none of them, nor is one
 /// whose counterpart somebody switches off on purpose (`-contacts none`, `-fields_interval 0`). To

@@ -4,7 +4,6 @@
 
 #include "common/error.h"
 #include "scene/damping_reader.h"
-#include "scene/idle_options.h"
 
 namespace pounding {
 namespace {
@@ -52,9 +51,7 @@ void refuse_couplings(const OptionReader& options, const Structure& structure,
                              "join", "pin", "levels", "tie", "absorbing", "absorbing_base",
                              "soil_mat", "modal_damping", "modal_attachment", "modal_patches"}) {
     const std::string pattern = std::string("<structure>_") + option;
-    const auto given = options.database().find(option_name(pattern, {structure.name}));
-    if (switched && given != options.database().end() &&
-        !is_preset(option_row(pattern), given->second)) {
+    if (switched && options.changed(pattern, {structure.name})) {
       options.forbid(pattern, {structure.name}, remedy);
     }
   }

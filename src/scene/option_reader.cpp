@@ -19,12 +19,29 @@ const char* fault_of(double number, const AdmittedRange& range) {
   return holdable ? nullptr : "neither 0 nor between 1e-30 and 1e30 in size";
 }
 
+/// Whether a value equals the default, in other digits perhaps.
+bool is_preset(const OptionRow& row, const std::string& value) {
+  if (!row.preset.has_value) return false;
+  const auto numbers = parse_reals(value);
+  const auto preset = parse_reals(std::string(row.preset.text));
+  if (numbers && preset) return *numbers == *preset;
+  const auto flag = parse_boolean(value);
+  if (row.kind == OptionKind::boolean && flag) {
+    return flag == parse_boolean(std::string(row.preset.text));
+  }
+  return value == row.preset.text;
+}
+
 constexpr std::string_view damping_factor = "<structure>_damping_factor";
 
 }  // namespace
 
 bool OptionReader::given(std::string_view pattern, const Names& names) const {
   return database_.contains(option_name(pattern, names));
+}
+
+bool OptionReader::changed(std::string_view pattern, const Names& names) const {
+  return given(pattern, names) && !is_preset(option_row(pattern), value(pattern, names));
 }
 
 std::string OptionReader::value(std::string_view pattern, const Names& names) const {

@@ -36,6 +36,8 @@ class OptionReader {
                   const Prefix&... prefix) const;
 
   bool given(std::string_view pattern, const Names& names = {}) const;
+  /// Whether it is given with another value than its default, which may be in other digits.
+  bool changed(std::string_view pattern, const Names& names = {}) const;
 
   std::string text(std::string_view pattern, const Names& names = {});
   /// Text of a file or a folder; empty if it is "none".

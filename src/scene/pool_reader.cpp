@@ -75,19 +75,26 @@ std::vector<WaterRegion> water_regions(const Pool& pool) {
   return regions;
 }
 
-void read_pools(OptionReader& options, std::span<const std::string> names, Structure& structure) {
-  for (const std::string& name : names) {
-    Pool pool;
-    pool.name = name;
-    options.read(pool, {name});
+std::vector<Pool> read_pools(OptionReader& options, std::span<const std::string> names) {
+  std::vector<Pool> pools(names.size());
+  for (std::size_t p = 0; p < names.size(); ++p) {
+    pools[p].name = names[p];
+    options.read(pools[p], {names[p]});
+  }
+  return pools;
+}
+
+void take_pools(const OptionReader& options, std::span<const Pool> pools, Structure& structure) {
+  for (const Pool& pool : pools) {
     if (pool.structure != structure.name) continue;
+    const OptionReader::Names names{pool.name};
     if (!structure.matrices.empty()) {
-      options.refuse("<pool>_structure", {name},
+      options.refuse("<pool>_structure", names,
                      "not with -" + structure.name +
                          "_matrices; write the water into the matrices and leave the pool out");
     }
     if (structure.uniform_damping && structure.uniform_damping->reference == 0) {
-      options.refuse("<pool>_structure", {name},
+      options.refuse("<pool>_structure", names,
                      "the first mode is a wave now; give -" + structure.name +
                          "_damping_reference, the frequency of one of its own");
     }
@@ -95,12 +102,12 @@ void read_pools(OptionReader& options, std::span<const std::string> names, Struc
     std::ranges::sort(groups);
     const auto twice = std::ranges::adjacent_find(groups);
     if (twice != groups.end()) {
-      options.refuse("<pool>_faces", {name}, "group '" + *twice + "' is listed twice");
+      options.refuse("<pool>_faces", names, "group '" + *twice + "' is listed twice");
     }
     for (const WaterRegion& water : water_regions(pool)) {
       structure.regions.push_back(region_of(pool, water));
     }
-    structure.pools.push_back(std::move(pool));
+    structure.pools.push_back(pool);
   }
 }
 

@@ -27,10 +27,12 @@ struct WaterRegion {
 /// Regions of each pool, in their order among those of its structure.
 std::vector<WaterRegion> water_regions(const Pool& pool);
 
-/// Reads the pools of a list that a structure holds, and gives it their regions, as yet without
-/// masses and springs. Throws UserError: beside matrices, a group that is named twice, uniform
-/// damping that takes its reference from the first mode, which is a wave.
-void read_pools(OptionReader& options, std::span<const std::string> names, Structure& structure);
+std::vector<Pool> read_pools(OptionReader& options, std::span<const std::string> names);
+
+/// Gives a structure its own of the pools, and their regions, as yet without masses and springs.
+/// Throws UserError: beside matrices, a group that is named twice, uniform damping that takes its
+/// reference from the first mode, which is a wave.
+void take_pools(const OptionReader& options, std::span<const Pool> pools, Structure& structure);
 
 /// Damping ratio of a wave of a circular frequency [rad/s] in a pool of a structure: that of the
 /// pool, or the one by uniform damping if that is more.

@@ -88,9 +88,10 @@ class SceneReader {
 
  private:
   void read_structures() {
+    const std::vector<Pool> pools = read_pools(options_, listed_.at(OptionBlock::pool));
     for (const std::string& name : listed_.at(OptionBlock::structure)) {
       scene_.structures.push_back(read_structure(options_, name));
-      read_pools(options_, listed_.at(OptionBlock::pool), scene_.structures.back());
+      take_pools(options_, pools, scene_.structures.back());
       stiffness_factors_.push_back(read_stiffness_factor(options_, scene_.structures.back()));
       if (!options_.given("<structure>_gravity", {name})) {
         scene_.structures.back().gravity = {0, 0, -gravity_};
@@ -99,13 +100,8 @@ class SceneReader {
       require_own_basis(scene_.structures.back());
       require_full_order(scene_.structures.back());
     }
-    require_structures_of_pools();
-  }
-
-  void require_structures_of_pools() {
-    constexpr std::string_view pattern = "<pool>_structure";
-    for (const std::string& name : listed_.at(OptionBlock::pool)) {
-      named_structure(options_, scene_, pattern, {name}, options_.text(pattern, {name}));
+    for (const Pool& pool : pools) {
+      named_structure(options_, scene_, "<pool>_structure", {pool.name}, pool.structure);
     }
   }
 

@@ -47,11 +47,7 @@ class Reader {
     add_parts(read_matrix("masses", -round_off), &Impedance::mass, parts);
     expect("hidden");
     while (next_ < rows_.size()) add_part(read_hidden(), parts);
-    for (const SoilPart& part : parts) {
-      if (soil.mats > 1) break;
-      std::copy_n(part.motion.begin(), 6, soil.parts.emplace_back().motion.begin());
-      soil.parts.back().impedance = part.impedance;
-    }
+    if (soil.mats == 1) soil.parts = parts_of_mat(parts);
     if (soil.mats > 1) soil.shared = std::move(parts);
     return soil;
   }

@@ -1,11 +1,15 @@
 #include "scene/soil_parts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pounding {
 namespace {
 
+constexpr std::array impedance_values{&Impedance::stiffness,     &Impedance::dashpot,
+                                      &Impedance::inner_dashpot, &Impedance::inner_mass,
+                                      &Impedance::mass,          &Impedance::inner_stiffness};
 constexpr double last_pivot = 1e-13;  ///< over the diagonal, from which on nothing is left
 
 /// Turns a part into an equal one against a motion whose largest component is 1.
@@ -13,11 +17,7 @@ void make_unit(SoilPart& part) {
   const double largest =
       *std::ranges::max_element(part.motion, {}, [](double value) { return std::abs(value); });
   for (double& value : part.motion) value /= largest;
-  Impedance& of = part.impedance;
-  for (double* value : {&of.stiffness, &of.dashpot, &of.inner_dashpot, &of.inner_mass, &of.mass,
-                        &of.inner_stiffness}) {
-    *value *= largest * largest;
-  }
+  for (double Impedance::*value : impedance_values) part.impedance.*value *= largest * largest;
 }
 
 }  // namespace
@@ -34,11 +34,7 @@ void add_part(SoilPart part, std::vector<SoilPart>& parts) {
     return;
   }
   Impedance& to = same->impedance;
-  for (double Impedance::*value :
-       {&Impedance::stiffness, &Impedance::dashpot, &Impedance::inner_dashpot,
-        &Impedance::inner_mass, &Impedance::mass, &Impedance::inner_stiffness}) {
-    to.*value += from.*value;
-  }
+  for (double Impedance::*value : impedance_values) to.*value += from.*value;
 }
 
 void add_parts(DenseMatrix matrix, double Impedance::*value, std::vector<SoilPart>& parts) {
@@ -72,6 +68,15 @@ void add_parts(DenseMatrix matrix, double Impedance::*value, std::vector<SoilPar
   }
 }
 
+std::vector<DirectedImpedance> parts_of_mat(std::span<const SoilPart> parts) {
+  std::vector<DirectedImpedance> directed(parts.size());
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    std::copy_n(parts[k].motion.begin(), 6, directed[k].motion.begin());
+    directed[k].impedance = parts[k].impedance;
+  }
+  return directed;
+}
+
 std::vector<DirectedImpedance> own_springs(const DenseMatrix& stiffness, std::size_t first) {
   DenseMatrix own(6, 6);
   for (std::size_t j = 0; j < 6; ++j) {
@@ -79,12 +84,7 @@ std::vector<DirectedImpedance> own_springs(const DenseMatrix& stiffness, std::si
   }
   std::vector<SoilPart> springs;
   add_parts(own, &Impedance::stiffness, springs);
-  std::vector<DirectedImpedance> parts;
-  for (const SoilPart& spring : springs) {
-    std::copy_n(spring.motion.begin(), 6, parts.emplace_back().motion.begin());
-    parts.back().impedance = spring.impedance;
-  }
-  return parts;
+  return parts_of_mat(springs);
 }
 
 void add_springs_between(const DenseMatrix& stiffness, std::vector<SoilPart>& parts) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "common/dense_matrix.h"
@@ -14,6 +15,9 @@ void add_part(SoilPart part, std::vector<SoilPart>& parts);
 /// Adds the parts of a matrix without negative eigenvalues: it is the sum of d b b^T over its
 /// pivots d, the largest first, each over its diagonal.
 void add_parts(DenseMatrix matrix, double Impedance::*value, std::vector<SoilPart>& parts);
+
+/// Parts against the six motions of a mat, which are the first of theirs.
+std::vector<DirectedImpedance> parts_of_mat(std::span<const SoilPart> parts);
 
 /// Springs against the motions of the mat whose motions begin with `first`, the others held.
 std::vector<DirectedImpedance> own_springs(const DenseMatrix& stiffness, std::size_t first);
