@@ -72,7 +72,7 @@ struct InitialGap {
     option(&InitialGap::length, "<contact>_gap_length", real("m", absent("required with gap_deviation"), positive), "length over which that part is correlated: its covariance falls with exp(-distance/length)", needs(&InitialGap::has_deviation));
     option(&InitialGap::seed, "<contact>_gap_seed", integer("-", "1"), "seed of that part: another number, another joint of the same tolerances", needs(&InitialGap::has_deviation));
     option("<contact>_gap_patches", text("m", "none", "none, or discs s,t,radius,gap and rectangles s1,t1,s2,t2,gap between semicolons"), "parts of the face with a gap of their own, in place of all others, as debris or formwork left in makes them; s and t are places along the tangent axes, in the order x, y, z, and a gap of 0 is a joint that is filled");
-    option(&InitialGap::survey, "<contact>_survey", text("file", "none", "a file or none"), "the joint as it was measured, in place of gap: a table with a first line of names, x, y, z and gap, in metres; linear between the points, beyond them as at the nearest place");
+    option(&InitialGap::survey, "<contact>_survey", text("file", "none", "a file or none"), "the joint as it was measured, in place of gap: a table with a first line of names, x, y, z and gap, in metres, and where several contacts are in it contact, their names; linear between the points, beyond them as at the nearest place");
     option("<contact>_static_closing", text("m", "none", "none, or elevation:closing,..."), "by which the joint is narrower at the start than gap or survey have it, as temperature, creep and settlement make it: straight between elevations, even beyond them; below 0: wider");
     // clang-format on
   }
