@@ -35,9 +35,9 @@ inline constexpr double sharing = 4000;
 /// two elements, which weighs their shared nodes.
 inline constexpr int contact_cut = 64;
 
-/// One element in so many has to have a kernel of its own, other than that of beams, for the
-/// product by elements to be taken: those without cost somewhat more in its rows than in an
-/// assembled matrix, the others a fifth of that or less.
-inline constexpr int elements_per_shaped = 4;
+/// One element in so many has to have a kernel of its own for the product by elements to be taken:
+/// those without cost somewhat more in its rows than in an assembled matrix, beams a third to a
+/// fifth of that, the others a fifth or less.
+inline constexpr int elements_per_kernel = 4;
 
 }  // namespace pounding::measured_costs

@@ -286,14 +286,14 @@ class Assembly {
 /// Whether the element-wise product is asked for or pays.
 bool multiplies_elements(const Mesh& mesh, StiffnessMethod method) {
   GlobalIndex elements = 0;
-  GlobalIndex shaped = 0;  // elements with a kernel of their own
+  GlobalIndex in_kernels = 0;
   for (const ElementBlock& block : mesh.blocks) {
     elements += block.global_count;
-    shaped += has_strains(block.type) ? block.global_count : 0;
+    in_kernels += traits_of(block.type).kernel != ElementKernel::sparse ? block.global_count : 0;
   }
   return method == StiffnessMethod::element ||
          (method == StiffnessMethod::automatic &&
-          measured_costs::elements_per_shaped * shaped >= elements);
+          measured_costs::elements_per_kernel * in_kernels >= elements);
 }
 
 std::string describe(const stiffness::ElementKinds& kinds, Numbers numbers) {
