@@ -1,9 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <mpi.h>
@@ -88,6 +90,43 @@ void broadcast_values(MPI_Comm comm, int root, Values&... values) {
     place += next.size();
   };
   if (!writes) ByteReader{give, bytes.size()}(values...);
+}
+
+/// MPI's type of a number.
+template <typename Number>
+MPI_Datatype mpi_type() {
+  if constexpr (std::is_same_v<Number, double>) return MPI_DOUBLE;
+  if constexpr (std::is_same_v<Number, int>) return MPI_INT;
+  if constexpr (std::is_same_v<Number, std::int64_t>) return MPI_INT64_T;
+  if constexpr (std::is_same_v<Number, std::uint8_t>) return MPI_UINT8_T;
+}
+
+/// Replaces each number, and each number of an array, by the sum of those of all ranks (MPI_SUM),
+/// the smallest or the largest one. Collective.
+template <typename... Values>
+void reduce_over_ranks(MPI_Comm comm, MPI_Op operation, Values&&... values) {
+  const auto reduce = [&]<typename Number>(std::span<Number> numbers) {
+    constexpr std::size_t portion = std::size_t{1} << 28;  // range of an int
+    for (std::size_t first = 0; first < numbers.size(); first += portion) {
+      const auto count = static_cast<int>(std::min(portion, numbers.size() - first));
+      MPI_Allreduce(MPI_IN_PLACE, &numbers[first], count, mpi_type<Number>(), operation, comm);
+    }
+  };
+  const auto take = [&](auto& value) {
+    if constexpr (std::is_arithmetic_v<std::remove_reference_t<decltype(value)>>) {
+      reduce(std::span(&value, 1));
+    } else {
+      reduce(std::span<std::remove_reference_t<decltype(value[0])>>(value));
+    }
+  };
+  (take(values), ...);
+}
+
+/// Whether something is so on any rank, the same on all of them. Collective.
+inline bool on_any_rank(MPI_Comm comm, bool here) {
+  int any = here ? 1 : 0;
+  reduce_over_ranks(comm, MPI_MAX, any);
+  return any != 0;
 }
 
 /// The extreme value over the ranks, MPI_MAXLOC or MPI_MINLOC, and the name on the rank that has

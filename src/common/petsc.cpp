@@ -38,6 +38,31 @@ void check_petsc(PetscErrorCode error, const char* call, const char* file, int l
                            (message.empty() ? "" : ": " + message));
 }
 
+void assemble(Mat matrix) {
+  POUNDING_PETSC(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+  POUNDING_PETSC(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+}
+
+PetscInt first_row(Mat matrix) {
+  PetscInt first = 0;
+  POUNDING_PETSC(MatGetOwnershipRange(matrix, &first, nullptr));
+  return first;
+}
+
+MatHandle diagonal_matrix(MPI_Comm comm, std::span<const double> diagonal) {
+  MatHandle matrix;
+  const auto size = static_cast<PetscInt>(diagonal.size());
+  POUNDING_PETSC(MatCreateAIJ(comm, size, size, PETSC_DETERMINE, PETSC_DETERMINE, 1, nullptr, 0,
+                              nullptr, matrix.out()));
+  PetscInt row = first_row(matrix.get());
+  for (const double value : diagonal) {
+    POUNDING_PETSC(MatSetValue(matrix.get(), row, row, value, INSERT_VALUES));
+    ++row;
+  }
+  assemble(matrix.get());
+  return matrix;
+}
+
 PetscSession::PetscSession(MPI_Comm comm, const std::map<std::string, std::string>& options) {
   PETSC_COMM_WORLD = comm;
   unsetenv("PETSC_OPTIONS");

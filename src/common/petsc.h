@@ -93,6 +93,15 @@ class ScopedEvent {
   PetscLogEvent event_;
 };
 
+/// Ends the insertion of entries into a matrix. Collective.
+void assemble(Mat matrix);
+
+/// Number of the first row of a matrix that this rank owns.
+PetscInt first_row(Mat matrix);
+
+/// A matrix with these numbers of the owned rows on its diagonal and nothing else. Collective.
+MatHandle diagonal_matrix(MPI_Comm comm, std::span<const double> diagonal);
+
 /// Calls visit(row, columns, values) for each row of a matrix that this rank owns, in their order;
 /// both spans of its entries last until the next call. Local.
 template <typename Visit>

@@ -181,7 +181,7 @@ SwitchedRun* CdLagrange::in_modes(std::size_t structure) const {
 
 void CdLagrange::try_modes() {
   std::int64_t struck = order_.struck;
-  MPI_Allreduce(MPI_IN_PLACE, &struck, 1, MPI_INT64_T, MPI_MAX, comm_);
+  reduce_over_ranks(comm_, MPI_MAX, struck);
   const std::int64_t quiet = state_.step - struck;
   order_.next = state_.step + std::max(order_.least, quiet / 2);
   if (struck >= 0 && quiet < order_.least) order_.next = struck + order_.least;
@@ -203,7 +203,7 @@ bool CdLagrange::is_struck() {
   for (const auto& interaction : interactions_) {
     order_.next = std::min(order_.next, interaction->next_action());
   }
-  MPI_Allreduce(MPI_IN_PLACE, &order_.next, 1, MPI_INT64_T, MPI_MIN, comm_);
+  reduce_over_ranks(comm_, MPI_MIN, order_.next);
   return order_.next <= state_.step;
 }
 
@@ -222,7 +222,7 @@ void CdLagrange::save(SavedState& saved) const {
   }
   if (order_.least > 0) {
     Order order = order_;
-    MPI_Allreduce(MPI_IN_PLACE, &order.struck, 1, MPI_INT64_T, MPI_MAX, comm_);
+    reduce_over_ranks(comm_, MPI_MAX, order.struck);
     saved.put("order", to_rows(std::vector{order}, Order::members));
   }
   state_.save(saved);

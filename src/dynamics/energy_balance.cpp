@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/parallel.h"
+
 namespace pounding {
 
 void EnergyBalance::Sum::add(double term) {
@@ -108,16 +110,15 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
   for (std::size_t b = 0; b < structures.size(); ++b) {
     structures[b].held += structures[b].energy() + filtered_[b].total();
   }
-  MPI_Allreduce(MPI_IN_PLACE, structures.data(), static_cast<int>(values * structures.size()),
-                MPI_DOUBLE, MPI_SUM, comm_);
+  reduce_over_ranks(comm_, MPI_SUM,
+                    std::span(&structures.front().kinetic, values * structures.size()));
   std::array<double, ledger_rows.size() + 1> sums{};
   for (std::size_t r = 0; r < ledger_rows.size(); ++r) sums[r] = closed_[r].total();
   sums[ledger_row("damping_loss")] -= stored_work_ - initial_stored_work_;
   double& devices = sums[ledger_row("device_work")];
   devices = devices + lagged_damping_ - initial_lagged_damping_;
   sums.back() = initial_;
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
-                comm_);
+  reduce_over_ranks(comm_, MPI_SUM, sums);
   devices += sums[ledger_row("link_loss")];
   EnergyLine line;
   line.time = static_cast<double>(closed_steps() - 1) * time_step_;

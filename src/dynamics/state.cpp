@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/memory.h"
+#include "common/parallel.h"
 #include "system/load_shapes.h"
 
 namespace pounding {
@@ -125,9 +126,7 @@ bool damped_about_rest(const LinearSystem& system) {
 }
 
 bool any_damped_about_rest(const LinearSystem& system) {
-  int any = damped_about_rest(system) ? 1 : 0;
-  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, system.comm);
-  return any != 0;
+  return on_any_rank(system.comm, damped_about_rest(system));
 }
 
 std::vector<double> rest_forces(const LinearSystem& system) {

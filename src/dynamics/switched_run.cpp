@@ -91,8 +91,7 @@ bool SwitchedRun::fits_modes() {
       for (std::size_t j = 0; j < size; ++j) parts[f * size + j] += value * phi[j];
     }
   }
-  MPI_Allreduce(MPI_IN_PLACE, parts.data(), static_cast<int>(parts.size()), MPI_DOUBLE, MPI_SUM,
-                system_.comm);
+  reduce_over_ranks(system_.comm, MPI_SUM, parts);
   for (std::size_t f = 0; f < fields_.size(); ++f) {
     std::copy_n(&parts[f * size], size, fields_[f]->begin());
   }
@@ -105,7 +104,7 @@ bool SwitchedRun::fits_modes() {
     velocity[i] = state_.velocity[i] - velocity[i];
   }
   double outside = energy_.energy(number_, energies(system_, displacement, velocity)).energy();
-  MPI_Allreduce(MPI_IN_PLACE, &outside, 1, MPI_DOUBLE, MPI_SUM, system_.comm);
+  reduce_over_ranks(system_.comm, MPI_SUM, outside);
   note_energy(outside);
   return outside <= modes_.part * largest_energy_;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/parallel.h"
+
 namespace pounding::interactions {
 
 namespace {
@@ -41,7 +43,7 @@ ContactOperator::ContactOperator(MPI_Comm comm, const std::vector<Constraint>& c
   std::vector<int> moves(all.size(), 0);
   std::transform(all.begin(), all.end(), moves.begin(),
                  [&](const InterfaceDof& dof) { return moves_here(dof, meshes) ? 1 : 0; });
-  MPI_Allreduce(MPI_IN_PLACE, moves.data(), static_cast<int>(moves.size()), MPI_INT, MPI_MAX, comm);
+  reduce_over_ranks(comm, MPI_MAX, moves);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (moves[i] == 0) continue;
     column_[{all[i].structure, all[i].node, all[i].component}] = static_cast<int>(dofs_.size());

@@ -71,8 +71,7 @@ InterfaceCompliance::InterfaceCompliance(MPI_Comm comm, const std::vector<Interf
     structure_dofs[dofs[i].structure].push_back(static_cast<int>(i));
   }
   const KnownRows mine = known_rows(structure_dofs, traces, diagonal_);
-  MPI_Allreduce(MPI_IN_PLACE, diagonal_.data(), static_cast<int>(diagonal_.size()), MPI_DOUBLE,
-                MPI_SUM, comm);
+  reduce_over_ranks(comm, MPI_SUM, diagonal_);
   std::vector<int> row_of(dofs.size(), -1);
   const SparseRows all = rows_of_all(comm, mine, row_of);
   others_.reserve(dofs.size(), all.entries());

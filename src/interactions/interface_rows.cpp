@@ -93,8 +93,7 @@ void InterfaceGather::add(std::span<double> values) {
     }
     return;
   }
-  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,
-                comm_);
+  reduce_over_ranks(comm_, MPI_SUM, values);
 }
 
 std::vector<std::vector<int>> dofs_by_structure(const ContactOperator& contact,

@@ -127,16 +127,26 @@ Mesh distribute_mesh(MPI_Comm comm, const std::string& name, const GlobalMesh& g
 /// Bounding box of every node of a distributed mesh, which has at least one. Collective.
 BoundingBox bounding_box(MPI_Comm comm, const Mesh& mesh);
 
+/// Calls `visit(dof, node, component)` with each dof of the nodes [first, end), by their numbers.
+void for_each_dof(const Mesh& mesh, LocalIndex first, LocalIndex end, const auto& visit) {
+  for (LocalIndex node = first; node < end; ++node) {
+    for (int c = 0; c < 6; ++c) {
+      if (const LocalIndex dof = mesh.dof(node, c); dof >= 0) visit(dof, node, c);
+    }
+  }
+}
+void for_each_owned_dof(const Mesh& mesh, const auto& visit) {
+  for_each_dof(mesh, 0, mesh.owned_nodes, visit);
+}
+
 /// Global numbers of the ghost dofs of a rank, in the order of their local numbers, as a Halo asks
 /// for them.
 inline std::vector<GlobalIndex> ghost_dofs(const Mesh& mesh) {
   std::vector<GlobalIndex> ghosts(mesh.dof_count - mesh.owned_dofs);
-  for (LocalIndex node = mesh.owned_nodes; node < mesh.node_count(); ++node) {
-    for (int c = 0; c < 6; ++c) {
-      const LocalIndex dof = mesh.dof(node, c);
-      if (dof >= 0) ghosts[dof - mesh.owned_dofs] = mesh.dof_global(node, c);
-    }
-  }
+  for_each_dof(mesh, mesh.owned_nodes, mesh.node_count(),
+               [&](LocalIndex dof, LocalIndex node, int c) {
+                 ghosts[dof - mesh.owned_dofs] = mesh.dof_global(node, c);
+               });
   return ghosts;
 }
 

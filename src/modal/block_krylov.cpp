@@ -72,15 +72,12 @@ class BlockKrylov {
   /// and to the space; none where there are no others.
   void add_fresh_block(DenseMatrix& next) {
     DenseMatrix block(space_.columns().rows, block_size);
-    for (LocalIndex node = 0; node < mesh_.owned_nodes; ++node) {
-      for (int c = 0; c < 6; ++c) {
-        const LocalIndex dof = mesh_.dof(node, c);
-        for (std::size_t j = 0; dof >= 0 && j < block_size; ++j) {
-          const auto number = static_cast<std::uint64_t>(6 * mesh_.file_node[node] + c);
-          block.column(j)[dof] = scattered_normal((number << 16U) + fresh_ + j);
-        }
+    for_each_owned_dof(mesh_, [&](LocalIndex dof, LocalIndex node, int c) {
+      const auto number = static_cast<std::uint64_t>(6 * mesh_.file_node[node] + c);
+      for (std::size_t j = 0; j < block_size; ++j) {
+        block.column(j)[dof] = scattered_normal((number << 16U) + fresh_ + j);
       }
-    }
+    });
     fresh_ += block_size;
     const double least = fresh_rest * std::ranges::max(space_.norms(block));
     OrthonormalSpace others(system_.comm, block.rows);

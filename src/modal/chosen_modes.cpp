@@ -34,7 +34,7 @@ std::vector<std::size_t> moving_most(MPI_Comm comm, const Mesh& mesh, const Moda
       add_shares(space, squared_frequency, owned_dof(mesh, point), share);
     }
   }
-  add_over_ranks(comm, share);
+  reduce_over_ranks(comm, MPI_SUM, share);
   std::vector<std::size_t> order(space.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto first = order.begin() + static_cast<std::ptrdiff_t>(wanted * 3 / 4);

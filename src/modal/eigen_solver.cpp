@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/error.h"
+#include "common/parallel.h"
 #include "system/factor_plan.h"
 
 namespace pounding {
@@ -130,8 +131,7 @@ MatHandle mass_matrix(const LinearSystem& system) {
   MatHandle matrix;
   POUNDING_PETSC(MatCreateAIJ(system.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 0,
                               entries.data(), 0, nullptr, matrix.out()));
-  PetscInt first = 0;
-  POUNDING_PETSC(MatGetOwnershipRange(matrix.get(), &first, nullptr));
+  const PetscInt first = first_row(matrix.get());
   const auto add = [&](LocalIndex i, LocalIndex j, double value) {
     POUNDING_PETSC(MatSetValue(matrix.get(), first + i, first + j, value, ADD_VALUES));
   };
@@ -145,8 +145,7 @@ MatHandle mass_matrix(const LinearSystem& system) {
       }
     }
   });
-  POUNDING_PETSC(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY));
-  POUNDING_PETSC(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY));
+  assemble(matrix.get());
   POUNDING_PETSC(MatSetOption(matrix.get(), MAT_SYMMETRIC, PETSC_TRUE));
   return matrix;
 }
@@ -163,15 +162,9 @@ EpsHandle create_eigen_solver(const LinearSystem& system, const Mesh& mesh, Mat 
   double* start = nullptr;
   POUNDING_PETSC(MatCreateVecs(matrix, vector.out(), nullptr));
   POUNDING_PETSC(VecGetArray(vector.get(), &start));
-  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    for (int c = 0; c < 6; ++c) {
-      const LocalIndex dof = mesh.dof(node, c);
-      if (dof >= 0) {
-        const auto number = static_cast<double>(6 * mesh.file_node[node] + c);
-        start[dof] = std::sin(12.9898 * number + 1);
-      }
-    }
-  }
+  for_each_owned_dof(mesh, [&](LocalIndex dof, LocalIndex node, int c) {
+    start[dof] = std::sin(12.9898 * static_cast<double>(6 * mesh.file_node[node] + c) + 1);
+  });
   POUNDING_PETSC(VecRestoreArray(vector.get(), &start));
   Vec vectors[] = {vector.get()};
   POUNDING_PETSC(EPSSetInitialSpace(solver.get(), 1, vectors));
@@ -283,7 +276,7 @@ void ScaledOperator::from_force(std::vector<double>& f) const {
 bool must_iterate(const LinearSystem& system, Mat matrix, SolverChoice choice) {
   if (choice != SolverChoice::automatic) return choice == SolverChoice::iterative;
   double usable = memory_for_factor();
-  MPI_Allreduce(MPI_IN_PLACE, &usable, 1, MPI_DOUBLE, MPI_MIN, system.comm);
+  reduce_over_ranks(system.comm, MPI_MIN, usable);
   PetscInt dofs = 0;
   POUNDING_PETSC(MatGetSize(matrix, &dofs, nullptr));
   // Ordering the rows takes its time: only where the answer is in doubt.

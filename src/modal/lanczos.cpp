@@ -42,13 +42,9 @@ void Lanczos::begin() {
   double* values = nullptr;
   POUNDING_PETSC(VecSet(previous_.get(), 0));
   POUNDING_PETSC(VecGetArray(current_.get(), &values));
-  for (LocalIndex node = 0; node < mesh_.owned_nodes; ++node) {
-    for (int c = 0; c < 6; ++c) {
-      const LocalIndex dof = mesh_.dof(node, c);
-      if (dof < 0) continue;
-      values[dof] = scattered_normal(static_cast<std::uint64_t>(6 * mesh_.file_node[node] + c));
-    }
-  }
+  for_each_owned_dof(mesh_, [&](LocalIndex dof, LocalIndex node, int c) {
+    values[dof] = scattered_normal(static_cast<std::uint64_t>(6 * mesh_.file_node[node] + c));
+  });
   POUNDING_PETSC(VecRestoreArray(current_.get(), &values));
   POUNDING_PETSC(VecScale(current_.get(), 1 / norm(current_.get())));
   beta_ = 0;

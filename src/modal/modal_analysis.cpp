@@ -8,6 +8,7 @@
 
 #include "common/error.h"
 #include "common/matrix3.h"
+#include "common/parallel.h"
 #include "common/types.h"
 #include "mesh/location.h"
 #include "modal/eigen_solver.h"
@@ -94,12 +95,9 @@ void find_missed(const LowestProblem& problem, int wanted, double zero,
 
 template <typename Visit>
 void for_each_translation(const Mesh& mesh, Visit&& visit) {
-  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    for (int c = 0; c < 3; ++c) {
-      const LocalIndex dof = mesh.dof(node, c);
-      if (dof >= 0) visit(static_cast<std::size_t>(dof), c, mesh.position(node));
-    }
-  }
+  for_each_owned_dof(mesh, [&](LocalIndex dof, LocalIndex node, int c) {
+    if (c < 3) visit(static_cast<std::size_t>(dof), c, mesh.position(node));
+  });
 }
 
 /// A mode with its shape, if that is kept. Its vector is weighed by the roots of the masses, where
@@ -111,7 +109,7 @@ Mode examine(FoundPair& pair, const LinearSystem& system, const Mesh& mesh,
   for (const LocalIndex dof : system.condensed) {  // their lent mass
     scaled += system.lumped_mass[dof] * field[dof] * field[dof];
   }
-  MPI_Allreduce(MPI_IN_PLACE, &scaled, 1, MPI_DOUBLE, MPI_SUM, system.comm);
+  reduce_over_ranks(system.comm, MPI_SUM, scaled);
   std::vector<double> shape;
   if (keep_shape) shape = field;
   if (system.mass_is_coupled()) {
@@ -264,7 +262,7 @@ RigidMotions::RigidMotions(const LinearSystem& system, const Mesh& mesh) : syste
       for (std::size_t d = 0; d < 3; ++d) sums[d + 1] += m * x[d];
     }
   });
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 4, MPI_DOUBLE, MPI_SUM, system.comm);
+  reduce_over_ranks(system.comm, MPI_SUM, sums);
   mass_ = sums[0];
   for (std::size_t d = 0; d < 3; ++d) {
     centre_[d] = mass_ > 0 ? sums[d + 1] / mass_ : 0;
@@ -272,12 +270,12 @@ RigidMotions::RigidMotions(const LinearSystem& system, const Mesh& mesh) : syste
     motions_[d + 3].assign(system.lumped_mass.size(), 0.0);
   }
   for_each_translation(mesh, [&](std::size_t dof, int c, const Vector3& x) {
-    const Vector3 arm{x[0] - centre_[0], x[1] - centre_[1], x[2] - centre_[2]};
-    const std::array<double, 6> row = rigid_motion_row(static_cast<std::size_t>(c), arm);
+    const std::array<double, 6> row =
+        rigid_motion_row(static_cast<std::size_t>(c), minus(x, centre_));
     for (std::size_t k = 3; k < 6; ++k) motions_[k][dof] = row[k];
   });
   for (std::size_t k = 0; k < 6; ++k) inertia_[k] = weighted_square(motions_[k]);
-  MPI_Allreduce(MPI_IN_PLACE, inertia_.data(), 6, MPI_DOUBLE, MPI_SUM, system.comm);
+  reduce_over_ranks(system.comm, MPI_SUM, inertia_);
 }
 
 std::array<double, 6> RigidMotions::participation(const double* y) const {
@@ -287,7 +285,7 @@ std::array<double, 6> RigidMotions::participation(const double* y) const {
       sums[k] += std::sqrt(system_.lumped_mass[i]) * y[i] * motions_[k][i];
     }
   }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 6, MPI_DOUBLE, MPI_SUM, system_.comm);
+  reduce_over_ranks(system_.comm, MPI_SUM, sums);
   return sums;
 }
 

@@ -155,8 +155,7 @@ class BasisMaker {
   /// own rows.
   void decompose(std::vector<double>& values, DenseMatrix& vectors) const {
     const auto size = static_cast<std::size_t>(system_.global_dofs);
-    PetscInt first = 0;
-    POUNDING_PETSC(MatGetOwnershipRange(matrix_.get(), &first, nullptr));
+    const PetscInt first = first_row(matrix_.get());
     DenseMatrix whole(size, size);
     std::vector<double> unit(dofs_, 0.0);
     for (std::size_t j = 0; j < size; ++j) {
@@ -165,7 +164,7 @@ class BasisMaker {
       multiply(matrix_, unit.data(), whole.column(j) + first);
       if (own < dofs_) unit[own] = 0;
     }
-    add_over_ranks(system_.comm, whole.values);
+    reduce_over_ranks(system_.comm, MPI_SUM, whole.values);
     values = symmetric_eigenvalues(whole);
     broadcast_array(system_.comm, whole.values);
     broadcast_array(system_.comm, values);
@@ -342,7 +341,7 @@ class BasisMaker {
         if (!shape.empty()) basis.support_rows[p * columns + c] = shape[dof];
       }
     }
-    add_over_ranks(system_.comm, basis.support_rows);
+    reduce_over_ranks(system_.comm, MPI_SUM, basis.support_rows);
   }
 
   void add_rows(const DenseMatrix& rotation, ModalBasis& basis) const {
@@ -360,7 +359,7 @@ class BasisMaker {
         of_space.column(p)[j] = std::sqrt(system_.inverse_mass[dof]) * space_.column(j)[dof];
       }
     }
-    add_over_ranks(system_.comm, of_space.values);
+    reduce_over_ranks(system_.comm, MPI_SUM, of_space.values);
     basis.rows = transposed_product(rotation, of_space).numbers();
   }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 
+#include "common/parallel.h"
+
 namespace pounding {
 namespace {
 
@@ -57,18 +59,10 @@ Combination orthonormal_combination(DenseMatrix products, double least) {
 
 }  // namespace
 
-void add_over_ranks(MPI_Comm comm, std::span<double> values) {
-  constexpr std::size_t portion = std::size_t{1} << 28;  // range of an int
-  for (std::size_t first = 0; first < values.size(); first += portion) {
-    const auto count = static_cast<int>(std::min(portion, values.size() - first));
-    MPI_Allreduce(MPI_IN_PLACE, values.data() + first, count, MPI_DOUBLE, MPI_SUM, comm);
-  }
-}
-
 DenseMatrix product_over_ranks(MPI_Comm comm, const DenseMatrix& a, const DenseMatrix& b,
                                std::size_t first) {
   DenseMatrix result = transposed_product(a, b, first);
-  add_over_ranks(comm, result.values);
+  reduce_over_ranks(comm, MPI_SUM, result.values);
   return result;
 }
 
@@ -100,7 +94,7 @@ DenseMatrix OrthonormalSpace::project(DenseMatrix& x, std::size_t first) const {
 
 std::vector<double> OrthonormalSpace::norms(const DenseMatrix& x) const {
   std::vector<double> lengths = squared_norms(x);
-  add_over_ranks(comm_, lengths);
+  reduce_over_ranks(comm_, MPI_SUM, lengths);
   for (double& length : lengths) length = std::sqrt(length);
   return lengths;
 }

@@ -56,9 +56,6 @@ class OrthonormalSpace {
   DenseMatrix columns_;
 };
 
-/// Sums over ranks, in place. Collective.
-void add_over_ranks(MPI_Comm comm, std::span<double> values);
-
 /// A^T B of matrices whose rows ranks share out, the same on all ranks, of the columns of A from
 /// `first` on. Collective.
 DenseMatrix product_over_ranks(MPI_Comm comm, const DenseMatrix& a, const DenseMatrix& b,

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "common/error.h"
+#include "common/parallel.h"
 #include "elements/geometric_stiffness.h"
 #include "mesh/element_properties.h"
 #include "modal/eigen_solver.h"
@@ -55,8 +56,7 @@ std::map<std::string, double> works_of(const Structure& structure, const Mesh& m
   for (const ElementBlock& block : mesh.blocks) {
     if (!has_axial_force(block.type)) continue;
     const ElementProperties properties = element_properties(structure.regions[block.region]);
-    const ElementLayout layout = element_layout(block.type);
-    const auto size = static_cast<std::size_t>(layout.size());
+    const auto size = static_cast<std::size_t>(element_layout(block.type).size());
     double sum = 0;
     for (std::size_t e = 0; e < block.count(); ++e) {
       if (block.counted[e] == 0) continue;
@@ -64,14 +64,14 @@ std::map<std::string, double> works_of(const Structure& structure, const Mesh& m
       std::fill(matrix.begin(), matrix.end(), 0.0);
       add_geometric_stiffness(block.type, gather_coordinates(mesh, block, e, work), properties,
                               block.axial_force[e], matrix);
-      const auto dofs = stiffness::element_dofs(mesh, block, e, layout);
+      const stiffness::ElementDofs dofs(mesh, block, e);
       for (std::size_t i = 0; i < size; ++i) {
         for (std::size_t j = 0; j < size && dofs[i] >= 0; ++j) {
           if (dofs[j] >= 0) sum += values[dofs[i]] * matrix[i * size + j] * values[dofs[j]];
         }
       }
     }
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, mesh.comm);
+    reduce_over_ranks(mesh.comm, MPI_SUM, sum);
     works[block.group] += sum;
   }
   return works;
@@ -97,7 +97,7 @@ std::vector<double> lowest_vector(const LinearSystem& system, Mat matrix) {
     solver.solve(x);
     double square = 0;
     for (const double value : x) square += value * value;
-    MPI_Allreduce(MPI_IN_PLACE, &square, 1, MPI_DOUBLE, MPI_SUM, system.comm);
+    reduce_over_ranks(system.comm, MPI_SUM, square);
     for (double& value : x) value /= std::sqrt(square);
   }
   return x;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "common/parallel.h"
 #include "modal/eigen_solver.h"
 #include "modal/orthonormal_space.h"
 #include "system/load_shapes.h"
@@ -27,7 +28,7 @@ std::vector<std::vector<std::size_t>> load_patches(MPI_Comm comm, const Mesh& me
     const LocalIndex node = mesh.owned_node(points[p].node);
     if (node >= 0) std::ranges::copy(mesh.position(node), &coordinates[3 * p]);
   }
-  add_over_ranks(comm, coordinates);
+  reduce_over_ranks(comm, MPI_SUM, coordinates);
   std::vector<Vector3> positions;
   for (std::size_t p = 0; p < points.size(); ++p) {
     positions.push_back({coordinates[3 * p], coordinates[3 * p + 1], coordinates[3 * p + 2]});
@@ -97,8 +98,7 @@ std::vector<TracePoint> free_points(MPI_Comm comm, const Mesh& mesh,
                                     const std::vector<TracePoint>& points) {
   std::vector<std::uint8_t> found;
   for (const TracePoint& point : points) found.push_back(owned_dof(mesh, point) >= 0 ? 1 : 0);
-  MPI_Allreduce(MPI_IN_PLACE, found.data(), static_cast<int>(found.size()), MPI_UINT8_T, MPI_MAX,
-                comm);
+  reduce_over_ranks(comm, MPI_MAX, found);
   std::vector<TracePoint> free;
   for (std::size_t p = 0; p < points.size(); ++p) {
     if (found[p] != 0) free.push_back(points[p]);

@@ -6,6 +6,7 @@
 
 #include "common/facts.h"
 #include "common/matrix3.h"
+#include "common/parallel.h"
 #include "elements/beam2.h"
 #include "mesh/element_properties.h"
 
@@ -41,9 +42,8 @@ std::vector<BeamWaves> beam_waves(MPI_Comm comm, const Structure& structure, con
     for (const ElementBlock& block : mesh.blocks) {
       if (block.region == static_cast<int>(r)) add_block(mesh, block, properties, waves);
     }
-    MPI_Allreduce(MPI_IN_PLACE, &waves.length, 1, MPI_DOUBLE, MPI_MAX, comm);
-    MPI_Allreduce(MPI_IN_PLACE, &waves.largest_part, 1, MPI_DOUBLE, MPI_MAX, comm);
-    MPI_Allreduce(MPI_IN_PLACE, &waves.heavier, 1, MPI_INT64_T, MPI_SUM, comm);
+    reduce_over_ranks(comm, MPI_MAX, waves.length, waves.largest_part);
+    reduce_over_ranks(comm, MPI_SUM, waves.heavier);
   }
   return all;
 }

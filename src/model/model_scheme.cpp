@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "common/parallel.h"
 #include "common/progress.h"
 #include "dynamics/state.h"
 #include "interactions/link_rows.h"
@@ -202,7 +203,7 @@ std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSys
     bound = energy_bound(*contact, s, system, time_step, energy_margins[s], progress);
     std::array<double, 5> values{bound.rate_norm, bound.rest_norm.value_or(0), bound.force_norm[0],
                                  bound.force_norm[1], bound.force_norm[2]};
-    MPI_Allreduce(MPI_IN_PLACE, values.data(), 5, MPI_DOUBLE, MPI_MAX, comm);
+    reduce_over_ranks(comm, MPI_MAX, values);
     bound.rate_norm = values[0];
     if (bound.rest_norm) bound.rest_norm = values[1];
     std::copy(values.begin() + 2, values.end(), bound.force_norm.begin());

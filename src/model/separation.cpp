@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 
+#include "common/parallel.h"
 #include "motion/modal_combination.h"
 #include "motion/response_spectrum.h"
 #include "stability/stable_time_step.h"
@@ -189,10 +190,9 @@ std::vector<double> modes_at_contacts(MPI_Comm comm, const Model& model, std::si
       }
     }
   }
-  MPI_Allreduce(MPI_IN_PLACE, gaps.data(), static_cast<int>(gaps.size()), MPI_DOUBLE, MPI_SUM,
-                comm);
+  reduce_over_ranks(comm, MPI_SUM, gaps);
   if (building.basis) {
-    MPI_Allreduce(MPI_IN_PLACE, &having, 1, MPI_INT, MPI_SUM, comm);
+    reduce_over_ranks(comm, MPI_SUM, having);
     for (double& gap : gaps) gap /= std::max(1, having);
   }
   return gaps;

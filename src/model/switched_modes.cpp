@@ -28,14 +28,11 @@ constexpr double highest_cutoff = 1000;
 /// Phi of the owned dofs alone, in their order, in place of all points of the basis.
 void keep_owned_rows(const Mesh& mesh, std::size_t size, GeneralisedCoordinates& coordinates) {
   std::vector<double> rows;
-  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    for (int c = 0; c < 6; ++c) {
-      if (mesh.dof(node, c) < 0) continue;
-      const std::size_t row = coordinates.row_of.at({mesh.file_node[node], c});
-      const double* const phi = &coordinates.rows[row * size];
-      rows.insert(rows.end(), phi, phi + size);
-    }
-  }
+  for_each_owned_dof(mesh, [&](LocalIndex, LocalIndex node, int c) {
+    const std::size_t row = coordinates.row_of.at({mesh.file_node[node], c});
+    const double* const phi = &coordinates.rows[row * size];
+    rows.insert(rows.end(), phi, phi + size);
+  });
   coordinates.rows = std::move(rows);
   coordinates.row_of.clear();
 }
@@ -67,8 +64,7 @@ std::vector<double> rest_in_modes(MPI_Comm comm, const LinearSystem& system,
   }
   std::vector<double> rest = modes.weighted(dofs, momenta);
   rest.push_back(dofs.empty() ? 0 : 1);
-  MPI_Allreduce(MPI_IN_PLACE, rest.data(), static_cast<int>(rest.size()), MPI_DOUBLE, MPI_SUM,
-                comm);
+  reduce_over_ranks(comm, MPI_SUM, rest);
   const bool any = rest.back() > 0;
   rest.resize(any ? modes.size() : 0);
   return rest;
@@ -126,11 +122,10 @@ double settling_time(const LinearSystem& system, double omega, double part) {
 }
 
 void prepare_switched(const Mesh& mesh, LinearSystem& system, ModalRequest& request) {
-  int links = system.links && !system.links->links().empty() ? 1 : 0;
-  MPI_Allreduce(MPI_IN_PLACE, &links, 1, MPI_INT, MPI_MAX, system.comm);
+  const bool links = on_any_rank(system.comm, system.links && !system.links->links().empty());
   const auto most =
       static_cast<int>(std::min<GlobalIndex>(braked_modes, system.independent_dofs()));
-  const ModalResult lowest = lowest_modes(system, mesh, links > 0 ? most : 1, true);
+  const ModalResult lowest = lowest_modes(system, mesh, links ? most : 1, true);
   if (request.modes == 0 && request.cutoff == 0) {
     const double first = lowest.first_frequency();
     request.cutoff = std::max(first, 1.0);

@@ -10,6 +10,7 @@
 
 #include "common/error.h"
 #include "common/facts.h"
+#include "common/parallel.h"
 #include "interactions/filler_rows.h"
 #include "interactions/soil_rows.h"
 #include "modal/reduced_system.h"
@@ -73,7 +74,7 @@ double added_by_series(const LinearSystem& system, MPI_Comm comm) {
   for (std::size_t i = 0; i < sums.size(); ++i) {
     if (sums[i] > 0) most = std::max(most, sums[i] / system.lumped_mass[i]);
   }
-  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, comm);
+  reduce_over_ranks(comm, MPI_MAX, most);
   return most;
 }
 

@@ -6,6 +6,8 @@
 #include <sstream>
 
 #include "common/error.h"
+#include "common/facts.h"
+#include "common/parallel.h"
 #include "mesh/location.h"
 #include "modal/modal_analysis.h"
 #include "stability/stable_time_step.h"
@@ -30,10 +32,7 @@ MatHandle shifted_mass(const LinearSystem& system, double omega) {
 }
 
 std::string number(double value) {
-  std::ostringstream text;
-  text.precision(3);
-  text << value;
-  return text.str();
+  return sentence("{:.3g}", {value});
 }
 
 std::string three_digits_down(double value) {
@@ -232,7 +231,7 @@ RotationBound::RotationBound(const LinearSystem& system, const Mesh& mesh, doubl
 
 RotationBound::Found RotationBound::bound(std::span<const double> inertia) const {
   double largest = inertia.empty() ? 0 : *std::ranges::max_element(inertia);
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, system_.comm);
+  reduce_over_ranks(system_.comm, MPI_MAX, largest);
   if (largest == 0) return {};
   // D^1/2 (M + K / omega^2)^-1 D^1/2
   std::vector<double> values(inertia.size());

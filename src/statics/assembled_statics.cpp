@@ -40,8 +40,7 @@ void add_links(std::span<const LinkTerms> links, double sign, PetscInt first_dof
     POUNDING_PETSC(
         MatSetValues(matrix, n, places.data(), n, places.data(), values.data(), ADD_VALUES));
   }
-  POUNDING_PETSC(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
-  POUNDING_PETSC(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+  assemble(matrix);
 }
 
 void multiply(const std::vector<double>& matrix, const std::vector<double>& x,
@@ -122,7 +121,7 @@ constexpr int most_corrections = 1000;
 double square(const LinearSystem& system, const std::vector<double>& u) {
   double sum = 0;
   for (std::size_t i = 0; i < u.size(); ++i) sum += system.lumped_mass[i] * u[i] * u[i];
-  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, system.comm);
+  reduce_over_ranks(system.comm, MPI_SUM, sum);
   return sum;
 }
 
@@ -155,8 +154,7 @@ AssembledStatics::AssembledStatics(const LinearSystem& system, const Mesh& mesh,
     : system_(system) {
   POUNDING_PETSC(MatDuplicate(system.stiffest_matrix(), MAT_COPY_VALUES, matrix_.out()));
   POUNDING_PETSC(MatSetOptionsPrefixFactor(matrix_.get(), prefix));
-  PetscInt first = 0;
-  POUNDING_PETSC(MatGetOwnershipRange(matrix_.get(), &first, nullptr));
+  const PetscInt first = first_row(matrix_.get());
   if (system.links) {
     // The stiffest matrix has them at their stiffest.
     const auto carries = [&](const LinkTerms& link) {
@@ -169,8 +167,7 @@ AssembledStatics::AssembledStatics(const LinearSystem& system, const Mesh& mesh,
   }
   if (held == Held::elements && system.has_laws_beside) {
     add_law_stiffness(system, mesh, -1, matrix_.get());
-    POUNDING_PETSC(MatAssemblyBegin(matrix_.get(), MAT_FINAL_ASSEMBLY));
-    POUNDING_PETSC(MatAssemblyEnd(matrix_.get(), MAT_FINAL_ASSEMBLY));
+    assemble(matrix_.get());
   }
   std::vector<double> added = system.lumped_mass;
   for (double& value : added) value *= shift;
@@ -345,8 +342,7 @@ std::shared_ptr<SupportShapes> find_support_shapes(const Structure& structure, c
     stands[c] = mesh.ground_support == columns[c].support ||
                 std::ranges::count(mesh.supported, columns[c].support, &SupportedNode::support) > 0;
   }
-  MPI_Allreduce(MPI_IN_PLACE, stands.data(), static_cast<int>(stands.size()), MPI_INT, MPI_MAX,
-                mesh.comm);
+  reduce_over_ranks(mesh.comm, MPI_MAX, stands);
   if (std::ranges::count(stands, 1) == 0) return nullptr;
   std::optional<AssembledStatics> statics;
   for (std::size_t c = 0; c < columns.size(); ++c) {

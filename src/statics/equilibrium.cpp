@@ -164,8 +164,7 @@ class Search {
         }
       }
     }
-    MPI_Allreduce(MPI_IN_PLACE, products.data(), static_cast<int>(n * n), MPI_DOUBLE, MPI_SUM,
-                  comm_);
+    reduce_over_ranks(comm_, MPI_SUM, products);
     double size = 0;
     for (std::size_t i = 0; i < n; ++i) size = std::max(size, products[i * n + i]);
     for (std::size_t i = 0; i < n; ++i) products[i * n + i] += of_products * size;
@@ -199,25 +198,21 @@ class Search {
   void update_residual() {
     const Fields forces = tried_.on_dofs(0, rows_.size());
     std::vector<double> product;
-    int yielded = 0;
+    bool yielded = !interface_.soil.empty();  // K alone corrects too little or too much
     for (std::vector<double>& force : law_force_) std::ranges::fill(force, 0.0);
     add_soil_between_mats();
     for (std::size_t s = 0; s < systems_.size(); ++s) {
       for (const bool apart : {false, true}) {
-        if (add_law_forces(systems_[s], apart, meshes_[s], displacement_[s], law_force_[s])) {
-          yielded = 1;
-        }
+        yielded |= add_law_forces(systems_[s], apart, meshes_[s], displacement_[s], law_force_[s]);
       }
-      if (links_[s].add_forces(displacement_[s], law_force_[s])) yielded = 1;
+      yielded |= links_[s].add_forces(displacement_[s], law_force_[s]);
       stiffness_[s]->apply(displacement_[s], product);
       for (std::size_t i = 0; i < product.size(); ++i) {
         residual_[s][i] = weight_[s][i] + forces[s][i] - product[i] - law_force_[s][i];
       }
       take_up_by_constraints(systems_[s], residual_[s]);
     }
-    if (!interface_.soil.empty()) yielded = 1;  // K alone corrects too little or too much
-    MPI_Allreduce(MPI_IN_PLACE, &yielded, 1, MPI_INT, MPI_MAX, comm_);
-    yielded_ = yielded != 0;
+    yielded_ = on_any_rank(comm_, yielded);
     ever_yielded_ = ever_yielded_ || yielded_;
     update_correction();
   }
@@ -253,8 +248,7 @@ class Search {
       squares.push_back(std::inner_product(residual_[s].begin(), residual_[s].end(),
                                            correction_[s].begin(), 0.0));
     }
-    MPI_Allreduce(MPI_IN_PLACE, squares.data(), static_cast<int>(squares.size()), MPI_DOUBLE,
-                  MPI_SUM, comm_);
+    reduce_over_ranks(comm_, MPI_SUM, squares);
     return squares;
   }
 
@@ -312,7 +306,7 @@ class Search {
           comm_, systems_[s], meshes_[s], *stiffness_[s],
           {displacement_[s], weight_[s], law_force_[s], of_contacts[s], of_links[s], pushed(s)}));
     }
-    MPI_Allreduce(MPI_IN_PLACE, &result.gravity_potential, 1, MPI_DOUBLE, MPI_SUM, comm_);
+    reduce_over_ranks(comm_, MPI_SUM, result.gravity_potential);
     return result;
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/parallel.h"
 #include "mesh/location.h"
 #include "system/admissible_motions.h"
 #include "system/load_shapes.h"
@@ -22,7 +23,7 @@ Vector3 total(MPI_Comm comm, const LinearSystem& system, const std::vector<doubl
     const std::vector<double> iota = system.influence(static_cast<int>(d));
     sum[d] = std::inner_product(force.begin(), force.end(), iota.begin(), 0.0);
   }
-  MPI_Allreduce(MPI_IN_PLACE, sum.data(), 3, MPI_DOUBLE, MPI_SUM, comm);
+  reduce_over_ranks(comm, MPI_SUM, sum);
   return sum;
 }
 
@@ -39,7 +40,7 @@ void find_support(MPI_Comm comm, const LinearSystem& system, const StaticStiffne
   const Vector3 free_contact = total(comm, system, at.contact);
   for (std::size_t i = 0; i < force.size(); ++i) force[i] += at.weight[i] + at.contact[i];
   Vector3 handed = handed_to_clamps(system, force);
-  MPI_Allreduce(MPI_IN_PLACE, handed.data(), 3, MPI_DOUBLE, MPI_SUM, comm);
+  reduce_over_ranks(comm, MPI_SUM, handed);
   Vector3 left{0, 0, 0};
   for (std::size_t d = 0; d < 3; ++d) {
     // Held nodes hand their own part on to the supports.
@@ -59,7 +60,7 @@ void find_largest(MPI_Comm comm, const LinearSystem& system, const Mesh& mesh,
     if (system.direction[i] < 0) values[i] = 0;
     rest.largest_displacement = std::max(rest.largest_displacement, std::abs(values[i]));
   }
-  MPI_Allreduce(MPI_IN_PLACE, &rest.largest_displacement, 1, MPI_DOUBLE, MPI_MAX, comm);
+  reduce_over_ranks(comm, MPI_MAX, rest.largest_displacement);
   rest.place = locate_largest(mesh, values);
 }
 
@@ -75,7 +76,7 @@ StructureRest describe_rest(MPI_Comm comm, const LinearSystem& system, const Mes
   rest.settlement = total(comm, system, momentum);
   if (system.loads) rest.load = system.loads->total_at_rest();
   for (const double force : at.weight) rest.forces += std::abs(force);
-  MPI_Allreduce(MPI_IN_PLACE, &rest.forces, 1, MPI_DOUBLE, MPI_SUM, comm);
+  reduce_over_ranks(comm, MPI_SUM, rest.forces);
   for (std::size_t d = 0; d < 3; ++d) {
     rest.weight[d] = system.total_mass * system.gravity[d];
     rest.settlement[d] /= system.total_mass;

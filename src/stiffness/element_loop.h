@@ -29,19 +29,24 @@ inline std::span<const double> gather_coordinates(const Mesh& mesh, const Elemen
 }
 
 /// Local dofs of an element, component by component of each node; -1 where there is none.
-inline std::array<LocalIndex, max_element_size> element_dofs(const Mesh& mesh,
-                                                             const ElementBlock& block,
-                                                             std::size_t element,
-                                                             const ElementLayout& layout) {
-  std::array<LocalIndex, max_element_size> dofs{};
-  for (int a = 0; a < layout.nodes; ++a) {
-    const LocalIndex node = block.connectivity[element * static_cast<std::size_t>(layout.nodes) +
-                                               static_cast<std::size_t>(a)];
-    for (int c = 0; c < layout.components; ++c) {
-      dofs[a * layout.components + c] = mesh.dof(node, c);
+class ElementDofs {
+ public:
+  ElementDofs(const Mesh& mesh, const ElementBlock& block, std::size_t element) {
+    const ElementLayout layout = element_layout(block.type);
+    const LocalIndex* const nodes =
+        &block.connectivity[element * static_cast<std::size_t>(layout.nodes)];
+    for (int a = 0; a < layout.nodes; ++a) {
+      for (int c = 0; c < layout.components; ++c) dofs_[size_++] = mesh.dof(nodes[a], c);
     }
   }
-  return dofs;
-}
+  std::size_t size() const { return size_; }
+  const LocalIndex* begin() const { return dofs_.data(); }
+  const LocalIndex* end() const { return begin() + size_; }
+  LocalIndex operator[](std::size_t i) const { return dofs_[i]; }
+
+ private:
+  std::size_t size_ = 0;
+  std::array<LocalIndex, max_element_size> dofs_{};
+};
 
 }  // namespace pounding::stiffness

@@ -106,8 +106,7 @@ std::vector<double> shortest_distances(const Mesh& mesh) {
       }
     }
   }
-  MPI_Allreduce(MPI_IN_PLACE, shortest.data(), static_cast<int>(shortest.size()), MPI_DOUBLE,
-                MPI_MIN, mesh.comm);
+  reduce_over_ranks(mesh.comm, MPI_MIN, shortest);
   return shortest;
 }
 
@@ -134,9 +133,9 @@ Candidate first_outside(const Mesh& mesh, const ElementBlock& block, const Eleme
 /// The candidate with the smallest tag on every rank. Collective.
 Candidate first_of_all(MPI_Comm comm, Candidate candidate) {
   std::int64_t smallest = candidate.tag;
-  MPI_Allreduce(MPI_IN_PLACE, &smallest, 1, MPI_INT64_T, MPI_MIN, comm);
+  reduce_over_ranks(comm, MPI_MIN, smallest);
   int rank = candidate.tag == smallest ? rank_of(comm) : size_of(comm);
-  MPI_Allreduce(MPI_IN_PLACE, &rank, 1, MPI_INT, MPI_MIN, comm);
+  reduce_over_ranks(comm, MPI_MIN, rank);
   MPI_Bcast(candidate.axes.data(), 9, MPI_DOUBLE, rank, comm);
   return {smallest, candidate.axes};
 }
@@ -178,9 +177,7 @@ void CommonValues::add_range(double low, double high) {
 }
 
 void CommonValues::agree(MPI_Comm comm) {
-  int too_many = too_many_ ? 1 : 0;
-  MPI_Allreduce(MPI_IN_PLACE, &too_many, 1, MPI_INT, MPI_MAX, comm);
-  too_many_ = too_many != 0;
+  too_many_ = on_any_rank(comm, too_many_);
   if (too_many_) {
     ranges_.clear();
     return;

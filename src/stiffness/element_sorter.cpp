@@ -42,17 +42,15 @@ ElementSorter::ElementSorter(const Structure& structure, const Mesh& mesh,
             : mesh.owned_dofs + halo.slot(static_cast<std::size_t>(dof - mesh.owned_dofs));
   }
   for (LocalIndex node = 0; node < mesh.node_count(); ++node) {
-    std::array<LocalIndex, 6> slot{};
-    for (int c = 0; c < 6; ++c) {
-      const LocalIndex dof = mesh.dof(node, c);
-      slot[c] = dof < 0 ? -1 : slots_.of_dof[dof];
-    }
-    slots_.of_node.push_back(slot);
+    slots_.of_node.emplace_back().fill(-1);
     if (node < mesh.owned_nodes) {
       const std::size_t n = node;
       slots_.node_end.push_back(mesh.first_dof[n] + component_count(mesh.free_components[n]));
     }
   }
+  for_each_dof(mesh, 0, mesh.node_count(), [&](LocalIndex dof, LocalIndex node, int c) {
+    slots_.of_node[node][c] = slots_.of_dof[dof];
+  });
 }
 
 void ElementSorter::sort() {
@@ -294,15 +292,14 @@ bool ElementSorter::touches_ghost(const Element& element) const {
 
 ElementSorter::Slots ElementSorter::slots(const Element& element) const {
   const ElementBlock& block = mesh_.blocks[element.first];
-  auto dofs = element_dofs(mesh_, block, element.second, element_layout(block.type));
-  for (LocalIndex& dof : dofs) {
-    if (dof >= 0) dof = slots_.of_dof[dof];
-  }
+  Slots slots{};
+  std::ranges::transform(ElementDofs(mesh_, block, element.second), slots.begin(),
+                         [&](LocalIndex dof) { return dof < 0 ? -1 : slots_.of_dof[dof]; });
   const Region& region = structure_.regions[block.region];
-  for (std::size_t i = 0; region.of_water && i < dofs.size(); ++i) {
-    if (!is_spring(block.type) || region.mass_along[i % 3] == 0) dofs[i] = -1;  // no stiffness
+  for (std::size_t i = 0; region.of_water && i < slots.size(); ++i) {
+    if (!is_spring(block.type) || region.mass_along[i % 3] == 0) slots[i] = -1;  // no stiffness
   }
-  return dofs;
+  return slots;
 }
 
 }  // namespace pounding::stiffness

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include <mpi.h>
-
 #include "common/parallel.h"
 #include "stiffness/element_sorter.h"
 #include "stiffness/strain_sorter.h"
@@ -90,10 +88,8 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
     kinds_ = sorter.kinds();
     plan();
   });
-  for (GlobalIndex* const count : {&kinds_.bricks, &kinds_.rectangles, &kinds_.general,
-                                   &kinds_.skew, &kinds_.single, &kinds_.beams, &kinds_.other}) {
-    MPI_Allreduce(MPI_IN_PLACE, count, 1, MPI_INT64_T, MPI_SUM, mesh.comm);
-  }
+  reduce_over_ranks(mesh.comm, MPI_SUM, kinds_.bricks, kinds_.rectangles, kinds_.general,
+                    kinds_.skew, kinds_.single, kinds_.beams, kinds_.other);
 }
 
 ElementStiffness::~ElementStiffness() = default;

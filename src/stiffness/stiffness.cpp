@@ -1,6 +1,7 @@
 #include "stiffness/stiffness.h"
 
 #include <algorithm>
+#include <array>
 
 #include "elements/element_traits.h"
 
@@ -62,18 +63,9 @@ void AssembledStiffness::finish(const StiffnessArgument& w, ForceReceiver& recei
 }
 
 DiagonalStiffness::DiagonalStiffness(MPI_Comm comm, std::vector<double> diagonal)
-    : diagonal_(std::move(diagonal)), force_(diagonal_.size(), 0.0) {
-  const auto size = static_cast<PetscInt>(diagonal_.size());
-  POUNDING_PETSC(MatCreateAIJ(comm, size, size, PETSC_DETERMINE, PETSC_DETERMINE, 1, nullptr, 0,
-                              nullptr, matrix_.out()));
-  PetscInt first = 0;
-  POUNDING_PETSC(MatGetOwnershipRange(matrix_.get(), &first, nullptr));
-  for (PetscInt i = 0; i < size; ++i) {
-    POUNDING_PETSC(MatSetValue(matrix_.get(), first + i, first + i, diagonal_[i], INSERT_VALUES));
-  }
-  POUNDING_PETSC(MatAssemblyBegin(matrix_.get(), MAT_FINAL_ASSEMBLY));
-  POUNDING_PETSC(MatAssemblyEnd(matrix_.get(), MAT_FINAL_ASSEMBLY));
-}
+    : diagonal_(std::move(diagonal)),
+      force_(diagonal_.size(), 0.0),
+      matrix_(diagonal_matrix(comm, diagonal_)) {}
 
 void DiagonalStiffness::finish(const StiffnessArgument& w, ForceReceiver& receiver) const {
   for (std::size_t i = 0; i < force_.size(); ++i) {
@@ -105,14 +97,23 @@ MatHandle create_matrix(const Mesh& mesh, const std::function<bool(const Element
   return matrix;
 }
 
+void add_element(const Mesh& mesh, std::span<const PetscInt> numbers,
+                 std::span<const LocalIndex> dofs, const double* values, Mat matrix) {
+  std::array<PetscInt, max_element_size> rows{};
+  std::array<PetscInt, max_element_size> columns{};
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    columns[i] = dofs[i] >= 0 ? numbers[dofs[i]] : -1;
+    rows[i] = dofs[i] < mesh.owned_dofs ? columns[i] : -1;
+  }
+  const auto n = static_cast<PetscInt>(dofs.size());
+  POUNDING_PETSC(MatSetValues(matrix, n, rows.data(), n, columns.data(), values, ADD_VALUES));
+}
+
 std::vector<PetscInt> global_numbers(const Mesh& mesh) {
   std::vector<PetscInt> numbers(mesh.dof_count);
-  for (LocalIndex node = 0; node < mesh.node_count(); ++node) {
-    for (int c = 0; c < 6; ++c) {
-      const LocalIndex dof = mesh.dof(node, c);
-      if (dof >= 0) numbers[dof] = static_cast<PetscInt>(mesh.dof_global(node, c));
-    }
-  }
+  for_each_dof(mesh, 0, mesh.node_count(), [&](LocalIndex dof, LocalIndex node, int c) {
+    numbers[dof] = static_cast<PetscInt>(mesh.dof_global(node, c));
+  });
   return numbers;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "common/petsc.h"
@@ -70,6 +71,11 @@ class DiagonalStiffness final : public Stiffness {
 /// couple (all if `chosen` is empty); rows and columns over its owned dofs. Collective.
 MatHandle create_matrix(const Mesh& mesh,
                         const std::function<bool(const ElementBlock&)>& chosen = {});
+
+/// Adds an element matrix, shape (n, n), of local dofs (-1: none) to a matrix over all dofs, in the
+/// rows that this rank owns; `numbers`: see global_numbers.
+void add_element(const Mesh& mesh, std::span<const PetscInt> numbers,
+                 std::span<const LocalIndex> dofs, const double* values, Mat matrix);
 
 /// Global numbers of all local dofs, owned then ghost.
 std::vector<PetscInt> global_numbers(const Mesh& mesh);

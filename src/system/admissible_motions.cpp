@@ -55,8 +55,7 @@ AdmissibleMotions::AdmissibleMotions(const LinearSystem& system, Alone alone)
   for (PetscInt& count : counts) count = std::min(count, n);  // PETSc refuses more than a row has
   POUNDING_PETSC(MatCreateAIJ(system.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 0, counts.data(),
                               0, nullptr, matrix_.out()));
-  PetscInt first = 0;
-  POUNDING_PETSC(MatGetOwnershipRange(matrix_.get(), &first, nullptr));
+  const PetscInt first = first_row(matrix_.get());
   for (const RigidBody& body : bodies_of(system)) {
     std::array<PetscInt, RigidBody::width> columns{};
     for (std::size_t k = 0; k < body.dofs().size(); ++k) {
@@ -78,8 +77,7 @@ AdmissibleMotions::AdmissibleMotions(const LinearSystem& system, Alone alone)
     const double value = alone == Alone::as_is ? 1 : std::sqrt(system.inverse_mass[i]);
     POUNDING_PETSC(MatSetValue(matrix_.get(), first + i, first + i, value, INSERT_VALUES));
   }
-  POUNDING_PETSC(MatAssemblyBegin(matrix_.get(), MAT_FINAL_ASSEMBLY));
-  POUNDING_PETSC(MatAssemblyEnd(matrix_.get(), MAT_FINAL_ASSEMBLY));
+  assemble(matrix_.get());
 }
 
 std::vector<AdmissibleMotions::Entry> AdmissibleMotions::tie_entries(std::vector<char>& coupled) {
@@ -118,18 +116,9 @@ MatHandle AdmissibleMotions::restrict_matrix(Mat matrix, double idle) const {
   POUNDING_PETSC(
       MatPtAP(matrix, matrix_.get(), MAT_INITIAL_MATRIX, PETSC_DEFAULT, restricted.out()));
   const double value = idle > 0 ? idle : 2 * largest_diagonal(restricted.get());
-  const LocalIndex n = system_.owned_dofs();
-  MatHandle diagonal;
-  POUNDING_PETSC(MatCreateAIJ(system_.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 1, nullptr, 0,
-                              nullptr, diagonal.out()));
-  PetscInt first = 0;
-  POUNDING_PETSC(MatGetOwnershipRange(diagonal.get(), &first, nullptr));
-  for (LocalIndex i = 0; i < n; ++i) {
-    POUNDING_PETSC(MatSetValue(diagonal.get(), first + i, first + i, is_idle_[i] != 0 ? value : 0,
-                               INSERT_VALUES));
-  }
-  POUNDING_PETSC(MatAssemblyBegin(diagonal.get(), MAT_FINAL_ASSEMBLY));
-  POUNDING_PETSC(MatAssemblyEnd(diagonal.get(), MAT_FINAL_ASSEMBLY));
+  std::vector<double> idle_values;
+  for (const char is_idle : is_idle_) idle_values.push_back(is_idle != 0 ? value : 0);
+  const MatHandle diagonal = diagonal_matrix(system_.comm, idle_values);
   POUNDING_PETSC(MatAXPY(restricted.get(), 1, diagonal.get(), DIFFERENT_NONZERO_PATTERN));
   POUNDING_PETSC(MatSetOption(restricted.get(), MAT_SYMMETRIC, PETSC_TRUE));
   return restricted;

@@ -25,26 +25,16 @@ MatHandle dashpot_matrix(const Structure& structure, const Mesh& mesh) {
   std::array<double, max_element_size * max_element_size> values{};
   for (const ElementBlock& block : mesh.blocks) {
     if (!has_dashpots(block)) continue;
-    const ElementLayout layout = element_layout(block.type);
-    const std::size_t size = layout.size();
+    const std::size_t size = element_layout(block.type).size();
     for (std::size_t e = 0; e < block.count(); ++e) {
       element_dashpots(block.type, stiffness::gather_coordinates(mesh, block, e, work),
                        element_properties(structure.regions[block.region], block.share_of(e)),
                        {values.data(), size * size});
-      const auto dofs = stiffness::element_dofs(mesh, block, e, layout);
-      std::array<PetscInt, max_element_size> rows{};
-      std::array<PetscInt, max_element_size> columns{};
-      for (std::size_t i = 0; i < size; ++i) {
-        columns[i] = dofs[i] >= 0 ? numbers[dofs[i]] : -1;
-        rows[i] = dofs[i] < mesh.owned_dofs ? columns[i] : -1;
-      }
-      const auto n = static_cast<PetscInt>(size);
-      POUNDING_PETSC(
-          MatSetValues(matrix.get(), n, rows.data(), n, columns.data(), values.data(), ADD_VALUES));
+      stiffness::add_element(mesh, numbers, stiffness::ElementDofs(mesh, block, e), values.data(),
+                             matrix.get());
     }
   }
-  POUNDING_PETSC(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY));
-  POUNDING_PETSC(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY));
+  assemble(matrix.get());
   return matrix;
 }
 

@@ -98,7 +98,7 @@ class StepCosts {
   /// Collective.
   ScalingOffer cheapest(double most) const {
     std::array<double, 2> limits{shortest_, std::min(most, longest_)};
-    MPI_Allreduce(MPI_IN_PLACE, limits.data(), 2, MPI_DOUBLE, MPI_MIN, mesh_.comm);
+    reduce_over_ranks(mesh_.comm, MPI_MIN, limits);
     const auto [shortest, longest] = limits;
     if (!std::isfinite(shortest)) return {};
     const auto candidate = [&](std::size_t k) {
@@ -116,8 +116,7 @@ class StepCosts {
       sums[2 * k] += node_cost_[n];
       sums[2 * k + 1] += component_count(mesh_.free_components[n]);
     }
-    MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
-                  mesh_.comm);
+    reduce_over_ranks(mesh_.comm, MPI_SUM, sums);
     // Steps that each candidate is sure to allow.
     std::vector<double> steps = steps_;
     std::ranges::sort(steps);
@@ -127,7 +126,7 @@ class StepCosts {
       const auto left = std::ranges::lower_bound(steps, holding_part_of_meshes * step);
       allowed[k] = left == steps.end() ? step : std::min(step, *left);
     }
-    MPI_Allreduce(MPI_IN_PLACE, allowed.data(), candidates, MPI_DOUBLE, MPI_MIN, mesh_.comm);
+    reduce_over_ranks(mesh_.comm, MPI_MIN, allowed);
     ScalingOffer best;
     double gain = 1;
     double cost = 0;
@@ -234,8 +233,8 @@ void ElementBounds::finish(LinearSystem& system) {
   }
   share_extreme(mesh_.comm, MPI_MAXLOC, named_frequency, system.stiffest_element);
   share_extreme(mesh_.comm, MPI_MINLOC, named_step, system.limiting_element);
-  MPI_Allreduce(MPI_IN_PLACE, &system.element_frequency_bound, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm);
-  MPI_Allreduce(MPI_IN_PLACE, &system.element_time_step_bound, 1, MPI_DOUBLE, MPI_MIN, mesh_.comm);
+  reduce_over_ranks(mesh_.comm, MPI_MAX, system.element_frequency_bound);
+  reduce_over_ranks(mesh_.comm, MPI_MIN, system.element_time_step_bound);
 }
 
 ScalingOffer ElementBounds::find_offer(const std::vector<std::vector<double>>& alone) const {
@@ -251,7 +250,7 @@ ScalingOffer ElementBounds::find_offer(const std::vector<std::vector<double>>& a
     for (std::size_t e = 0; traits_of(block.type).scalable && e < alone[b].size(); ++e) {
       count += alone[b][e] < holding_part(block.type) * offer.time_step ? block.counted[e] : 0;
     }
-    MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_INT64_T, MPI_SUM, mesh_.comm);
+    reduce_over_ranks(mesh_.comm, MPI_SUM, count);
     if (count > 0 && block.group != last) {
       offer.groups += (last.empty() ? "" : ", ") + block.group;
       last = block.group;
@@ -281,12 +280,9 @@ double ElementBounds::time_step(const ElementBlock& block, std::size_t element, 
   const Rayleigh damping = damping_of(block);
   const double square = frequency * frequency;
   const double rate = damping.alpha + damping.beta * square;
-  const ElementLayout layout = element_layout(block.type);
-  const auto dofs = stiffness::element_dofs(mesh_, block, element, layout);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(layout.size()); ++i) {
+  for (const LocalIndex dof : stiffness::ElementDofs(mesh_, block, element)) {
     // A dof without mass follows others, which carry the forces on it.
-    if (dofs[i] >= 0 && dofs[i] < mesh_.owned_dofs && lumped_mass[dofs[i]] > 0) {
-      const std::size_t dof = dofs[i];
+    if (dof >= 0 && dof < mesh_.owned_dofs && lumped_mass[dof] > 0) {
       smallest = std::min(
           smallest,
           critical_time_step(rate + device_damping_[dof] / lumped_mass[dof],

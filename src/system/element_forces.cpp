@@ -222,7 +222,7 @@ LargestCompression set_axial_forces(const Structure& structure,
     const ElementProperties properties = element_properties(structure.regions[block.region]);
     const ElementLayout layout = element_layout(block.type);
     for (std::size_t e = 0; e < block.count(); ++e) {
-      const auto dofs = stiffness::element_dofs(mesh, block, e, layout);
+      const stiffness::ElementDofs dofs(mesh, block, e);
       std::array<double, 6> ends{};
       for (std::size_t i = 0; i < ends.size(); ++i) {
         const LocalIndex dof = dofs[i / 3 * static_cast<std::size_t>(layout.components) + i % 3];
@@ -233,7 +233,7 @@ LargestCompression set_axial_forces(const Structure& structure,
       largest = std::max(largest, std::abs(force));
     }
   }
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, mesh.comm);
+  reduce_over_ranks(mesh.comm, MPI_MAX, largest);
   const double unit = largest > 0 ? std::ldexp(1.0, std::ilogb(largest) - kept_digits) : 0;
   LargestCompression result;
   for (ElementBlock& block : mesh.blocks) {

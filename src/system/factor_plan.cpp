@@ -29,15 +29,10 @@ double memory_for_factor() {
 
 std::vector<double> rigid_motion(const Mesh& mesh, int motion, const Vector3& point) {
   std::vector<double> field(mesh.owned_dofs, 0.0);
-  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    for (int c = 0; c < 6; ++c) {
-      const LocalIndex dof = mesh.dof(node, c);
-      if (dof < 0) continue;
-      const Vector3 x = mesh.position(node);
-      const Vector3 arm{x[0] - point[0], x[1] - point[1], x[2] - point[2]};
-      field[dof] = rigid_motion_row(static_cast<std::size_t>(c), arm)[motion];
-    }
-  }
+  for_each_owned_dof(mesh, [&](LocalIndex dof, LocalIndex node, int c) {
+    const Vector3 arm = minus(mesh.position(node), point);
+    field[dof] = rigid_motion_row(static_cast<std::size_t>(c), arm)[motion];
+  });
   return field;
 }
 

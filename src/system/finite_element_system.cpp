@@ -72,11 +72,11 @@ class Assembly {
     system_.extra_damping = finished(std::move(extra_damping_));
     bounds_.finish(system_);
     for (const auto& [dof, mass] : lent_) system_.lumped_mass[dof] = mass;
-    MPI_Allreduce(MPI_IN_PLACE, &system_.total_mass, 1, MPI_DOUBLE, MPI_SUM, mesh_.comm);
+    reduce_over_ranks(mesh_.comm, MPI_SUM, system_.total_mass);
     on_every_rank(mesh_.comm, [&] { added_mass_.finish(system_); });
     added_mass_.share(system_);
-    const auto condensed = static_cast<GlobalIndex>(system_.condensed.size());
-    MPI_Allreduce(&condensed, &system_.condensed_dofs, 1, MPI_INT64_T, MPI_SUM, mesh_.comm);
+    system_.condensed_dofs = std::ssize(system_.condensed);
+    reduce_over_ranks(mesh_.comm, MPI_SUM, system_.condensed_dofs);
     added_inertia_.share(system_.rotary_scaling);
   }
 
@@ -87,23 +87,16 @@ class Assembly {
     const std::span<const double> stiffness(work.stiffness.data(), size * size);
     const std::span<const double> mass(work.mass.data(), size);
     added_inertia_.add(block, element, work);
-    const auto dofs = stiffness::element_dofs(mesh_, block, element, layout);
-    std::array<PetscInt, max_element_size> rows{};
-    std::array<PetscInt, max_element_size> columns{};
+    const stiffness::ElementDofs dofs(mesh_, block, element);
     for (std::size_t i = 0; i < size; ++i) {
-      const LocalIndex dof = dofs[i];
-      const bool owned = dof >= 0 && dof < mesh_.owned_dofs;
-      columns[i] = dof >= 0 ? numbers_[dof] : -1;
-      rows[i] = owned ? columns[i] : -1;
-      if (owned) system_.lumped_mass[dof] += work.mass[i];
+      const bool owned = dofs[i] >= 0 && dofs[i] < mesh_.owned_dofs;
+      if (owned) system_.lumped_mass[dofs[i]] += work.mass[i];
       if (block.counted[element] != 0 && static_cast<int>(i) % layout.components == 0) {
         system_.total_mass += work.mass[i];
       }
     }
     const auto insert = [&](const MatHandle& matrix, const double* values) {
-      const auto n = static_cast<PetscInt>(size);
-      POUNDING_PETSC(
-          MatSetValues(matrix.get(), n, rows.data(), n, columns.data(), values, ADD_VALUES));
+      stiffness::add_element(mesh_, numbers_, dofs, values, matrix.get());
     };
     const Region& region = structure_.regions[block.region];
     if (matrix_.get() != nullptr && is_in_stiffness(block.type)) {
@@ -112,11 +105,11 @@ class Assembly {
     add_law_stiffness(region, block.share_of(element), layout, work);
     if (taut_.get() != nullptr) insert(taut_, work.stiffness.data());
     const double scaling = added_mass_.add(block, element, region, stiffness, mass);
-    note_holding(block, scaling, stiffness, mass, {dofs.data(), size});
+    note_holding(block, scaling, stiffness, mass, dofs);
     // Elements that a rigid body holds altogether never strain.
     const bool strains = !is_in_rigid_body(mesh_, block, element);
-    bounds_.add(block, strains ? stiffness : std::span(unstrained_.data(), size * size), mass,
-                {dofs.data(), size}, scaling);
+    bounds_.add(block, strains ? stiffness : std::span(unstrained_.data(), size * size), mass, dofs,
+                scaling);
     if (has_extra_damping(block)) {
       const Rayleigh extra = extra_rayleigh(block);
       if (!block.axial_force.empty()) {
@@ -180,8 +173,7 @@ class Assembly {
   /// Null if there is no matrix.
   static std::unique_ptr<stiffness::Stiffness> finished(MatHandle matrix) {
     if (matrix.get() == nullptr) return nullptr;
-    POUNDING_PETSC(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY));
-    POUNDING_PETSC(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY));
+    assemble(matrix.get());
     return std::make_unique<stiffness::AssembledStiffness>(std::move(matrix));
   }
 
@@ -199,13 +191,10 @@ class Assembly {
   }
 
   void check_mass() const {
-    for (LocalIndex node = 0; node < mesh_.owned_nodes; ++node) {
-      for (int c = 0; c < 6; ++c) {
-        const LocalIndex dof = mesh_.dof(node, c);
-        if (dof < 0 || system_.lumped_mass[dof] > 0) continue;
-        if (std::ranges::find(lent_, dof, &LentMass::first) == lent_.end()) refuse(node, c);
-      }
-    }
+    for_each_owned_dof(mesh_, [&](LocalIndex dof, LocalIndex node, int c) {
+      if (system_.lumped_mass[dof] > 0) return;
+      if (std::ranges::find(lent_, dof, &LentMass::first) == lent_.end()) refuse(node, c);
+    });
   }
 
   [[noreturn]] void refuse(LocalIndex node, int component) const {

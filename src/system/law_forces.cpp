@@ -22,10 +22,8 @@ void for_each_law_element(const std::vector<interactions::RegionLaw>& laws, bool
     std::size_t element = 0;
     for (const ElementBlock& block : mesh.blocks) {
       if (block.region != region) continue;
-      const ElementLayout layout = element_layout(block.type);
       for (std::size_t e = 0; e < block.count(); ++e, ++element) {
-        const auto dofs = stiffness::element_dofs(mesh, block, e, layout);
-        visit(*law, element, {dofs.data(), static_cast<std::size_t>(layout.size())});
+        visit(*law, element, stiffness::ElementDofs(mesh, block, e));
       }
     }
   }
@@ -94,14 +92,7 @@ void add_law_stiffness(const LinearSystem& system, const Mesh& mesh, double sign
                            std::span<const LocalIndex> dofs) {
                          std::vector<double> tangent(dofs.size() * dofs.size(), 0.0);
                          law.add_tangent(element, sign, tangent);
-                         std::vector<PetscInt> rows, columns;
-                         for (const LocalIndex dof : dofs) {
-                           columns.push_back(dof < 0 ? -1 : numbers[dof]);
-                           rows.push_back(dof < mesh.owned_dofs ? columns.back() : -1);
-                         }
-                         const auto n = static_cast<PetscInt>(dofs.size());
-                         POUNDING_PETSC(MatSetValues(matrix, n, rows.data(), n, columns.data(),
-                                                     tangent.data(), ADD_VALUES));
+                         stiffness::add_element(mesh, numbers, dofs, tangent.data(), matrix);
                        });
 }
 

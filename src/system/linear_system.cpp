@@ -40,12 +40,9 @@ void finish_system(const Mesh& mesh, LinearSystem& system) {
     system.inverse_mass[i] = 1 / system.lumped_mass[i];
   }
   system.direction.assign(system.lumped_mass.size(), -1);
-  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    for (int d = 0; d < 3; ++d) {
-      const LocalIndex dof = mesh.dof(node, d);
-      if (dof >= 0) system.direction[dof] = static_cast<std::int8_t>(d);
-    }
-  }
+  for_each_owned_dof(mesh, [&](LocalIndex dof, LocalIndex, int c) {
+    if (c < 3) system.direction[dof] = static_cast<std::int8_t>(c);
+  });
 }
 
 VecHandle create_vector(const LinearSystem& system) {

@@ -56,7 +56,7 @@ double distance_from_admissible(const AdmissibleMotions& admissible, const Linea
     largest[0] = std::max(largest[0], std::abs(admitted[i] - field[i]));
     largest[1] = std::max(largest[1], std::abs(field[i]));
   }
-  MPI_Allreduce(MPI_IN_PLACE, largest.data(), 2, MPI_DOUBLE, MPI_MAX, system.comm);
+  reduce_over_ranks(system.comm, MPI_MAX, largest);
   return largest[1] > 0 ? largest[0] / largest[1] : 0;
 }
 

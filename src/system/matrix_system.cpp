@@ -74,7 +74,7 @@ class NodeFinder {
         ends = {std::min(ends[0], mesh.position(node)[d]),
                 std::min(ends[1], -mesh.position(node)[d])};
       }
-      MPI_Allreduce(MPI_IN_PLACE, ends.data(), 2, MPI_DOUBLE, MPI_MIN, mesh.comm);
+      reduce_over_ranks(mesh.comm, MPI_MIN, ends);
       tolerance_ = std::max(tolerance_, same_place * -(ends[0] + ends[1]));
     }
   }
@@ -107,7 +107,7 @@ class MatrixSystem {
 
   void fill(LinearSystem& system) {
     on_every_rank(mesh_.comm, [&] { read_mass(system); });
-    MPI_Allreduce(MPI_IN_PLACE, &system.total_mass, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm);
+    reduce_over_ranks(mesh_.comm, MPI_MAX, system.total_mass);
     const bool labelled =
         std::ranges::any_of(rows_, [](const ListedDof& row) { return !row.label.empty(); });
     if (labelled) system.node_labels = std::move(labels_);
@@ -145,9 +145,7 @@ class MatrixSystem {
         if (dof >= 0) labels_[dof] = rows_[row].label;
       }
     }
-    const int count = static_cast<int>(rows_.size());
-    MPI_Allreduce(MPI_IN_PLACE, known.data(), count, MPI_INT, MPI_MAX, mesh_.comm);
-    MPI_Allreduce(MPI_IN_PLACE, number_.data(), count, MPIU_INT, MPI_MAX, mesh_.comm);
+    reduce_over_ranks(mesh_.comm, MPI_MAX, known, number_);
     on_every_rank(mesh_.comm, [&] {
       for (std::size_t row = 0; row < rows_.size(); ++row) {
         if (known[row] == 0) {
@@ -165,19 +163,15 @@ class MatrixSystem {
   }
 
   void check_dofs(const std::vector<PetscInt>& times) const {
-    for (LocalIndex node = 0; node < mesh_.owned_nodes; ++node) {
-      for (int c = 0; c < 6; ++c) {
-        const LocalIndex dof = mesh_.dof(node, c);
-        if (dof >= 0 && times[dof] != 1) {
-          const Vector3 x = mesh_.position(node);
-          std::ostringstream text;
-          text << folder_ << "/dofs.csv: " << (times[dof] == 0 ? "no row" : "more than one row")
-               << " for " << component_names[c] << " of the node at (" << x[0] << ", " << x[1]
-               << ", " << x[2] << ") of " << mesh_.structure;
-          throw UserError(text.str());
-        }
-      }
-    }
+    for_each_owned_dof(mesh_, [&](LocalIndex dof, LocalIndex node, int c) {
+      if (times[dof] == 1) return;
+      const Vector3 x = mesh_.position(node);
+      std::ostringstream text;
+      text << folder_ << "/dofs.csv: " << (times[dof] == 0 ? "no row" : "more than one row")
+           << " for " << component_names[c] << " of the node at (" << x[0] << ", " << x[1] << ", "
+           << x[2] << ") of " << mesh_.structure;
+      throw UserError(text.str());
+    });
   }
 
   void check_size(const std::string& path, const MatrixSize& size, bool vector) const {
@@ -238,10 +232,10 @@ class MatrixSystem {
       matrix.finish();
       matrix.check();
     });
-    return assemble(read->rows());
+    return matrix_of(read->rows());
   }
 
-  MatHandle assemble(const std::vector<std::vector<SquareMatrix::Entry>>& rows) const {
+  MatHandle matrix_of(const std::vector<std::vector<SquareMatrix::Entry>>& rows) const {
     const auto first = static_cast<PetscInt>(mesh_.first_owned_dof);
     const auto number = [&](const SquareMatrix::Entry& entry) { return number_[entry.first]; };
     std::vector<PetscInt> own;  // with one more, for a diagonal that the file leaves out
@@ -265,8 +259,7 @@ class MatrixSystem {
         POUNDING_PETSC(MatSetValue(matrix.get(), place, number(entry), entry.second, ADD_VALUES));
       }
     }
-    POUNDING_PETSC(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY));
-    POUNDING_PETSC(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY));
+    assemble(matrix.get());
     return matrix;
   }
 

@@ -7,6 +7,7 @@
 
 #include "common/dense_matrix.h"
 #include "common/matrix3.h"
+#include "common/parallel.h"
 #include "mesh/element_properties.h"
 #include "stiffness/single_stiffness.h"
 #include "system/mass_scaling.h"
@@ -181,10 +182,9 @@ bool AddedInertia::add(const ElementBlock& block, std::size_t element,
   if (!is_shell(block.type) || !structure_.step_target || structure_.step_target->shells == 0) {
     return true;
   }
-  const ElementLayout layout = element_layout(block.type);
-  const std::size_t nodes = layout.nodes;
-  const std::size_t size = layout.size();
-  const std::span<const double> coordinates(work.coordinates.data(), 3 * nodes);
+  const stiffness::ElementDofs dofs(mesh_, block, element);
+  const std::size_t size = dofs.size();
+  const std::span<const double> coordinates(work.coordinates.data(), size / 2);
   const auto radii =
       needed_radii(structure_.step_target->shells,
                    structure_.damping_of(structure_.regions[block.region]), structure_.stiffening(),
@@ -197,7 +197,6 @@ bool AddedInertia::add(const ElementBlock& block, std::size_t element,
   scaling_.drilling = std::max(scaling_.drilling, radii->drilling / own);
   const std::array<double, max_element_size> before = work.mass;
   add_radii(*radii, coordinates, {work.mass.data(), size});
-  const auto dofs = stiffness::element_dofs(mesh_, block, element, layout);
   for (std::size_t i = 0; i < size; ++i) {
     if (dofs[i] >= 0 && dofs[i] < mesh_.owned_dofs) {
       scaling_.inertia[dofs[i]] += work.mass[i] - before[i];
@@ -207,12 +206,9 @@ bool AddedInertia::add(const ElementBlock& block, std::size_t element,
 }
 
 void AddedInertia::share(RotaryScaling& scaling) {
-  std::array<double, 2> largest{scaling_.bending, scaling_.drilling};
-  MPI_Allreduce(&scaling_.elements, &scaling.elements, 1, MPI_INT64_T, MPI_SUM, mesh_.comm);
-  MPI_Allreduce(MPI_IN_PLACE, largest.data(), 2, MPI_DOUBLE, MPI_MAX, mesh_.comm);
-  scaling.bending = largest[0];
-  scaling.drilling = largest[1];
-  scaling.inertia = std::move(scaling_.inertia);
+  scaling = std::move(scaling_);
+  reduce_over_ranks(mesh_.comm, MPI_SUM, scaling.elements);
+  reduce_over_ranks(mesh_.comm, MPI_MAX, scaling.bending, scaling.drilling);
 }
 
 StepPlan plan_step(const Structure& structure, const Mesh& mesh) {
@@ -247,10 +243,8 @@ StepPlan plan_step(const Structure& structure, const Mesh& mesh) {
   RotaryScaling scaling;
   inertia.share(scaling);
   plan.inertia = std::move(scaling.inertia);
-  int all = feasible ? 1 : 0;
-  MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_MIN, mesh.comm);
-  MPI_Allreduce(MPI_IN_PLACE, &plan.largest_factor, 1, MPI_DOUBLE, MPI_MAX, mesh.comm);
-  plan.feasible = all != 0;
+  plan.feasible = !on_any_rank(mesh.comm, !feasible);
+  reduce_over_ranks(mesh.comm, MPI_MAX, plan.largest_factor);
   return plan;
 }
 

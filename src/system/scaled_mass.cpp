@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/parallel.h"
 #include "mesh/location.h"
 #include "stiffness/element_loop.h"
 
@@ -35,21 +36,17 @@ double ScaledMass::add(const ElementBlock& block, std::size_t element, const Reg
 void ScaledMass::add_blocks(const ElementBlock& block, std::size_t element) {
   const ElementLayout layout = element_layout(block.type);
   const std::size_t components = layout.components;
-  const std::size_t size = layout.size();
-  const auto dofs = stiffness::element_dofs(mesh_, block, element, layout);
+  const stiffness::ElementDofs dofs(mesh_, block, element);
+  const std::size_t size = dofs.size();
   const auto node_at = [&](std::size_t a) {
     return block.connectivity[element * static_cast<std::size_t>(layout.nodes) + a / components];
   };
   const auto place_at = [&](std::size_t i) {
     return static_cast<std::size_t>(dofs[i] - mesh_.first_dof[node_at(i)]);
   };
-  bool here = false;
-  bool elsewhere = false;
-  for (std::size_t i = 0; i < size; ++i) {
-    here = here || (dofs[i] >= 0 && dofs[i] < mesh_.owned_dofs);
-    elsewhere = elsewhere || dofs[i] >= mesh_.owned_dofs;
-  }
-  if (here && elsewhere) {
+  const bool here =
+      std::ranges::any_of(dofs, [&](LocalIndex dof) { return dof >= 0 && dof < mesh_.owned_dofs; });
+  if (here && std::ranges::max(dofs) >= mesh_.owned_dofs) {
     throw std::logic_error(describe_element(mesh_, block, element) +
                            " has scaled mass and lives on several ranks");
   }
@@ -64,15 +61,11 @@ void ScaledMass::add_blocks(const ElementBlock& block, std::size_t element) {
 
 void ScaledMass::add_rows(const ElementBlock& block, std::size_t element,
                           std::span<const double> stiffness) {
-  const ElementLayout layout = element_layout(block.type);
-  const std::size_t size = layout.size();
-  const auto dofs = stiffness::element_dofs(mesh_, block, element, layout);
-  for (std::size_t i = 0; i < size; ++i) {
-    for (std::size_t j = 0; j < size; ++j) {
-      if (dofs[i] >= 0 && dofs[i] < mesh_.owned_dofs) {
-        row_sums_[dofs[i]] += std::abs(stiffness[i * size + j]);
-      }
-    }
+  const stiffness::ElementDofs dofs(mesh_, block, element);
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    if (dofs[i] < 0 || dofs[i] >= mesh_.owned_dofs) continue;
+    double& sum = row_sums_[dofs[i]];
+    for (const double k : stiffness.subspan(i * dofs.size(), dofs.size())) sum += std::abs(k);
   }
 }
 
@@ -150,18 +143,12 @@ void ScaledMass::share(LinearSystem& system) const {
   MassScaling& report = system.mass_scaling;
   report = report_;
   report.time_step = structure_.mass_scaling;
-  for (GlobalIndex* const count : {&report.elements, &report.dofs}) {
-    MPI_Allreduce(MPI_IN_PLACE, count, 1, MPI_INT64_T, MPI_SUM, mesh_.comm);
-  }
-  for (double* const largest : {&report.largest_factor, &report.row_frequency}) {
-    MPI_Allreduce(MPI_IN_PLACE, largest, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm);
-  }
+  reduce_over_ranks(mesh_.comm, MPI_SUM, report.elements, report.dofs);
+  reduce_over_ranks(mesh_.comm, MPI_MAX, report.largest_factor, report.row_frequency);
   system.rigid_bodies = bodies_;
   for (RigidBodyReport& body : system.rigid_bodies) {
-    for (GlobalIndex* const sum : {&body.bodies, &body.nodes, &body.dofs, &body.motions}) {
-      MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPI_INT64_T, MPI_SUM, mesh_.comm);
-    }
-    MPI_Allreduce(MPI_IN_PLACE, &body.mass, 1, MPI_DOUBLE, MPI_SUM, mesh_.comm);
+    reduce_over_ranks(mesh_.comm, MPI_SUM, body.bodies, body.nodes, body.dofs, body.motions,
+                      body.mass);
   }
 }
 

@@ -27,8 +27,8 @@ Range range_of(MPI_Comm comm, std::span<const double> time_steps) {
     range.smallest = std::min(range.smallest, dt);
     range.largest = std::max(range.largest, dt);
   }
-  MPI_Allreduce(MPI_IN_PLACE, &range.smallest, 1, MPI_DOUBLE, MPI_MIN, comm);
-  MPI_Allreduce(MPI_IN_PLACE, &range.largest, 1, MPI_DOUBLE, MPI_MAX, comm);
+  reduce_over_ranks(comm, MPI_MIN, range.smallest);
+  reduce_over_ranks(comm, MPI_MAX, range.largest);
   return range;
 }
 
@@ -50,7 +50,7 @@ GlobalIndex count_below(MPI_Comm comm, const ElementBlock& block,
   for (std::size_t e = 0; e < block.count(); ++e) {
     count += block.counted[e] != 0 && time_steps[e] < limit ? 1 : 0;
   }
-  MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_INT64_T, MPI_SUM, comm);
+  reduce_over_ranks(comm, MPI_SUM, count);
   return count;
 }
 

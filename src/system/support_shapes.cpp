@@ -11,10 +11,8 @@ namespace {
 /// Displacement or rotation of a component of a node that has the motion of the support.
 double rigid_displacement(const SupportColumn& column, const Mesh& mesh, LocalIndex node,
                           int component) {
-  const Vector3 x = mesh.position(node);
-  const Vector3& p = column.point;
   return rigid_motion_row(static_cast<std::size_t>(component),
-                          {x[0] - p[0], x[1] - p[1], x[2] - p[2]})[column.component];
+                          minus(mesh.position(node), column.point))[column.component];
 }
 
 }  // namespace
@@ -53,10 +51,10 @@ std::vector<double> support_force(const Structure& structure, const Mesh& mesh,
     return any;
   };
   for_each_element(structure, mesh, is_moved,
-                   [&](const ElementBlock& block, std::size_t element, const ElementLayout& layout,
+                   [&](const ElementBlock& block, std::size_t element, const ElementLayout&,
                        const stiffness::ElementWork& work) {
-                     const auto dofs = stiffness::element_dofs(mesh, block, element, layout);
-                     const std::size_t size = layout.size();
+                     const stiffness::ElementDofs dofs(mesh, block, element);
+                     const std::size_t size = dofs.size();
                      for (std::size_t i = 0; i < size; ++i) {
                        if (dofs[i] < 0 || dofs[i] >= mesh.owned_dofs) continue;
                        for (std::size_t j = 0; j < size; ++j) {

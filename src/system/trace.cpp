@@ -211,14 +211,9 @@ double Trace::compliance(std::size_t a, std::size_t b) {
 
 std::vector<TracePoint> points_of(const Mesh& mesh, const std::vector<LocalIndex>& dofs) {
   std::vector<TracePoint> points;
-  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    for (int c = 0; c < 6; ++c) {
-      const LocalIndex dof = mesh.dof(node, c);
-      if (dof >= 0 && std::ranges::binary_search(dofs, dof)) {
-        points.push_back({mesh.file_node[node], c});
-      }
-    }
-  }
+  for_each_owned_dof(mesh, [&](LocalIndex dof, LocalIndex node, int c) {
+    if (std::ranges::binary_search(dofs, dof)) points.push_back({mesh.file_node[node], c});
+  });
   return points;
 }
 
