@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <initializer_list>
 #include <map>
@@ -67,6 +68,67 @@ class SavedState {
   std::map<std::string, Table> tables_;
   std::map<std::string, std::vector<double>> sums_;
   std::map<DofKey, std::vector<double>> dofs_;
+};
+
+/// Goes over the numbers of a state by their names, to put them into a saved state or to bring them
+/// back: their owner names them once.
+class StateKeeper {
+ public:
+  /// The state must outlive this object.
+  static StateKeeper to(SavedState& state) { return {&state, &state}; }
+  static StateKeeper from(const SavedState& state) { return {nullptr, &state}; }
+
+  bool puts() const { return to_ != nullptr; }
+  /// The state that values come from, or go to.
+  const SavedState& state() const { return *from_; }
+
+  // The three kinds of SavedState, by the same names.
+  void table(const std::string& name, std::span<double> values, std::size_t columns = 0) const {
+    puts() ? to_->put(name, values, columns) : from_->get(name, values);
+  }
+  void sums(const std::string& name, std::span<double> values) const {
+    puts() ? to_->put_sums(name, values) : from_->get_sums(name, values);
+  }
+  void dofs(std::size_t structure, const std::string& name, std::span<double> values) const {
+    const auto number = static_cast<int>(structure);
+    puts() ? to_->put_dofs(number, name, values) : from_->get_dofs(number, name, values);
+  }
+  /// A table of single numbers; integers are refused where they are not whole.
+  template <typename... Values>
+  void numbers(const std::string& name, Values&... values) const {
+    std::array<double, sizeof...(Values)> row{static_cast<double>(values)...};
+    table(name, row);
+    auto next = row.begin();
+    const auto take = [&](auto& value) {
+      using Value = std::remove_reference_t<decltype(value)>;
+      constexpr bool whole = std::is_integral_v<Value> && !std::is_same_v<Value, bool>;
+      value = static_cast<Value>(whole ? static_cast<double>(from_->whole(name, *next)) : *next);
+      ++next;
+    };
+    if (!puts()) (take(values), ...);
+  }
+  /// A table with a row for each of `count` objects: `members(i, take)` calls `take` with the
+  /// numbers of object i.
+  template <typename Members>
+  void rows(const std::string& name, std::size_t count, const Members& members) const {
+    std::vector<double> all;
+    for (std::size_t i = 0; i < count; ++i) {
+      members(i, [&](auto&... values) { (all.push_back(static_cast<double>(values)), ...); });
+    }
+    table(name, all, count == 0 ? 0 : all.size() / count);
+    auto next = all.begin();
+    for (std::size_t i = 0; !puts() && i < count; ++i) {
+      members(i, [&](auto&... values) {
+        ((values = static_cast<std::remove_reference_t<decltype(values)>>(*next++)), ...);
+      });
+    }
+  }
+
+ private:
+  StateKeeper(SavedState* to, const SavedState* from) : to_(to), from_(from) {}
+
+  SavedState* to_;  ///< null: values are brought back
+  const SavedState* from_;
 };
 
 /// Objects as rows of a table of numbers, as they go into a saved state. `members(object, take)`

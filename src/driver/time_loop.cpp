@@ -46,7 +46,7 @@ int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
   observers_.emplace(make_observers({comm_, scene_, model_, scheme_}, profile_));
   Observers& observers = *observers_;
   if (restart != nullptr) {
-    scheme_.stepper().load(*restart);
+    scheme_.stepper().keep(StateKeeper::from(*restart));
     for (const auto& observer : observers.list()) observer->load(*restart);
     first_step_ = step() + 1;
   }
@@ -80,7 +80,7 @@ void TimeLoop::flush() {
 void TimeLoop::write_checkpoint(const RunIdentity& identity) {
   const ScopedTimer timer(profile_, Phase::output);
   SavedState saved;
-  scheme_.stepper().save(saved);
+  scheme_.stepper().keep(StateKeeper::to(saved));
   int finite = saved.dofs_are_finite() ? 1 : 0;
   MPI_Allreduce(MPI_IN_PLACE, &finite, 1, MPI_INT, MPI_MIN, comm_);
   if (finite == 0) {

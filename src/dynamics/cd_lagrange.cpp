@@ -216,32 +216,18 @@ void CdLagrange::leave_modes() {
   ++order_.left;
 }
 
-void CdLagrange::save(SavedState& saved) const {
+void CdLagrange::keep(const StateKeeper& state) {
   for (const auto& run : switched_) {
-    if (run) run->save(saved);
+    if (run) run->keep(state);
   }
   if (order_.least > 0) {
-    Order order = order_;
-    reduce_over_ranks(comm_, MPI_MAX, order.struck);
-    saved.put("order", to_rows(std::vector{order}, Order::members));
+    reduce_over_ranks(comm_, MPI_MAX, order_.struck);
+    state.numbers("order", order_.modes, order_.next, order_.struck, order_.looks, order_.steps,
+                  order_.left);
   }
-  state_.save(saved);
-  energy_.save(saved);
-  for (const auto& interaction : interactions_) interaction->save(saved);
-}
-
-void CdLagrange::load(const SavedState& saved) {
-  state_.load(saved);
-  for (const auto& run : switched_) {
-    if (run) run->load(saved);
-  }
-  if (order_.least > 0) {
-    std::vector<Order> order{order_};
-    from_rows(saved.table("order", 0), order, Order::members);
-    order_ = order.front();
-  }
-  energy_.load(saved);
-  for (const auto& interaction : interactions_) interaction->load(saved);
+  state_.keep(state);
+  energy_.keep(state);
+  for (const auto& interaction : interactions_) interaction->keep(state);
 }
 
 stiffness::StiffnessArgument CdLagrange::argument(std::size_t s) const {

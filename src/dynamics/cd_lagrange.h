@@ -130,16 +130,11 @@ class CdLagrange {
     std::int64_t steps = 0;    ///< in modes
     std::int64_t left = 0;     ///< times that modes were left
     std::int64_t least = 0;    ///< steps between looks, and without an impulse before one; 0: none
-
-    static constexpr auto members = [](auto& self, const auto& take) {
-      take(self.modes, self.next, self.struck, self.looks, self.steps, self.left);
-    };
   };
   const Order& order() const { return order_; }
 
   /// All that the next step needs, interactions and ledger included, between two steps. Collective.
-  void save(SavedState& saved) const;
-  void load(const SavedState& saved);
+  void keep(const StateKeeper& state);
 
   /// State that the next step starts from; in a batch, where a line of the ledger was asked for;
   /// in modes the dofs that were brought.

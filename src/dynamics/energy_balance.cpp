@@ -135,42 +135,24 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
   return line;
 }
 
-template <typename Balance, typename Function>
-void EnergyBalance::for_each_sum(Balance& balance, Function&& function) {
-  for (auto& sum : balance.closed_) {
-    function(sum.value);
-    function(sum.correction);
-  }
-  function(balance.initial_);
-  function(balance.initial_lagged_damping_);
-  function(balance.initial_stored_work_);
-  for (auto& work : balance.open_) function(work);
-  for (auto& sum : balance.filtered_) {
-    function(sum.value);
-    function(sum.correction);
-  }
-  for (auto& work : balance.open_filtered_) function(work);
-}
-
-void EnergyBalance::save(SavedState& saved) const {
+void EnergyBalance::keep(const StateKeeper& state) {
+  std::vector<double*> parts;  // numbers of this rank that add up over ranks
+  const auto add = [&](auto& numbers) {
+    for (double& number : numbers) parts.push_back(&number);
+  };
+  const auto add_sums = [&](auto& sums) {
+    for (Sum& sum : sums) parts.insert(parts.end(), {&sum.value, &sum.correction});
+  };
+  add_sums(closed_);
+  parts.insert(parts.end(), {&initial_, &initial_lagged_damping_, &initial_stored_work_});
+  add(open_);
+  add_sums(filtered_);
+  add(open_filtered_);
   std::vector<double> sums;
-  for_each_sum(*this, [&](double value) { sums.push_back(value); });
-  saved.put_sums("energy", sums);
-  saved.put("energy", {static_cast<double>(steps_), largest_term_, largest_residual_});
-}
-
-void EnergyBalance::load(const SavedState& saved) {
-  std::size_t count = 0;
-  for_each_sum(*this, [&](double) { ++count; });
-  std::vector<double> sums(count);
-  saved.get_sums("energy", sums);
-  std::size_t next = 0;
-  for_each_sum(*this, [&](double& value) { value = sums[next++]; });
-  std::array<double, 3> numbers{};
-  saved.get("energy", numbers);
-  steps_ = saved.whole("energy", numbers[0]);
-  largest_term_ = numbers[1];
-  largest_residual_ = numbers[2];
+  for (const double* part : parts) sums.push_back(*part);
+  state.sums("energy", sums);
+  for (std::size_t i = 0; i < parts.size(); ++i) *parts[i] = sums[i];
+  state.numbers("energy", steps_, largest_term_, largest_residual_);
 }
 
 void EnergyBalance::note(const EnergyLine& line) {

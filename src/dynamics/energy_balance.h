@@ -190,8 +190,7 @@ class EnergyBalance {
   std::int64_t closed_steps() const { return steps_ - 1; }
   void note(const EnergyLine& line);
 
-  void save(SavedState& saved) const;
-  void load(const SavedState& saved);
+  void keep(const StateKeeper& state);
 
  private:
   /// Sum that does not lose small parts over millions of steps (Neumaier).
@@ -201,9 +200,6 @@ class EnergyBalance {
     void add(double term);
     double total() const { return value + correction; }
   };
-  /// Calls `function` with each number of this rank that adds up over ranks.
-  template <typename Balance, typename Function>
-  static void for_each_sum(Balance& balance, Function&& function);
 
   /// Energies before the step at hand.
   void take_energies(std::span<const StepSums> sums);

@@ -1,6 +1,7 @@
 #include "dynamics/state.h"
 
 #include <algorithm>
+#include <string>
 
 #include "common/memory.h"
 #include "common/parallel.h"
@@ -8,10 +9,6 @@
 
 namespace pounding {
 namespace {
-
-std::string filter_name(std::size_t filter) {
-  return "filter_" + std::to_string(filter + 1);
-}
 
 /// Times that a motion of dofs without mass is renewed, a twentieth of the change being left.
 constexpr int renewals = 12;
@@ -88,34 +85,19 @@ State::State(std::span<const LinearSystem> systems, std::size_t support_columns)
   }
 }
 
-void State::save(SavedState& saved) const {
-  saved.put("step", {static_cast<double>(step - 1)});  // the last one made
+void State::keep(const StateKeeper& state) {
+  std::int64_t made = step - 1;  // the last one
+  state.numbers("step", made);
+  step = made + 1;
   if (!supports.displacement.empty()) {
-    saved.put("support_displacement", supports.displacement);
-    saved.put("support_velocity", supports.velocity);
+    state.table("support_displacement", supports.displacement);
+    state.table("support_velocity", supports.velocity);
   }
   for (std::size_t s = 0; s < structures.size(); ++s) {
-    const auto number = static_cast<int>(s);
-    saved.put_dofs(number, "displacement", structures[s].displacement);
-    saved.put_dofs(number, "velocity", structures[s].velocity);
+    state.dofs(s, "displacement", structures[s].displacement);
+    state.dofs(s, "velocity", structures[s].velocity);
     for (std::size_t i = 0; i < structures[s].filtered.size(); ++i) {
-      saved.put_dofs(number, filter_name(i), structures[s].filtered[i]);
-    }
-  }
-}
-
-void State::load(const SavedState& saved) {
-  step = saved.integer("step") + 1;
-  if (!supports.displacement.empty()) {
-    saved.get("support_displacement", supports.displacement);
-    saved.get("support_velocity", supports.velocity);
-  }
-  for (std::size_t s = 0; s < structures.size(); ++s) {
-    const auto number = static_cast<int>(s);
-    saved.get_dofs(number, "displacement", structures[s].displacement);
-    saved.get_dofs(number, "velocity", structures[s].velocity);
-    for (std::size_t i = 0; i < structures[s].filtered.size(); ++i) {
-      saved.get_dofs(number, filter_name(i), structures[s].filtered[i]);
+      state.dofs(s, "filter_" + std::to_string(i + 1), structures[s].filtered[i]);
     }
   }
 }

@@ -51,8 +51,7 @@ struct State {
   /// `support_columns`: number of components of the supports' motion.
   explicit State(std::span<const LinearSystem> systems, std::size_t support_columns = 0);
 
-  void save(SavedState& saved) const;
-  void load(const SavedState& saved);
+  void keep(const StateKeeper& state);
 };
 
 /// Whether uniform damping of a system acts on the motion about the rest that the run starts from:

@@ -195,23 +195,12 @@ double SwitchedRun::about_rest() const {
   return first_rank_ ? rest_work(rest_force_, modes_.system, q_, time_step_) : 0;
 }
 
-void SwitchedRun::save(SavedState& saved) const {
-  bring_all();
+void SwitchedRun::keep(const StateKeeper& state) {
+  if (state.puts()) bring_all();
   const std::string name = "modes_" + std::to_string(number_);
-  saved.put(name, {in_modes_ ? 1.0 : 0.0, largest_energy_});
+  state.numbers(name, in_modes_, largest_energy_);
   for (std::size_t f = 0; f < fields_.size(); ++f) {
-    saved.put(name + "_" + std::to_string(f), *fields_[f]);
-  }
-}
-
-void SwitchedRun::load(const SavedState& saved) {
-  const std::string name = "modes_" + std::to_string(number_);
-  std::array<double, 2> numbers{};
-  saved.get(name, numbers);
-  in_modes_ = numbers[0] != 0;
-  largest_energy_ = numbers[1];
-  for (std::size_t f = 0; f < fields_.size(); ++f) {
-    saved.get(name + "_" + std::to_string(f), *fields_[f]);
+    state.table(name + "_" + std::to_string(f), *fields_[f]);
   }
 }
 

@@ -70,8 +70,7 @@ class SwitchedRun final : public SteppedRun<double> {
   /// See rest_work; likewise.
   double about_rest() const;
 
-  void save(SavedState& saved) const;
-  void load(const SavedState& saved);
+  void keep(const StateKeeper& state);
 
  private:
   /// Phi q of all owned dofs.

@@ -118,15 +118,10 @@ void UnilateralContact::finish(const interactions::Step& step) {
   step.ledger.front()->friction_loss = problem_.friction().total_loss();
 }
 
-void UnilateralContact::save(SavedState& saved) const {
-  if (!counts_) return;
-  watch_.save(saved);
-  problem_.save(saved);
-}
-
-void UnilateralContact::load(const SavedState& saved) {
-  watch_.load(saved);
-  problem_.load(saved);
+void UnilateralContact::keep(const StateKeeper& state) {
+  if (state.puts() && !counts_) return;
+  watch_.keep(state);
+  problem_.keep(state);
 }
 
 GapWatch::GapWatch(std::span<const LinearSystem> systems, std::vector<Bound> bounds,
@@ -156,19 +151,9 @@ GapWatch::GapWatch(std::span<const LinearSystem> systems, std::vector<Bound> bou
   }
 }
 
-void GapWatch::save(SavedState& saved) const {
-  saved.put("gap_watch_root_energy", root_energy_);
-  saved.put("gap_watch_steps", {static_cast<double>(energy_step_), static_cast<double>(last_touch_),
-                                static_cast<double>(next_look_)});
-}
-
-void GapWatch::load(const SavedState& saved) {
-  saved.get("gap_watch_root_energy", root_energy_);
-  std::array<double, 3> steps{};
-  saved.get("gap_watch_steps", steps);
-  energy_step_ = saved.whole("gap_watch_steps", steps[0]);
-  last_touch_ = saved.whole("gap_watch_steps", steps[1]);
-  next_look_ = saved.whole("gap_watch_steps", steps[2]);
+void GapWatch::keep(const StateKeeper& state) {
+  state.table("gap_watch_root_energy", root_energy_);
+  state.numbers("gap_watch_steps", energy_step_, last_touch_, next_look_);
 }
 
 void GapWatch::energies_known(std::int64_t step, std::span<const StructureEnergy> energies,

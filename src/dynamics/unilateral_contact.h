@@ -111,8 +111,7 @@ class GapWatch {
   /// as much as to look.
   bool needs_look(std::int64_t step) const { return !measures_ || due(step); }
 
-  void save(SavedState& saved) const;
-  void load(const SavedState& saved);
+  void keep(const StateKeeper& state);
 
  private:
   /// Bound of the sum of all gap rates at a step after a look at step `look` [m/s].
@@ -157,8 +156,7 @@ class UnilateralContact final : public interactions::Interaction {
   /// Solves for the impulses, and corrects.
   void push(const interactions::Step& step) override;
   void finish(const interactions::Step& step) override;
-  void save(SavedState& saved) const override;
-  void load(const SavedState& saved) override;
+  void keep(const StateKeeper& state) override;
 
   GapWatch& watch() { return watch_; }
   /// This rank holds the gaps and impulses of the current step.

@@ -22,7 +22,7 @@ InheritedMotion::InheritedMotion(MPI_Comm comm, const Scene& scene, const Model&
       means_(model.probes, model.systems, model.meshes),
       rows_(comm, interactions::with_friction_rows(model.interface.constraints), model.systems,
             model.meshes) {
-  scheme_.stepper().load(state);
+  scheme_.stepper().keep(StateKeeper::from(state));
   take_places(-model.time_step);
   take_places(0);
   record();

@@ -315,23 +315,12 @@ double ContactProblem::support_work(std::size_t structure, std::span<const doubl
   return work;
 }
 
-void ContactProblem::save(SavedState& saved) const {
-  saved.put("contact_impulse", impulse_);
-  saved.put("contact_largest_residual", {largest_residual_, largest_rate_});
-  friction_.save(saved);
-  sliding_.save(saved);
-}
-
-void ContactProblem::load(const SavedState& saved) {
-  saved.get("contact_impulse", impulse_);
-  std::array<double, 2> largest{};
-  saved.get("contact_largest_residual", largest);
-  largest_residual_ = largest[0];
-  largest_rate_ = largest[1];
-  friction_.load(saved);
-  if (!sliding_.any()) return;
-  sliding_.load(saved, constraints_);
-  take_new_pairs();
+void ContactProblem::keep(const StateKeeper& state) {
+  state.table("contact_impulse", impulse_);
+  state.numbers("contact_largest_residual", largest_residual_, largest_rate_);
+  friction_.keep(state);
+  sliding_.keep(state, constraints_);
+  if (sliding_.any() && !state.puts()) take_new_pairs();
 }
 
 double ContactProblem::total_work() const {

@@ -106,8 +106,7 @@ class ContactProblem {
   void add_over_members(std::span<double> values) { interface_.add_over_members(values); }
 
   /// The impulses of the last solve, from which the LCP starts, and the largest residual.
-  void save(SavedState& saved) const;
-  void load(const SavedState& saved);
+  void keep(const StateKeeper& state);
 
  private:
   /// Coupled rows, ascending, with their part of H.

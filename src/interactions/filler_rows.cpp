@@ -40,8 +40,6 @@ std::vector<ConstraintTerm> terms_beside(const Interface& interface) {
 }
 
 constexpr double round_off = 1e-12;  ///< of a crushed depth, over the thickness
-constexpr std::size_t saved_values = 4;
-constexpr std::size_t saved_totals = 7;
 
 std::vector<std::unique_ptr<LinkLaw>> filler_laws(const FillerPairs& pairs,
                                                   std::span<const Contact> contacts,
@@ -232,42 +230,20 @@ std::vector<std::string> FillerRows::record_names() const {
   return names;
 }
 
-void FillerRows::save(SavedState& saved) const {
-  if (!counts_) return;
-  std::vector<double> values;
-  for (std::size_t r = 0; r < laws_.size(); ++r) {
-    const double crushed = memory_[r].empty() ? 0 : memory_[r][0];
-    values.insert(values.end(), {crushed, force_[r], rate_[r], held_[r]});
-  }
-  saved.put("fillers", values, saved_values);
-  values.clear();
-  for (const FillerTotals& totals : totals_) {
-    values.insert(values.end(),
-                  {totals.peak_pressure, totals.peak_force, totals.crushed_strain, totals.loss,
-                   totals.crushed_depth, totals.crushed_place[0], totals.crushed_place[1]});
-  }
-  saved.put("filler_totals", values, saved_totals);
-  records_.save(record_names(), saved);
-}
-
-void FillerRows::load(const SavedState& saved) {
-  std::vector<double> values(saved_values * laws_.size());
-  saved.get("fillers", values);
-  for (std::size_t r = 0; r < laws_.size(); ++r) {
-    const double* const v = &values[saved_values * r];
-    std::ranges::fill(memory_[r], v[0]);
-    force_[r] = v[1];
-    rate_[r] = v[2];
-    held_[r] = v[3];
-  }
-  values.assign(saved_totals * totals_.size(), 0.0);
-  saved.get("filler_totals", values);
-  for (std::size_t c = 0; c < totals_.size(); ++c) {
-    const double* const v = &values[saved_totals * c];
-    totals_[c] = {v[0], v[1], v[2], v[3], v[4], {v[5], v[6]}};
-  }
-  if (pairs_.rows().member()) records_.load(record_names(), saved);
-  made_ = true;
+void FillerRows::keep(const StateKeeper& state) {
+  if (state.puts() && !counts_) return;
+  state.rows("fillers", laws_.size(), [&](std::size_t r, const auto& take) {
+    double crushed = memory_[r].empty() ? 0 : memory_[r][0];
+    take(crushed, force_[r], rate_[r], held_[r]);
+    if (!state.puts()) std::ranges::fill(memory_[r], crushed);
+  });
+  state.rows("filler_totals", totals_.size(), [&](std::size_t c, const auto& take) {
+    FillerTotals& t = totals_[c];
+    take(t.peak_pressure, t.peak_force, t.crushed_strain, t.loss, t.crushed_depth,
+         t.crushed_place[0], t.crushed_place[1]);
+  });
+  if (pairs_.rows().member()) records_.keep(record_names(), state);
+  made_ = made_ || !state.puts();
 }
 
 }  // namespace pounding::interactions

@@ -72,8 +72,7 @@ class FillerRows final : public Interaction {
   void begin(const Step& step) override;
   void push(const Step& step) override;
   void finish(const Step& step) override;
-  void save(SavedState& saved) const override;
-  void load(const SavedState& saved) override;
+  void keep(const StateKeeper& state) override;
 
   /// A stop or a strip that is crushed presses in the step just made, or lost energy in the one
   /// before; members only.

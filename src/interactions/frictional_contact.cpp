@@ -163,22 +163,11 @@ double FrictionalContact::total_loss() const {
   return std::accumulate(loss_.begin(), loss_.end(), 0.0);
 }
 
-void FrictionalContact::save(SavedState& saved) const {
+void FrictionalContact::keep(const StateKeeper& state) {
   if (!has_any_) return;
-  std::vector<double> values;
-  for (const auto& impulse : impulse_) {
-    values.insert(values.end(), impulse.begin(), impulse.end());
-  }
-  saved.put("contact_friction", values, 3);
-}
-
-void FrictionalContact::load(const SavedState& saved) {
-  if (!has_any_) return;
-  std::vector<double> values(3 * impulse_.size());
-  saved.get("contact_friction", values);
-  for (std::size_t row = 0; row < impulse_.size(); ++row) {
-    for (std::size_t d = 0; d < 3; ++d) impulse_[row][d] = values[3 * row + d];
-  }
+  state.rows("contact_friction", impulse_.size(), [&](std::size_t row, const auto& take) {
+    take(impulse_[row][0], impulse_[row][1], impulse_[row][2]);
+  });
 }
 
 }  // namespace pounding::interactions

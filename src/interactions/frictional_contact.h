@@ -58,8 +58,7 @@ class FrictionalContact {
   double total_loss() const;                                       ///< [J]
 
   /// The tangential impulses of the last solve, from which the next one starts.
-  void save(SavedState& saved) const;
-  void load(const SavedState& saved);
+  void keep(const StateKeeper& state);
 
  private:
   struct Point {

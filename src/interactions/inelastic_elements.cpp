@@ -345,53 +345,50 @@ std::string InelasticElements::name_of(const Group& group, const char* numbers) 
          std::string(traits_of(block.type).name) + " " + numbers;
 }
 
-void InelasticElements::save(SavedState& saved) const {
-  for (const Group& group : groups_) {
-    const ElementBlock& block = mesh_.blocks[group.block];
-    const std::size_t numbers = group.law->memory_size();
-    std::vector<double> rows;
-    for (std::size_t e = 0; e < block.count(); ++e) {
-      if (group.counted[e] == 0) continue;
-      rows.push_back(static_cast<double>(block.tags[e]));
-      const auto begin = group.memory.begin() + static_cast<std::ptrdiff_t>(e * numbers);
-      rows.insert(rows.end(), begin, begin + static_cast<std::ptrdiff_t>(numbers));
-    }
-    saved.put(name_of(group, "history"), gather_rows(mesh_.comm, rows), numbers + 1);
+void InelasticElements::put_history(const Group& group, const StateKeeper& state) const {
+  const ElementBlock& block = mesh_.blocks[group.block];
+  const std::size_t numbers = group.law->memory_size();
+  std::vector<double> rows;
+  for (std::size_t e = 0; e < block.count(); ++e) {
+    if (group.counted[e] == 0) continue;
+    rows.push_back(static_cast<double>(block.tags[e]));
+    const auto begin = group.memory.begin() + static_cast<std::ptrdiff_t>(e * numbers);
+    rows.insert(rows.end(), begin, begin + static_cast<std::ptrdiff_t>(numbers));
   }
-  saved.put_sums(energy_name(), {&held_energy_, 1});
+  std::vector<double> all = gather_rows(mesh_.comm, rows);
+  state.table(name_of(group, "history"), all, numbers + 1);
+}
+
+void InelasticElements::take_history(Group& group, const SavedState& saved) const {
+  const ElementBlock& block = mesh_.blocks[group.block];
+  const std::size_t numbers = group.law->memory_size();
+  const std::string name = name_of(group, "history");
+  const std::vector<double>& rows = saved.table(name, numbers + 1);
+  std::vector<std::pair<double, std::size_t>> lines;  // of the row of each element in the file
+  for (std::size_t r = 0; r < rows.size(); r += numbers + 1) lines.emplace_back(rows[r], r + 1);
+  std::ranges::sort(lines);
+  for (std::size_t e = 0; e < block.count(); ++e) {
+    if (trace_ && group.counted[e] == 0) continue;
+    const auto tag = static_cast<double>(block.tags[e]);
+    const auto found = std::ranges::lower_bound(lines, std::pair(tag, std::size_t{0}));
+    if (found == lines.end() || found->first != tag) saved.refuse_values(name);
+    std::copy_n(rows.begin() + static_cast<std::ptrdiff_t>(found->second), numbers,
+                group.memory.begin() + static_cast<std::ptrdiff_t>(e * numbers));
+  }
+}
+
+void InelasticElements::keep(const StateKeeper& state) {
+  for (Group& group : groups_) {
+    state.puts() ? put_history(group, state) : take_history(group, state.state());
+  }
+  state.sums(energy_name(), {&held_energy_, 1});
   if (!trace_) {
     std::vector<double> force(mesh_.owned_dofs, 0.0);
     for (std::size_t k = 0; k < dofs_.size(); ++k) force[dofs_[k]] = now_[k];
-    saved.put_dofs(static_cast<int>(structure_), "inelastic_force", force);
-  }
-  records_.save(record_names(), saved);
-}
-
-void InelasticElements::load(const SavedState& saved) {
-  for (Group& group : groups_) {
-    const ElementBlock& block = mesh_.blocks[group.block];
-    const std::size_t numbers = group.law->memory_size();
-    const std::string name = name_of(group, "history");
-    const std::vector<double>& rows = saved.table(name, numbers + 1);
-    std::vector<std::pair<double, std::size_t>> lines;  // of the row of each element in the file
-    for (std::size_t r = 0; r < rows.size(); r += numbers + 1) lines.emplace_back(rows[r], r + 1);
-    std::ranges::sort(lines);
-    for (std::size_t e = 0; e < block.count(); ++e) {
-      if (trace_ && group.counted[e] == 0) continue;
-      const auto tag = static_cast<double>(block.tags[e]);
-      const auto found = std::ranges::lower_bound(lines, std::pair(tag, std::size_t{0}));
-      if (found == lines.end() || found->first != tag) saved.refuse_values(name);
-      std::copy_n(rows.begin() + static_cast<std::ptrdiff_t>(found->second), numbers,
-                  group.memory.begin() + static_cast<std::ptrdiff_t>(e * numbers));
-    }
-  }
-  saved.get_sums(energy_name(), {&held_energy_, 1});
-  if (!trace_) {
-    std::vector<double> force(mesh_.owned_dofs);
-    saved.get_dofs(static_cast<int>(structure_), "inelastic_force", force);
+    state.dofs(structure_, "inelastic_force", force);
     for (std::size_t k = 0; k < dofs_.size(); ++k) now_[k] = force[dofs_[k]];
   }
-  records_.load(record_names(), saved);
+  records_.keep(record_names(), state);
 }
 
 }  // namespace pounding::interactions

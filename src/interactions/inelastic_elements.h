@@ -46,8 +46,7 @@ class InelasticElements final : public Interaction {
   void begin(const Step& step) override;
   void push(const Step& step) override;
   void finish(const Step& step) override;
-  void save(SavedState& saved) const override;
-  void load(const SavedState& saved) override;
+  void keep(const StateKeeper& state) override;
 
   /// One of the laws in one dimension of an element that this rank counts.
   struct Part {
@@ -128,6 +127,9 @@ class InelasticElements final : public Interaction {
   double carried_by(const SupportColumn& column, const HeldDof& held) const;
   /// 1/2 g_n . u_{n+1} of held components, which is kept with W_n.
   double held_by_supports(const Step& step) const;
+  /// Histories of a group, to a saved state and back. Collective over the structure's communicator.
+  void put_history(const Group& group, const StateKeeper& state) const;
+  void take_history(Group& group, const SavedState& saved) const;
   std::string name_of(const Group& group, const char* numbers) const;
   std::string energy_name() const {
     return "inelastic " + mesh_.structure + (trace_ ? " apart" : " held");

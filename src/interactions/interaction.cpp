@@ -25,18 +25,10 @@ void LinkRecords::note(std::size_t k, double elongation, double force, bool yiel
   if (yielded) totals.yielded = 1;
 }
 
-void LinkRecords::save(const std::vector<std::string>& names, SavedState& saved) const {
+void LinkRecords::keep(const std::vector<std::string>& names, const StateKeeper& state) {
   for (std::size_t k = 0; k < links_.size(); ++k) {
-    const LinkTotals& t = totals_[k];
-    saved.put(names[k], {t.largest_elongation, t.largest_force, t.work, t.yielded});
-  }
-}
-
-void LinkRecords::load(const std::vector<std::string>& names, const SavedState& saved) {
-  for (std::size_t k = 0; k < links_.size(); ++k) {
-    std::array<double, 4> values{};
-    saved.get(names[k], values);
-    totals_[k] = {values[0], values[1], values[2], values[3]};
+    LinkTotals& t = totals_[k];
+    state.numbers(names[k], t.largest_elongation, t.largest_force, t.work, t.yielded);
   }
 }
 

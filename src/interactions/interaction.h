@@ -151,8 +151,8 @@ class Interaction {
   /// Adds the energies held and lost to the ledger, after every `push`.
   virtual void finish(const Step& step) = 0;
 
-  virtual void save(SavedState& saved) const = 0;
-  virtual void load(const SavedState& saved) = 0;
+  /// Puts away, or brings back, all that the next step needs.
+  virtual void keep(const StateKeeper& state) = 0;
 };
 
 /// Extremes of a recorded link, and the work it took.
@@ -182,8 +182,7 @@ class LinkRecords {
   const LinkTotals& totals(std::size_t k) const { return totals_[k]; }
 
   /// Under a name for each chosen link, in their order.
-  void save(const std::vector<std::string>& names, SavedState& saved) const;
-  void load(const std::vector<std::string>& names, const SavedState& saved);
+  void keep(const std::vector<std::string>& names, const StateKeeper& state);
 
  private:
   bool push_only_ = false;

@@ -175,9 +175,9 @@ class LinkRows final : public StructureLinks {
     }
     note_records(now, stretch_, force_);
   }
-  void load(const SavedState& saved) override {
-    rates_known_ = false;
-    StructureLinks::load(saved);
+  void keep(const StateKeeper& state) override {
+    rates_known_ = rates_known_ && state.puts();
+    StructureLinks::keep(state);
   }
   Bedding bedding() const override {
     Bedding bedding;

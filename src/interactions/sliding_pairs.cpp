@@ -140,34 +140,16 @@ bool SlidingPairs::find(std::span<const double> displacement, std::span<Constrai
   return true;
 }
 
-void SlidingPairs::save(SavedState& saved) const {
+void SlidingPairs::keep(const StateKeeper& state, std::span<Constraint> rows) {
   if (faces_.rows.empty()) return;
-  std::vector<double> values;
-  for (std::size_t row = 0; row < faces_.rows.size(); ++row) {
-    const Pair& pair = pairs_[row];
-    values.insert(values.end(), {1.0 * changed_[row], 1.0 * pair.facet, pair.open ? 1.0 : 0.0});
-    values.insert(values.end(), pair.weights.begin(), pair.weights.end());
-    values.insert(values.end(), pair.slip.begin(), pair.slip.end());
-  }
-  saved.put("contact_pairs", values, saved_values);
-  saved.put("contact_pairs_calls", {1.0 * calls_});
-}
-
-void SlidingPairs::load(const SavedState& saved, std::span<Constraint> rows) {
-  if (faces_.rows.empty()) return;
-  std::vector<double> values(saved_values * faces_.rows.size());
-  saved.get("contact_pairs", values);
-  std::array<double, 1> calls{};
-  saved.get("contact_pairs_calls", calls);
-  calls_ = static_cast<int>(calls[0]);
-  for (std::size_t row = 0; row < faces_.rows.size(); ++row) {
-    const double* value = &values[saved_values * row];
-    changed_[row] = value[0] != 0 ? 1 : 0;
+  state.rows("contact_pairs", pairs_.size(), [&](std::size_t row, const auto& take) {
     Pair& pair = pairs_[row];
-    pair.facet = static_cast<int>(value[1]);
-    pair.open = value[2] != 0;
-    std::copy_n(value + 3, pair.weights.size(), pair.weights.begin());
-    std::copy_n(value + 3 + pair.weights.size(), pair.slip.size(), pair.slip.begin());
+    auto& [a, b, c, d] = pair.weights;
+    take(changed_[row], pair.facet, pair.open, a, b, c, d, pair.slip[0], pair.slip[1],
+         pair.slip[2]);
+  });
+  state.numbers("contact_pairs_calls", calls_);
+  for (std::size_t row = 0; !state.puts() && row < pairs_.size(); ++row) {
     if (changed_[row] != 0) put(row, rows);
   }
 }

@@ -38,9 +38,8 @@ class SlidingPairs {
   /// Looks at all rows, once in some calls; true if some were paired anew: their new terms and
   /// gaps are in `rows`, a list of all constraints. `displacement` per dof of the operator.
   bool find(std::span<const double> displacement, std::span<Constraint> rows);
-  void save(SavedState& saved) const;
-  /// Also puts the pairs into `rows`, as find() does.
-  void load(const SavedState& saved, std::span<Constraint> rows);
+  /// Also puts pairs that are brought back into `rows`, as find() does.
+  void keep(const StateKeeper& state, std::span<Constraint> rows);
 
  private:
   struct Pair {
@@ -49,8 +48,6 @@ class SlidingPairs {
     Vector3 slip{};                   ///< relative displacement when it was found [m]
     bool open = true;                 ///< nothing is faced; the slip is still measured by the facet
   };
-  static constexpr std::size_t saved_values = 10;
-
   Vector3 displacement_of(int node, std::span<const double> displacement) const;
   /// Displacement of a row's node beside that of the place that it faces.
   Vector3 relative(std::size_t row, const Pair& pair, std::span<const double> displacement) const;

@@ -21,9 +21,6 @@ std::vector<std::unique_ptr<LinkLaw>> soil_laws(std::span<const SoilRow> rows, d
   return laws;
 }
 
-constexpr std::size_t most_memory = 2;
-constexpr std::size_t row_values = most_memory + 3;
-
 }  // namespace
 
 CoupledRows make_soil_rows(MPI_Comm comm, const Interface& interface,
@@ -103,28 +100,15 @@ void SoilRows::finish(const Step& step) {
   ledger.link_loss_before += loss_;
 }
 
-void SoilRows::save(SavedState& saved) const {
-  if (!counts_) return;
-  std::vector<double> values;
-  for (std::size_t r = 0; r < laws_.size(); ++r) {
-    std::array<double, most_memory> memory{};
+void SoilRows::keep(const StateKeeper& state) {
+  if (state.puts() && !counts_) return;
+  state.rows("soil between mats", laws_.size(), [&](std::size_t r, const auto& take) {
+    std::array<double, 2> memory{};  // the most that a law has
     std::ranges::copy(memory_[r], memory.begin());
-    values.insert(values.end(), {memory[0], memory[1], force_[r], rate_[r], held_[r]});
-  }
-  saved.put("soil between mats", values, row_values);
-}
-
-void SoilRows::load(const SavedState& saved) {
-  std::vector<double> values(row_values * laws_.size());
-  saved.get("soil between mats", values);
-  for (std::size_t r = 0; r < laws_.size(); ++r) {
-    const double* const v = &values[row_values * r];
-    std::copy_n(v, memory_[r].size(), memory_[r].begin());
-    force_[r] = v[most_memory];
-    rate_[r] = v[most_memory + 1];
-    held_[r] = v[most_memory + 2];
-  }
-  made_ = true;
+    take(memory[0], memory[1], force_[r], rate_[r], held_[r]);
+    std::copy_n(memory.begin(), memory_[r].size(), memory_[r].begin());
+  });
+  made_ = made_ || !state.puts();
 }
 
 }  // namespace pounding::interactions

@@ -36,8 +36,7 @@ class SoilRows final : public Interaction {
   void begin(const Step& step) override;
   void push(const Step& step) override;
   void finish(const Step& step) override;
-  void save(SavedState& saved) const override;
-  void load(const SavedState& saved) override;
+  void keep(const StateKeeper& state) override;
 
   /// N_n of a row of the interface's soil in the step just made [N, N m]; 0 but on members.
   double force(std::size_t row) const { return force_[row]; }

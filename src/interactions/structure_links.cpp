@@ -103,18 +103,11 @@ void StructureLinks::measure(const std::vector<double>& owned, std::vector<doubl
   for (std::size_t b = 0; b < links_.size(); ++b) elongations[b] = row_product(weights_, b, field_);
 }
 
-void StructureLinks::save(SavedState& saved) const {
+void StructureLinks::keep(const StateKeeper& state) {
   for (std::size_t b = 0; b < links_.size(); ++b) {
-    if (!memory_[b].empty()) saved.put(memory_name(structure_, links_[b]), memory_[b]);
+    if (!memory_[b].empty()) state.table(memory_name(structure_, links_[b]), memory_[b]);
   }
-  records_.save(record_names(structure_, links_, records_), saved);
-}
-
-void StructureLinks::load(const SavedState& saved) {
-  for (std::size_t b = 0; b < links_.size(); ++b) {
-    if (!memory_[b].empty()) saved.get(memory_name(structure_, links_[b]), memory_[b]);
-  }
-  records_.load(record_names(structure_, links_, records_), saved);
+  records_.keep(record_names(structure_, links_, records_), state);
 }
 
 void StructureLinks::record(std::vector<std::size_t> links) {

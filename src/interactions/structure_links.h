@@ -19,8 +19,7 @@ namespace pounding::interactions {
 class StructureLinks : public Interaction {
  public:
   void attach(std::span<SteppedStructure* const> structures) override;
-  void save(SavedState& saved) const override;
-  void load(const SavedState& saved) override;
+  void keep(const StateKeeper& state) override;
 
   /// Stiffness of this rank's compression-only springs [N/m]: of those that are pressed at the end
   /// of the step, and of all.

@@ -206,9 +206,9 @@ TEST(InelasticElements, GoOnFromWhatTheySaved) {
   BodyRun whole(true, true, 2);
   whole.run(200);
   SavedState saved;
-  whole.stepper.save(saved);
+  whole.stepper.keep(StateKeeper::to(saved));
   BodyRun continued(true, true, 2);
-  continued.stepper.load(saved);
+  continued.stepper.keep(StateKeeper::from(saved));
   whole.run(200);
   continued.run(200);
   EXPECT_EQ(whole.squares(), continued.squares());

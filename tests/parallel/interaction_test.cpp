@@ -67,8 +67,7 @@ class YieldingGround final : public interactions::Interaction {
       ledger.link_loss += force_[k] * (after - before) / 2 - kept;
     }
   }
-  void save(SavedState& saved) const override { saved.put("yielding ground", memory_); }
-  void load(const SavedState& saved) override { saved.get("yielding ground", memory_); }
+  void keep(const StateKeeper& state) override { state.table("yielding ground", memory_); }
 
   /// Springs of this rank that have yielded.
   int yielded() const {
@@ -158,9 +157,9 @@ TEST(Interaction, GoesOnFromWhatItSaved) {
   OnGround whole(mast);
   whole.run(300);
   SavedState saved;
-  whole.stepper.save(saved);
+  whole.stepper.keep(StateKeeper::to(saved));
   OnGround continued(mast);
-  continued.stepper.load(saved);
+  continued.stepper.keep(StateKeeper::from(saved));
   EXPECT_EQ(whole.run(300), continued.run(300));
   EXPECT_EQ(whole.ground.yielded(), continued.ground.yielded());
 }
