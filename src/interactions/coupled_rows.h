@@ -24,6 +24,8 @@ class CoupledRows {
               std::span<const LinearSystem> systems, std::span<const Mesh> meshes,
               std::span<const ConstraintTerm> more = {});
 
+  static constexpr double sense = 1;  ///< in which `gather` takes L u
+
   const InterfaceRows& rows() const { return rows_; }
 
   /// Over the owned dofs of a structure; `supports`: motion of supports that carry it along, see

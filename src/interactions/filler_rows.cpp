@@ -4,8 +4,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "common/parallel.h"
-
 namespace pounding::interactions {
 namespace {
 
@@ -94,77 +92,56 @@ void FillerPairs::gather(std::span<double> compression, std::span<double> rate) 
 FillerRows::FillerRows(MPI_Comm comm, const Interface& interface, std::span<const Contact> contacts,
                        std::span<const LinearSystem> systems, std::span<const Mesh> meshes,
                        double time_step)
-    : pairs_(comm, interface, systems, meshes),
-      counts_(pairs_.rows().root() == rank_of(comm)),
-      time_step_(time_step),
-      laws_(filler_laws(pairs_, contacts, time_step)),
-      memory_(laws_),
-      solver_(laws_, pairs_.couplings(), {}, time_step),
-      compression_(laws_.size()),
+    : LawRows(
+          comm, time_step, [&] { return FillerPairs(comm, interface, systems, meshes); },
+          [&](const FillerPairs& pairs) { return filler_laws(pairs, contacts, time_step); }),
+      row_loss_(laws_.size(), 0.0),
       totals_(contacts.size()),
-      contact_force_(contacts.size(), 0.0) {
-  for (auto* values :
-       {&rate_, &rate_before_, &force_, &force_before_, &held_, &row_loss_, &driven_, &impulse_}) {
-    values->assign(laws_.size(), 0.0);
-  }
-}
+      contact_force_(contacts.size(), 0.0) {}
 
 FillerRows::~FillerRows() = default;
 
 void FillerRows::begin(const Step& step) {
-  if (!pairs_.rows().member()) return;
+  if (!rows_.rows().member()) return;
   const ScopedTimer timer(step.profile, Phase::contact);
-  auto& [before, now, free_after] = compression_;
-  pairs_.begin(step, step.supports.displacement, step.supports.velocity_before);
-  rate_before_.swap(rate_);
-  force_before_.swap(force_);
-  pairs_.gather(now, rate_);
-  for (std::size_t r = 0; r < laws_.size(); ++r) before[r] = now[r] - time_step_ * rate_[r];
+  take_state(step, step.supports.displacement, step.supports.velocity_before);
   close_step_before();
-  for (std::size_t r = 0; r < laws_.size(); ++r) laws_[r]->yield(now[r], 1, memory_[r]);
+  for (std::size_t r = 0; r < laws_.size(); ++r) {
+    laws_[r]->yield(elongations_.now[r], 1, memory_[r]);
+  }
   made_ = true;
 }
 
 void FillerRows::close_step_before() {
-  const auto& [before, now, free_after] = compression_;
+  const auto& [before, now, free_after] = elongations_;
   loss_ = plastic_loss_ = 0;
   for (std::size_t r = 0; r < laws_.size(); ++r) {
     const double held = laws_[r]->energy(before[r], now[r], memory_[r]);
     if (made_) {
-      const double taken = force_before_[r] * time_step_ * (rate_[r] + rate_before_[r]) / 2;
+      const double taken = force_[r] * time_step_ * (rate_[r] + rate_before_[r]) / 2;
       const double loss = taken - (held - held_[r]);
       (laws_[r]->loses_plastic_work() ? plastic_loss_ : loss_) += loss;
       row_loss_[r] = loss;
-      totals_[pairs_.all()[r].contact].loss += loss;
+      totals_[rows_.all()[r].contact].loss += loss;
     }
     held_[r] = held;
   }
   for (std::size_t k = 0; made_ && k < records_.links().size(); ++k) {
     const std::size_t r = records_.links()[k];
-    records_.add_work(k, force_before_[r] * time_step_ * (rate_[r] + rate_before_[r]) / 2);
+    records_.add_work(k, force_[r] * time_step_ * (rate_[r] + rate_before_[r]) / 2);
   }
 }
 
 void FillerRows::push(const Step& step) {
-  if (!pairs_.rows().member()) return;
+  if (!rows_.rows().member()) return;
   const ScopedTimer timer(step.profile, Phase::contact);
-  auto& [before, now, free_after] = compression_;
-  std::fill(force_.begin(), force_.end(), 0.0);
+  std::ranges::fill(force_, 0.0);
   support_input_ = 0;
   duration_ = step.share() * time_step_;
-  if (solver_.is_idle(now, memory_)) return;
-  pairs_.take_velocities(step, step.supports.velocity);
-  pairs_.gather(impulse_, free_after);  // the rates alone are used
-  for (std::size_t r = 0; r < laws_.size(); ++r) {
-    free_after[r] = now[r] + time_step_ * free_after[r];
-  }
-  solver_.solve(step.share(), compression_, driven_, memory_, force_);
-  for (std::size_t r = 0; r < laws_.size(); ++r) {
-    impulse_[r] = duration_ * force_[r];
-  }
-  pairs_.push(step, impulse_);
+  if (solver_.is_idle(elongations_.now, memory_)) return;
+  respond(step, step.supports.velocity);
   for (std::size_t s = 0; s < step.structures.size(); ++s) {
-    support_input_ -= pairs_.support_work(s, step.supports.velocity_mean);
+    support_input_ -= rows_.support_work(s, step.supports.velocity_mean);
   }
   note_peaks();
 }
@@ -172,7 +149,7 @@ void FillerRows::push(const Step& step) {
 void FillerRows::note_peaks() {
   std::fill(contact_force_.begin(), contact_force_.end(), 0.0);
   for (std::size_t r = 0; r < laws_.size(); ++r) {
-    const auto& [contact, row, part, place] = pairs_.all()[r];
+    const auto& [contact, row, part, place] = rows_.all()[r];
     FillerTotals& totals = totals_[contact];
     contact_force_[contact] += force_[r];
     if (part.is_spring()) continue;
@@ -189,15 +166,15 @@ void FillerRows::note_peaks() {
 }
 
 void FillerRows::finish(const Step& step) {
-  if (!pairs_.rows().member()) return;
+  if (!rows_.rows().member()) return;
   LedgerPart& ledger = *step.ledger.front();
   for (std::size_t r = 0; r < laws_.size(); ++r) {
-    laws_[r]->remember(0, compression_.now[r], 0, 1, memory_[r]);
+    laws_[r]->remember(0, elongations_.now[r], 0, 1, memory_[r]);
     if (counts_) ledger.link_energy_before += held_[r];
   }
   for (std::size_t k = 0; k < records_.links().size(); ++k) {
     const std::size_t r = records_.links()[k];
-    records_.note(k, compression_.now[r], force_[r], laws_[r]->has_yielded(memory_[r]));
+    records_.note(k, elongations_.now[r], force_[r], laws_[r]->has_yielded(memory_[r]));
   }
   if (counts_) {
     ledger.link_loss_before += loss_;
@@ -208,14 +185,14 @@ void FillerRows::finish(const Step& step) {
 
 bool FillerRows::strikes() const {
   for (std::size_t r = 0; r < laws_.size(); ++r) {
-    if (pairs_.all()[r].part.strikes() && (force_[r] > 0 || row_loss_[r] != 0)) return true;
+    if (rows_.all()[r].part.strikes() && (force_[r] > 0 || row_loss_[r] != 0)) return true;
   }
   return false;
 }
 
 void FillerRows::add_strikes(std::span<double> impulses, std::span<double> works) const {
   for (std::size_t r = 0; r < laws_.size(); ++r) {
-    const FillerPairs::Pair& pair = pairs_.all()[r];
+    const FillerPairs::Pair& pair = rows_.all()[r];
     if (!pair.part.strikes()) continue;
     impulses[pair.row] += duration_ * force_[r];
     works[pair.row] -= row_loss_[r];
@@ -242,7 +219,7 @@ void FillerRows::keep(const StateKeeper& state) {
     take(t.peak_pressure, t.peak_force, t.crushed_strain, t.loss, t.crushed_depth,
          t.crushed_place[0], t.crushed_place[1]);
   });
-  if (pairs_.rows().member()) records_.keep(record_names(), state);
+  if (rows_.rows().member()) records_.keep(record_names(), state);
   made_ = made_ || !state.puts();
 }
 

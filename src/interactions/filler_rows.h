@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -10,12 +9,10 @@
 
 #include <mpi.h>
 
-#include "interactions/coupled_rows.h"
-#include "interactions/interaction.h"
+#include "interactions/law_rows.h"
 #include "interactions/pairing/interface.h"
 #include "laws/tension_law.h"
 #include "scene/scene.h"
-#include "solvers/law_solver.h"
 #include "system/linear_system.h"
 
 namespace pounding::interactions {
@@ -24,6 +21,8 @@ namespace pounding::interactions {
 /// is compressed, how fast, and the impulses by which it presses the sides apart.
 class FillerPairs : public CoupledRows {
  public:
+  static constexpr double sense = -1;
+
   /// Collective over `comm`.
   FillerPairs(MPI_Comm comm, const Interface& interface, std::span<const LinearSystem> systems,
               std::span<const Mesh> meshes);
@@ -58,17 +57,14 @@ struct FillerTotals {
 };
 
 /// Fillers of all contacts, pair by pair: between the step of the structures without them and
-/// contact, their forces (FillerLaw) are solved for together and v+ and u_{n+1} corrected. The
-/// rates that a step ends with come with the gather of the next one, and so does its loss. Every
-/// member of the rows computes the same; one adds it to the ledger.
-class FillerRows final : public Interaction {
+/// contact, by their forces (FillerLaw).
+class FillerRows final : public LawRows<FillerPairs> {
  public:
   /// `contacts` of the scene. References must outlive this object. Collective over `comm`.
   FillerRows(MPI_Comm comm, const Interface& interface, std::span<const Contact> contacts,
              std::span<const LinearSystem> systems, std::span<const Mesh> meshes, double time_step);
   ~FillerRows() override;
 
-  void attach(std::span<SteppedStructure* const> structures) override { pairs_.attach(structures); }
   void begin(const Step& step) override;
   void push(const Step& step) override;
   void finish(const Step& step) override;
@@ -82,7 +78,7 @@ class FillerRows final : public Interaction {
   void add_strikes(std::span<double> impulses, std::span<double> works) const;
   /// Per contact of the scene; members only.
   const std::vector<FillerTotals>& totals() const { return totals_; }
-  const FillerPairs& pairs() const { return pairs_; }
+  const FillerPairs& pairs() const { return rows_; }
   /// Records some rows from now on, on members. Their work comes with the step after.
   void record(std::vector<std::size_t> rows) { records_.watch(std::move(rows), true); }
   const LinkRecords& records() const { return records_; }
@@ -93,26 +89,11 @@ class FillerRows final : public Interaction {
   void note_peaks();
   std::vector<std::string> record_names() const;
 
-  FillerPairs pairs_;
-  bool counts_;  ///< this rank adds to the ledger
-  double time_step_;
-  std::vector<std::unique_ptr<LinkLaw>> laws_;
-  LawMemory memory_;
-  LawSolver solver_;
-  Elongations compression_;           ///< d
-  std::vector<double> rate_;          ///< of d, at the start of the step
-  std::vector<double> rate_before_;   ///< at that of the step before
-  std::vector<double> force_;         ///< N_n
-  std::vector<double> force_before_;  ///< N_{n-1}
-  std::vector<double> held_;          ///< W_{n-1/2}
-  std::vector<double> row_loss_;      ///< of the step before [J]
-  std::vector<double> driven_;        ///< no wave drives a filler: zeros
-  std::vector<double> impulse_;
-  double support_input_ = 0;  ///< work of supports against the fillers [J]
-  double loss_ = 0;           ///< of the step before, of stops [J]
-  double plastic_loss_ = 0;   ///< likewise, of crushing
-  bool made_ = false;         ///< a step was
-  double duration_ = 0;       ///< of the forces in the step just made [s]
+  std::vector<double> row_loss_;  ///< of the step before [J]
+  double support_input_ = 0;      ///< work of supports against the fillers [J]
+  double loss_ = 0;               ///< of the step before, of stops [J]
+  double plastic_loss_ = 0;       ///< likewise, of crushing
+  double duration_ = 0;           ///< of the forces in the step just made [s]
   std::vector<FillerTotals> totals_;
   std::vector<double> contact_force_;  ///< per contact
   LinkRecords records_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "common/parallel.h"
 #include "laws/dashpot_law.h"
 
 namespace pounding::interactions {
@@ -34,28 +33,18 @@ CoupledRows make_soil_rows(MPI_Comm comm, const Interface& interface,
 
 SoilRows::SoilRows(MPI_Comm comm, const Interface& interface, std::span<const LinearSystem> systems,
                    std::span<const Mesh> meshes, double time_step)
-    : rows_(make_soil_rows(comm, interface, systems, meshes)),
-      counts_(rows_.rows().root() == rank_of(comm)),
-      time_step_(time_step),
-      laws_(soil_laws(interface.soil, time_step)),
-      memory_(laws_),
-      solver_(laws_, rows_.couplings(), {}, time_step),
-      elongations_(laws_.size()) {
-  for (auto* values : {&rate_, &rate_before_, &force_, &held_, &driven_, &impulse_}) {
-    values->assign(laws_.size(), 0.0);
-  }
-}
+    : LawRows(
+          comm, time_step, [&] { return make_soil_rows(comm, interface, systems, meshes); },
+          [&](const CoupledRows&) { return soil_laws(interface.soil, time_step); }) {}
 
 void SoilRows::begin(const Step& step) {
   if (!rows_.rows().member()) return;
   const ScopedTimer timer(step.profile, Phase::step);
-  auto& [before, now, free_after] = elongations_;
-  rows_.begin(step, {}, {});
-  rate_before_.swap(rate_);
-  rows_.gather(now, rate_);
-  for (std::size_t r = 0; r < laws_.size(); ++r) {
-    if (!laws_[r]->is_explicit()) now[r] = 0;
-    before[r] = now[r] - time_step_ * rate_[r];
+  take_state(step, {}, {});
+  for (std::size_t r = 0; r < laws_.size(); ++r) {  // no law but a spring's sees how far they are
+    if (laws_[r]->is_explicit()) continue;
+    elongations_.now[r] = 0;
+    elongations_.before[r] = elongations_.now[r] - time_step_ * rate_[r];
   }
   close_step_before(step.number == 1 ? 0.5 : 1);
   made_ = true;
@@ -79,18 +68,7 @@ void SoilRows::close_step_before(double share) {
 void SoilRows::push(const Step& step) {
   if (!rows_.rows().member()) return;
   const ScopedTimer timer(step.profile, Phase::step);
-  auto& [before, now, free_after] = elongations_;
-  rows_.take_velocities(step, {});
-  rows_.gather(impulse_, free_after);  // the rates alone are used
-  for (std::size_t r = 0; r < laws_.size(); ++r) {
-    free_after[r] = now[r] + time_step_ * free_after[r];
-  }
-  std::ranges::fill(force_, 0.0);
-  solver_.solve(step.share(), elongations_, driven_, memory_, force_);
-  for (std::size_t r = 0; r < laws_.size(); ++r) {
-    impulse_[r] = -step.share() * time_step_ * force_[r];
-  }
-  rows_.push(step, impulse_);
+  respond(step, {});
 }
 
 void SoilRows::finish(const Step& step) {
