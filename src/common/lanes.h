@@ -26,16 +26,13 @@ using Lanes = double __attribute__((vector_size(32)));
 using LaneMask = std::int64_t __attribute__((vector_size(32)));
 using HalfLanes = double __attribute__((vector_size(16)));
 
-static POUNDING_INLINE void load(const double* from, Lanes& to) {
+/// Vectors from memory and back.
+template <typename Vector>
+static POUNDING_INLINE void load(const double* from, Vector& to) {
   std::memcpy(&to, from, sizeof to);
 }
-static POUNDING_INLINE void store(double* to, const Lanes& from) {
-  std::memcpy(to, &from, sizeof from);
-}
-static POUNDING_INLINE void load(const double* from, HalfLanes& to) {
-  std::memcpy(&to, from, sizeof to);
-}
-static POUNDING_INLINE void store(double* to, const HalfLanes& from) {
+template <typename Vector>
+static POUNDING_INLINE void store(double* to, const Vector& from) {
   std::memcpy(to, &from, sizeof from);
 }
 
@@ -95,13 +92,6 @@ static POUNDING_INLINE void subtract_product(const Lanes& a, const Lanes& b, Lan
 
 /// Eight doubles at once.
 using EightLanes = double __attribute__((vector_size(64)));
-
-static POUNDING_INLINE void load(const double* from, EightLanes& to) {
-  std::memcpy(&to, from, sizeof to);
-}
-static POUNDING_INLINE void store(double* to, const EightLanes& from) {
-  std::memcpy(to, &from, sizeof from);
-}
 
 static POUNDING_INLINE double add_up(const EightLanes& values) {
   return add_up(Lanes(__builtin_shufflevector(values, values, 0, 1, 2, 3)) +

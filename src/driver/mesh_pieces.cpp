@@ -97,10 +97,9 @@ std::string difference(const Ingredients& one, const Ingredients& other) {
 /// Identity of a cut: the sources of the pieces and the number of ranks.
 std::string identity_of(const Ingredients& ingredients, int ranks) {
   Hash hash;
-  hash.add(static_cast<double>(ranks));
+  hash.add(ranks);
   for (const auto& [name, value] : ingredients) {
-    hash.add(name);
-    hash.add(value);
+    hash.add(name, value);
   }
   return hash.text();
 }

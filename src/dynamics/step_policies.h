@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "common/batch_value.h"
@@ -59,18 +60,6 @@ inline void keep_first(std::size_t count, WideLanes& values) {
   values = _mm512_maskz_mov_pd(first_lanes(count), values);
 }
 
-/// The values of nodes at three vectors of their dofs.
-template <int vector>
-inline WideLanes spread(const WideLanes& of) {
-  if constexpr (vector == 0) {
-    return __builtin_shufflevector(of, of, 0, 0, 0, 1, 1, 1, 2, 2);
-  } else if constexpr (vector == 1) {
-    return __builtin_shufflevector(of, of, 2, 3, 3, 3, 4, 4, 4, 5);
-  } else {
-    return __builtin_shufflevector(of, of, 5, 5, 6, 6, 6, 7, 7, 7);
-  }
-}
-
 #else
 
 inline void load_first(const double* from, std::size_t count, WideLanes& to) {
@@ -90,19 +79,16 @@ inline void keep_first(std::size_t count, WideLanes& values) {
   values = WideLanes{values[0], count > 1 ? values[1] : 0, count > 2 ? values[2] : 0, 0};
 }
 
+#endif
+
 /// The values of nodes at three vectors of their dofs.
 template <int vector>
 inline WideLanes spread(const WideLanes& of) {
-  if constexpr (vector == 0) {
-    return __builtin_shufflevector(of, of, 0, 0, 0, 1);
-  } else if constexpr (vector == 1) {
-    return __builtin_shufflevector(of, of, 1, 1, 2, 2);
-  } else {
-    return __builtin_shufflevector(of, of, 2, 3, 3, 3);
+  return [&]<int... lane>(std::integer_sequence<int, lane...>) __attribute__((always_inline)) {
+    return __builtin_shufflevector(of, of, (vector * wide_lane_count + lane) / 3 ...);
   }
+  (std::make_integer_sequence<int, wide_lane_count>{});
 }
-
-#endif
 
 /// Masses of the three vectors of a pattern, from one value per node of as many nodes as a vector
 /// has lanes.

@@ -140,16 +140,6 @@ void ContactProblem::find_components() {
   if (largest > 1) lcp_ = std::make_unique<CoupledLcp>(largest, most_entries);
 }
 
-void ContactProblem::set_displacement(std::size_t structure, const double* displacement,
-                                      std::span<const double> supports) {
-  interface_.set(structure, 0, 1, displacement, supports);
-}
-
-void ContactProblem::set_point_displacement(std::size_t structure, std::span<const double> points,
-                                            std::span<const double> supports) {
-  interface_.set_points(structure, points, supports);
-}
-
 void ContactProblem::gather_displacements() {
   interface_.gather(1, displacement_);
   if (carried_ != nullptr) add(carried_->displacement, displacement_);
@@ -172,16 +162,6 @@ bool ContactProblem::detect_contact() {
     any = any || active_[r] != 0;
   }
   return any;
-}
-
-void ContactProblem::set_velocity_before(std::size_t structure, const double* velocity,
-                                         std::span<const double> supports) {
-  interface_.set(structure, 0, 2, velocity, supports);
-}
-
-void ContactProblem::set_free_velocity(std::size_t structure, const double* velocity,
-                                       std::span<const double> supports) {
-  interface_.set(structure, 1, 2, velocity, supports);
 }
 
 void ContactProblem::gather_velocities() {
@@ -321,12 +301,6 @@ void ContactProblem::keep(const StateKeeper& state) {
   friction_.keep(state);
   sliding_.keep(state, constraints_);
   if (sliding_.any() && !state.puts()) take_new_pairs();
-}
-
-double ContactProblem::total_work() const {
-  double sum = 0;
-  for (const double work : work_) sum += work;
-  return sum;
 }
 
 }  // namespace pounding::interactions

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -46,11 +47,15 @@ class ContactProblem {
   const Trace& trace(std::size_t structure) const { return interface_.trace(structure); }
   /// u_n over the owned dofs of the structure; `supports`: that of the supports, see Trace::apply.
   void set_displacement(std::size_t structure, const double* displacement,
-                        std::span<const double> supports = {});
+                        std::span<const double> supports = {}) {
+    interface_.set(structure, 0, 1, displacement, supports);
+  }
   /// u_n at the known points of the structure's trace, where it is at hand, in place of that over
   /// the dofs; the supports carry them along.
   void set_point_displacement(std::size_t structure, std::span<const double> points,
-                              std::span<const double> supports);
+                              std::span<const double> supports) {
+    interface_.set_points(structure, points, supports);
+  }
   /// The places of dof_list() move beside their structures: displacement [m], and velocity
   /// before and in the step [m/s], which the next gathers add. Members only.
   struct Carried {
@@ -67,9 +72,13 @@ class ContactProblem {
   /// v_{n-1/2} and v_free over the owned dofs of the structure, after the displacements of both
   /// have been gathered; `supports`: those of the supports likewise.
   void set_velocity_before(std::size_t structure, const double* velocity,
-                           std::span<const double> supports = {});
+                           std::span<const double> supports = {}) {
+    interface_.set(structure, 0, 2, velocity, supports);
+  }
   void set_free_velocity(std::size_t structure, const double* velocity,
-                         std::span<const double> supports = {});
+                         std::span<const double> supports = {}) {
+    interface_.set(structure, 1, 2, velocity, supports);
+  }
   /// Gathers the velocities. Members only, collective over them.
   void gather_velocities();
   /// Impulses of the active rows, 0 elsewhere.
@@ -89,7 +98,7 @@ class ContactProblem {
   const std::vector<double>& works() const { return work_; }  ///< 1/2 lambda L v- [J]
   double smallest_gap() const { return smallest_gap_; }
   /// Contact work 1/2 lambda^T L v- of the last solve, that of friction apart [J].
-  double total_work() const;
+  double total_work() const { return std::accumulate(work_.begin(), work_.end(), 0.0); }
   const FrictionalContact& friction() const { return friction_; }
   /// Points that contacts move, the same on every rank.
   const std::vector<InterfaceDof>& dof_list() const { return interface_.rows().dof_list(); }

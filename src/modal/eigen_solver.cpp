@@ -237,25 +237,21 @@ void ScaledOperator::solve_coupled(Vec x, Half half) const {
   double* values = nullptr;
   POUNDING_PETSC(VecGetArray(x, &values));
   mass.take(values, field_.data());
-  if (half == Half::plain) {
-    mass.solve_half(field_.data());
-  } else {
-    mass.solve_transposed_half(field_.data());
-  }
+  (mass.*half)(field_.data());
   mass.put(field_.data(), values);
   POUNDING_PETSC(VecRestoreArray(x, &values));
 }
 
 void ScaledOperator::apply(Vec x, Vec y) const {
   POUNDING_PETSC(VecPointwiseMult(argument_.get(), diagonal_.get(), x));
-  solve_coupled(argument_.get(), Half::transposed);
+  solve_coupled(argument_.get(), &CoupledMass::solve_transposed_half);
   POUNDING_PETSC(VecSet(y, 0));
   for (const auto& [factor, operand] : terms_) {
     operand->apply(argument_.get(), product_.get());
     POUNDING_PETSC(VecAXPY(y, factor, product_.get()));
   }
   POUNDING_PETSC(VecPointwiseMult(y, diagonal_.get(), y));
-  solve_coupled(y, Half::plain);
+  solve_coupled(y, &CoupledMass::solve_half);
   POUNDING_PETSC(VecAXPY(y, shift_, x));
 }
 
@@ -263,14 +259,6 @@ void ScaledOperator::solve(std::vector<double>& x, Half half) const {
   const VecHandle vector = wrap_vector(system_, x);
   POUNDING_PETSC(VecPointwiseMult(vector.get(), diagonal_.get(), vector.get()));
   solve_coupled(vector.get(), half);
-}
-
-void ScaledOperator::to_motion(std::vector<double>& y) const {
-  solve(y, Half::transposed);
-}
-
-void ScaledOperator::from_force(std::vector<double>& f) const {
-  solve(f, Half::plain);
 }
 
 bool must_iterate(const LinearSystem& system, Mat matrix, SolverChoice choice) {

@@ -86,15 +86,14 @@ class ScaledOperator {
   /// y = A x. Collective.
   void apply(Vec x, Vec y) const;
   /// G^-T y of a vector over the owned dofs: the motion of y.
-  void to_motion(std::vector<double>& y) const;
+  void to_motion(std::vector<double>& y) const { solve(y, &CoupledMass::solve_transposed_half); }
   /// G^-1 f of a force over the owned dofs.
-  void from_force(std::vector<double>& f) const;
+  void from_force(std::vector<double>& f) const { solve(f, &CoupledMass::solve_half); }
 
  private:
-  enum class Half { plain, transposed };
-  /// Applies G^-1 or G^-T where the mass is coupled.
+  /// Applies G^-1 or G^-T, whose part of a coupled mass is `half`.
+  using Half = void (CoupledMass::*)(double*) const;
   void solve_coupled(Vec x, Half half) const;
-  /// G^-1 or G^-T times a vector over the owned dofs.
   void solve(std::vector<double>& x, Half half) const;
 
   const LinearSystem& system_;

@@ -120,19 +120,16 @@ ModalBasis read_members(const Hdf5Reader& file, const ModalRequest& request) {
 std::string hash_of(std::span<const TracePoint> points) {
   Hash hash;
   for (const TracePoint& point : points) {
-    hash.add(static_cast<double>(point.node));
-    hash.add(static_cast<double>(point.component));
+    hash.add(point.node, point.component);
   }
   return hash.text();
 }
 
 void add_values(const std::vector<NodalValue>& values, Hash& hash) {
   for (const NodalValue& value : values) {
-    hash.add(static_cast<double>(value.node));
-    hash.add(static_cast<double>(value.component));
-    hash.add(value.value);
+    hash.add(value.node, value.component, value.value);
   }
-  hash.add(static_cast<double>(values.size()));
+  hash.add(values.size());
 }
 
 std::string hash_of(std::span<const NodalLoad> loads) {
@@ -147,27 +144,22 @@ std::string hash_of(std::span<const NodalLoad> loads) {
 std::string hash_of(std::span<const SupportColumn> columns, const GlobalMesh& mesh) {
   Hash hash;
   for (const SupportColumn& column : columns) {
-    hash.add(static_cast<double>(column.support));
-    hash.add(static_cast<double>(column.component));
-    if (column.component >= 3) hash.add_all(column.point);
+    hash.add(column.support, column.component);
+    if (column.component >= 3) hash.add(column.point);
   }
-  hash.add(static_cast<double>(mesh.ground_support));
+  hash.add(mesh.ground_support);
   for (const SupportedNode& node : mesh.supported) {
-    hash.add(static_cast<double>(node.node));
-    hash.add(static_cast<double>(node.support));
+    hash.add(node.node, node.support);
   }
   return hash.text();
 }
 
 std::string hash_of(const GlobalMesh& mesh) {
   Hash hash;
-  hash.add_all(mesh.coordinates);
-  hash.add_all(mesh.components);
+  hash.add(mesh.coordinates, mesh.components);
   for (const ElementSet& set : mesh.regions) {
-    hash.add(set.group);
-    hash.add(static_cast<double>(set.type));
-    hash.add_all(set.connectivity);
-    if (!set.share.empty()) hash.add_all(set.share);
+    hash.add(set.group, set.type, set.connectivity);
+    if (!set.share.empty()) hash.add(set.share);
   }
   return hash.text();
 }
@@ -175,14 +167,12 @@ std::string hash_of(const GlobalMesh& mesh) {
 std::string hash_of(const std::vector<RigidNodes>& rigid) {
   Hash hash;
   for (const RigidNodes& nodes : rigid) {
-    hash.add(static_cast<double>(nodes.components));
-    hash.add_all(nodes.nodes);
-    if (!nodes.rows.empty()) hash.add_all(nodes.rows);
+    hash.add(nodes.components, nodes.nodes);
+    if (!nodes.rows.empty()) hash.add(nodes.rows);
     for (const TiedNode& tied : nodes.tied) {
-      hash.add(static_cast<double>(tied.node));
+      hash.add(tied.node);
       for (const Carrier& carrier : tied.carriers) {
-        hash.add(static_cast<double>(carrier.node));
-        hash.add_all(carrier.block);
+        hash.add(carrier.node, carrier.block);
       }
     }
   }
@@ -192,24 +182,20 @@ std::string hash_of(const std::vector<RigidNodes>& rigid) {
 /// Formulations, materials, sections and whatever else makes element matrices.
 std::string hash_of(const std::vector<Region>& regions) {
   Hash hash;
-  hash.add(static_cast<double>(element_formulations));
+  hash.add(element_formulations);
   for (const Region& region : regions) {
     const ElementProperties p = element_properties(region);
-    hash.add(region.group);
-    hash.add(static_cast<double>(region.element));
-    hash.add_all(std::array{p.young, p.poisson, p.density, p.area, p.inertia_y, p.inertia_z,
-                            p.torsion, p.thickness, p.rotary_inertia_factor, p.mass});
-    hash.add_all(p.z_axis);
-    hash.add_all(p.rotary_inertia);
-    hash.add_all(region.stiffness);
+    hash.add(region.group, region.element);
+    hash.add(std::array{p.young, p.poisson, p.density, p.area, p.inertia_y, p.inertia_z, p.torsion,
+                        p.thickness, p.rotary_inertia_factor, p.mass});
+    hash.add(p.z_axis, p.rotary_inertia, region.stiffness);
     if (region.element == ElementType::beam) {
-      hash.add_all(std::array{p.shear_area_y, p.shear_area_z, p.resolved_frequency});
+      hash.add(std::array{p.shear_area_y, p.shear_area_z, p.resolved_frequency});
     }
     if (p.added_mass != 0) hash.add(p.added_mass);
     if (p.drilling_factor != 1) hash.add(p.drilling_factor);
     for (const GroundSpring& spring : p.ground_springs) {
-      hash.add(spring.stiffness);
-      hash.add_all(spring.motion);
+      hash.add(spring.stiffness, spring.motion);
     }
   }
   return hash.text();
@@ -277,35 +263,31 @@ StoredBasis read_modal_basis(const std::string& path, const BasisKey& key,
 BasisKey basis_key(const Structure& structure, const GlobalMesh& mesh,
                    const ModalRequest& request) {
   Hash clamp;
-  clamp.add_all(mesh.free_components);
+  clamp.add(mesh.free_components);
   Hash vectors;
-  vectors.add_all(
+  vectors.add(
       std::array{static_cast<double>(request.modes), request.cutoff, request.attachment ? 1. : 0.});
   if (request.residual) vectors.add("residual");
   if (request.switched_part > 0) {
-    vectors.add("switched");
-    vectors.add(request.switched_part);
+    vectors.add("switched", request.switched_part);
   }
   if (request.candidates > request.modes) vectors.add(static_cast<double>(request.candidates));
-  if (request.gravity != Vector3{0, 0, 0}) vectors.add_all(request.gravity);
+  if (request.gravity != Vector3{0, 0, 0}) vectors.add(request.gravity);
   if (structure.p_delta) vectors.add("p_delta");
   if (!request.loads.empty()) vectors.add(hash_of(request.loads));
-  if (structure.p_delta) vectors.add_all(request.loads_at_rest);
+  if (structure.p_delta) vectors.add(request.loads_at_rest);
   if (!request.start.empty()) {
     vectors.add("start");
     add_values(request.start.displacement, vectors);
     add_values(request.start.velocity, vectors);
-    vectors.add_all(request.start_displacement);
-    vectors.add_all(request.start_velocity);
+    vectors.add(request.start_displacement, request.start_velocity);
   }
   if (request.attachment && request.patches > 0) {
-    vectors.add("patches");
-    vectors.add(static_cast<double>(request.patches));
+    vectors.add("patches", request.patches);
   }
   for (const Region& region : structure.regions) {
     if (region.damping_factor == 1) continue;
-    vectors.add(region.group);
-    vectors.add(region.damping_factor);
+    vectors.add(region.group, region.damping_factor);
   }
   if (!request.supports.empty()) vectors.add(hash_of(request.supports, mesh));
   if (!request.yielding_points.empty()) vectors.add(hash_of(request.yielding_points));

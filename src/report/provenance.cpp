@@ -124,7 +124,7 @@ std::string hash_of(const GroundMotion& motion, const SupportMotion* supports,
   const auto add = [&hash](const Accelerogram& motion_of_one) {
     hash.add(motion_of_one.time_step);
     hash.add(motion_of_one.start);
-    hash.add_all(motion_of_one.acceleration);
+    hash.add(motion_of_one.acceleration);
   };
   for (int direction = 0; direction < 3; ++direction) {
     add(motion.component(direction));
@@ -135,8 +135,8 @@ std::string hash_of(const GroundMotion& motion, const SupportMotion* supports,
     add(supports->own(c));
   }
   for (std::size_t l = 0; loads != nullptr && l < loads->size(); ++l) {
-    hash.add_all(loads->function(l).times);
-    hash.add_all(loads->function(l).values);
+    hash.add(loads->function(l).times);
+    hash.add(loads->function(l).values);
   }
   return hash.text();
 }
