@@ -102,6 +102,29 @@ static POUNDING_INLINE void transpose(Vector& a, Vector& b, Vector& c, Vector& d
   d = second_halves(ab_odd, cd_odd);
 }
 
+/// Four values from from[start[0]] on; of a vector of eight those from from[start[4]] on behind.
+template <typename Vector, typename Start>
+static POUNDING_INLINE void load_rows(const double* from, const Start* start, Vector& rows) {
+  if constexpr (sizeof(Vector) == sizeof(Lanes)) {
+    load(from + start[0], rows);
+  } else {
+    Lanes low, high;
+    load(from + start[0], low);
+    load(from + start[4], high);
+    rows = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+  }
+}
+/// The way back.
+template <typename Vector, typename Start>
+static POUNDING_INLINE void store_rows(const Vector& rows, const Start* start, double* to) {
+  if constexpr (sizeof(Vector) == sizeof(Lanes)) {
+    store(to + start[0], rows);
+  } else {
+    store(to + start[0], Lanes(__builtin_shufflevector(rows, rows, 0, 1, 2, 3)));
+    store(to + start[4], Lanes(__builtin_shufflevector(rows, rows, 4, 5, 6, 7)));
+  }
+}
+
 /// Calls group(vector, p) for as many of `count` nodes from node p on as a vector has lanes; the
 /// last group may overlap the one before it. Calls one(p) for each node if they fill no vector.
 template <typename Group, typename One>

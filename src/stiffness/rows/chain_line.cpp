@@ -95,11 +95,13 @@ inline void from_components(const WideLanes& x, const WideLanes& y, const WideLa
 
 #endif
 
-/// The argument at four dofs in a row.
-inline void load_argument(const StiffnessArgument& w, LocalIndex dof, Lanes& values) {
-  Lanes velocity;
-  load(w.displacement + dof, values);
-  load(w.velocity + dof, velocity);
+/// The argument at four dofs in a row of each of the nodes of a row of `load_rows`.
+template <typename Vector>
+inline void load_argument(const StiffnessArgument& w, const LocalIndex* slots, int begin,
+                          Vector& values) {
+  Vector velocity;
+  load_rows(w.displacement + begin, slots, values);
+  load_rows(w.velocity + begin, slots, velocity);
   values += w.beta * velocity;
 }
 
@@ -108,63 +110,16 @@ template <typename Vector>
 struct FourVectors {
   Vector a, b, c, d;
 };
-using FourLanes = FourVectors<Lanes>;
 
-/// The components from `begin` on of four nodes.
+/// The components from `begin` on of as many nodes as a vector has lanes.
+template <typename Vector>
 inline void load_components(const StiffnessArgument& w, const LocalIndex* slots, int begin,
-                            FourLanes& v) {
-  load_argument(w, slots[0] + begin, v.a);
-  load_argument(w, slots[1] + begin, v.b);
-  load_argument(w, slots[2] + begin, v.c);
-  load_argument(w, slots[3] + begin, v.d);
+                            FourVectors<Vector>& v) {
+  load_argument(w, slots, begin, v.a);
+  load_argument(w, slots + 1, begin, v.b);
+  load_argument(w, slots + 2, begin, v.c);
+  load_argument(w, slots + 3, begin, v.d);
   transpose(v.a, v.b, v.c, v.d);
-}
-
-#ifdef __AVX512F__
-
-inline void load_halves(const double* low, const double* high, WideLanes& values) {
-  Lanes first, second;
-  load(low, first);
-  load(high, second);
-  values = __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
-}
-
-inline void load_argument(const StiffnessArgument& w, LocalIndex low, LocalIndex high,
-                          WideLanes& values) {
-  WideLanes velocity;
-  load_halves(w.displacement + low, w.displacement + high, values);
-  load_halves(w.velocity + low, w.velocity + high, velocity);
-  values += w.beta * velocity;
-}
-
-inline void load_components(const StiffnessArgument& w, const LocalIndex* slots, int begin,
-                            FourVectors<WideLanes>& v) {
-  load_argument(w, slots[0] + begin, slots[4] + begin, v.a);
-  load_argument(w, slots[1] + begin, slots[5] + begin, v.b);
-  load_argument(w, slots[2] + begin, slots[6] + begin, v.c);
-  load_argument(w, slots[3] + begin, slots[7] + begin, v.d);
-  transpose(v.a, v.b, v.c, v.d);
-}
-
-inline void store_halves(const WideLanes& values, double* low, double* high) {
-  store(low, __builtin_shufflevector(values, values, 0, 1, 2, 3));
-  store(high, __builtin_shufflevector(values, values, 4, 5, 6, 7));
-}
-
-inline void store_rows(const FourVectors<WideLanes>& v, const LocalIndex* slots, double* q) {
-  store_halves(v.a, q + slots[0], q + slots[4]);
-  store_halves(v.b, q + slots[1], q + slots[5]);
-  store_halves(v.c, q + slots[2], q + slots[6]);
-  store_halves(v.d, q + slots[3], q + slots[7]);
-}
-
-#endif
-
-inline void store_rows(const FourLanes& v, const LocalIndex* slots, double* q) {
-  store(q + slots[0], v.a);
-  store(q + slots[1], v.b);
-  store(q + slots[2], v.c);
-  store(q + slots[3], v.d);
 }
 
 /// Loads as many nodes as a vector has lanes.
@@ -192,7 +147,10 @@ inline void store_components(const double* x, const double* y, const double* z, 
   load(z, v.c);
   load(t, v.d);
   transpose(v.a, v.b, v.c, v.d);
-  store_rows(v, slots, q);
+  store_rows(v.a, slots, q);
+  store_rows(v.b, slots + 1, q);
+  store_rows(v.c, slots + 2, q);
+  store_rows(v.d, slots + 3, q);
 }
 
 template <typename Vector>

@@ -3,7 +3,6 @@
 /// One number of each element of a batch, as many as a vector of the unit holds. Nodes of elements
 /// stand in rows, component by component, which become columns and rows again.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -29,7 +28,7 @@ static inline __attribute__((always_inline)) ElementLanes widened(const float* f
 #elif defined(__AVX__)
   return _mm256_cvtps_pd(_mm_loadu_ps(from));
 #else
-  return {from[0], from[1], from[2], from[3]};
+  return ElementLanes{from[0], from[1], from[2], from[3]};
 #endif
 }
 
@@ -55,49 +54,23 @@ struct NumbersOfOne {
   NumbersOfOne operator+(std::size_t k) const { return {first + k}; }
 };
 
-#ifdef __AVX512F__
-
-/// Four values of element `first`, then of the one four further.
-static inline __attribute__((always_inline)) ElementLanes load_rows(
-    const double* from, const std::array<std::uint32_t, element_lane_count>& start,
-    std::size_t first) {
-  Lanes low, high;
-  load(from + start[first], low);
-  load(from + start[first + 4], high);
-  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+/// Two values of every other element from the first one on.
+template <typename Vector>
+static inline __attribute__((always_inline)) void load_half_rows(const double* from,
+                                                                 const std::uint32_t* start,
+                                                                 Vector& rows) {
+  const auto pair = [&](std::size_t first) __attribute__((always_inline)) {
+    HalfLanes low, high;
+    load(from + start[first], low);
+    load(from + start[first + 2], high);
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3);
+  };
+  if constexpr (sizeof(Vector) == sizeof(Lanes)) {
+    rows = pair(0);
+  } else {
+    rows = __builtin_shufflevector(pair(0), pair(4), 0, 1, 2, 3, 4, 5, 6, 7);
+  }
 }
-
-/// Two values of every other element from `first` on.
-static inline __attribute__((always_inline)) ElementLanes load_half_rows(
-    const double* from, const std::array<std::uint32_t, element_lane_count>& start,
-    std::size_t first) {
-  HalfLanes half[4];
-  for (std::size_t h = 0; h < 4; ++h) load(from + start[first + 2 * h], half[h]);
-  const Lanes low = __builtin_shufflevector(half[0], half[1], 0, 1, 2, 3);
-  const Lanes high = __builtin_shufflevector(half[2], half[3], 0, 1, 2, 3);
-  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
-}
-
-#else
-
-static inline __attribute__((always_inline)) ElementLanes load_rows(
-    const double* from, const std::array<std::uint32_t, element_lane_count>& start,
-    std::size_t first) {
-  ElementLanes row;
-  load(from + start[first], row);
-  return row;
-}
-
-static inline __attribute__((always_inline)) ElementLanes load_half_rows(
-    const double* from, const std::array<std::uint32_t, element_lane_count>& start,
-    std::size_t first) {
-  HalfLanes low, high;
-  load(from + start[first], low);
-  load(from + start[first + 2], high);
-  return __builtin_shufflevector(low, high, 0, 1, 2, 3);
-}
-
-#endif
 
 /// Adds the lanes from `first` on, as many as a `Part` has, to the values there.
 template <std::size_t first, typename Part>

@@ -104,12 +104,13 @@ class NodeSlots {
     const double* const w = values_.data();
     ElementLanes fourth;
     ElementLanes& last = components == 3 ? fourth : values[3];
-    for (std::size_t row = 0; row < 3; ++row) values[row] = load_rows(w, start, row);
-    last = load_rows(w, start, 3);
+    for (std::size_t row = 0; row < 3; ++row) load_rows(w, &start[row], values[row]);
+    load_rows(w, &start[3], last);
     transpose(values[0], values[1], values[2], last);
     if constexpr (components == 6) {
-      const ElementLanes even = load_half_rows(w + 4, start, 0);
-      const ElementLanes odd = load_half_rows(w + 4, start, 1);
+      ElementLanes even, odd;
+      load_half_rows(w + 4, &start[0], even);
+      load_half_rows(w + 4, &start[1], odd);
       values[4] = even_pairs(even, odd);
       values[5] = odd_pairs(even, odd);
     }
