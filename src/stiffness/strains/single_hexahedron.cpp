@@ -1,67 +1,46 @@
 #include "stiffness/strains/single_hexahedron.h"
 
-#include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "common/dense_matrix.h"
 #include "stiffness/strains/batch_product.h"
 
 namespace pounding::stiffness {
 namespace {
 
 constexpr std::size_t modes = SingleHexahedron::Strains::strain_count;
-using Energies = std::array<std::array<double, modes>, modes>;  ///< of the c_m
+using Energies = std::vector<double>;  ///< of the c_m, shape (modes, modes)
 
 template <typename Values>
 Energies energies_of(const Values& numbers) {
-  Energies s{};
+  Energies s(modes * modes);
   auto next = numbers.begin() + SingleHexahedron::Strains::modes;
   for (std::size_t i = 0; i < modes; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) s[i][j] = s[j][i] = *next++;
+    for (std::size_t j = 0; j <= i; ++j) s[i * modes + j] = s[j * modes + i] = *next++;
   }
   return s;
 }
 
-/// Lower triangle of L L' = S in its place; false if S is not positive definite.
-bool factorise(Energies& s) {
-  for (std::size_t j = 0; j < modes; ++j) {
-    for (std::size_t k = 0; k < j; ++k) s[j][j] -= s[j][k] * s[j][k];
-    if (!(s[j][j] > 0)) return false;
-    s[j][j] = std::sqrt(s[j][j]);
-    for (std::size_t i = j + 1; i < modes; ++i) {
-      for (std::size_t k = 0; k < j; ++k) s[i][j] -= s[i][k] * s[j][k];
-      s[i][j] /= s[j][j];
+/// Largest part by which energies differ, the Frobenius norm of L^-1 (R - S) L^-T with L L' = S:
+/// the root of the trace of the square of S^-1 (R - S). Infinite if S is not positive definite.
+double largest_difference(const Energies& rounded, const Energies& exact) {
+  Energies inverse = exact;
+  if (!invert_definite(inverse)) return INFINITY;
+  Energies part(modes * modes);
+  for (std::size_t i = 0; i < modes; ++i) {
+    for (std::size_t k = 0; k < modes; ++k) {
+      for (std::size_t j = 0; j < modes; ++j) {
+        const std::size_t kj = k * modes + j;
+        part[i * modes + j] += inverse[i * modes + k] * (rounded[kj] - exact[kj]);
+      }
     }
   }
-  return true;
-}
-
-/// Rows of a symmetric matrix become those of (L^-1 A)'.
-void divide_by_factor(const Energies& factor, Energies& a) {
-  for (auto& row : a) {
-    for (std::size_t i = 0; i < modes; ++i) {
-      for (std::size_t k = 0; k < i; ++k) row[i] -= factor[i][k] * row[k];
-      row[i] /= factor[i][i];
-    }
+  double square = 0;
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    square += part[i] * part[i % modes * modes + i / modes];
   }
-}
-
-/// Largest part by which energies differ: the Frobenius norm of L^-1 (R - S) L^-T.
-double largest_difference(const Energies& rounded, Energies exact) {
-  Energies difference{};
-  for (std::size_t i = 0; i < modes; ++i) {
-    for (std::size_t j = 0; j < modes; ++j) difference[i][j] = rounded[i][j] - exact[i][j];
-  }
-  if (!factorise(exact)) return INFINITY;
-  divide_by_factor(exact, difference);
-  for (std::size_t i = 0; i < modes; ++i) {
-    for (std::size_t j = 0; j < i; ++j) std::swap(difference[i][j], difference[j][i]);
-  }
-  divide_by_factor(exact, difference);
-  double sum = 0;
-  for (const auto& row : difference) {
-    for (const double value : row) sum += value * value;
-  }
-  return std::sqrt(sum);
+  return std::sqrt(square);
 }
 
 /// The digits of a number that its 24 leading ones leave.
