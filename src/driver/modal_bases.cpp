@@ -103,7 +103,7 @@ ModalRequest modal_request(MPI_Comm comm, const Scene& scene, std::size_t s, con
   ModalRequest request;
   const ModalModel& modal = *structure.basis();
   const bool switched = structure.switched.has_value();
-  if (switched) request.switched_part = modal.switched_part;
+  request.switched_part = modal.switched_part;
   request.modes = modal.modes;
   request.candidates = modal.candidates;
   request.cutoff = modal.cutoff;

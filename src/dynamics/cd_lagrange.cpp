@@ -144,8 +144,7 @@ void CdLagrange::free_velocity(bool with_forces) {
   }
   for (std::size_t s = 0; s < systems_.size(); ++s) {
     if (SwitchedRun* const run = in_modes(s)) {
-      run->step(force_duration_, acceleration_, with_energies_, supports_.acceleration,
-                load_values_);
+      run->step(acceleration_, with_energies_, with_forces, supports_.acceleration, load_values_);
     }
     if (!at_full_order(s)) continue;
     sums_[s].extra_damping_before = apply_extra_damping(s);
@@ -217,9 +216,12 @@ void CdLagrange::leave_modes() {
 }
 
 void CdLagrange::keep(const StateKeeper& state) {
-  for (const auto& run : switched_) {
-    if (run) run->keep(state);
-  }
+  const auto keep_runs = [&] {
+    for (const auto& run : switched_) {
+      if (run) run->keep(state);
+    }
+  };
+  if (state.puts()) keep_runs();
   if (order_.least > 0) {
     reduce_over_ranks(comm_, MPI_MAX, order_.struck);
     state.numbers("order", order_.modes, order_.next, order_.struck, order_.looks, order_.steps,
@@ -228,6 +230,7 @@ void CdLagrange::keep(const StateKeeper& state) {
   state_.keep(state);
   energy_.keep(state);
   for (const auto& interaction : interactions_) interaction->keep(state);
+  if (!state.puts()) keep_runs();
 }
 
 stiffness::StiffnessArgument CdLagrange::argument(std::size_t s) const {

@@ -98,7 +98,8 @@ class CdLagrange {
   }
   /// Force of the last step at a watched dof, if it was asked for: see StructureStep.
   double force(std::size_t structure, LocalIndex dof) const {
-    return members_[structure] ? members_[structure]->force(dof) : runs_[structure]->force(dof);
+    return members_[structure] ? members_[structure]->force(dof)
+                               : structure_steps_[structure]->force(0, dof);
   }
   /// Displacement over the owned dofs of a structure, in a batch as well.
   const std::vector<double>& displacement(std::size_t structure) const {
@@ -110,11 +111,8 @@ class CdLagrange {
   void bring(std::size_t structure, std::span<const LocalIndex> dofs) const {
     structures_[structure]->bring(dofs);
   }
-  /// q of a structure in modes, on every rank; else none.
-  std::span<const double> coordinates(std::size_t structure) const {
-    if (const SwitchedRun* const run = in_modes(structure)) return run->coordinates();
-    return {};
-  }
+  /// Null at full order.
+  SwitchedRun* in_modes(std::size_t structure) const;
   /// See BatchMember; in a batch, of a structure that the step brakes.
   double braked(std::size_t structure, std::size_t coordinate) const {
     return members_[structure]->braked(coordinate);
@@ -160,8 +158,6 @@ class CdLagrange {
   /// Whether an interaction acts in this step, in modes; else when to look again. Collective.
   bool is_struck();
   void leave_modes();
-  /// Null at full order.
-  SwitchedRun* in_modes(std::size_t structure) const;
   bool at_full_order(std::size_t structure) const {
     return !members_[structure] && in_modes(structure) == nullptr;
   }

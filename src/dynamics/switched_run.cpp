@@ -7,9 +7,7 @@
 #include "common/row_products.h"
 
 namespace pounding {
-namespace {
 
-/// K w of the owned dofs.
 std::vector<double> stiffness_times(const LinearSystem& system, const std::vector<double>& w) {
   std::vector<double> result(w.size());
   stiffness::StoredForces store(result.data());
@@ -17,7 +15,9 @@ std::vector<double> stiffness_times(const LinearSystem& system, const std::vecto
   return result;
 }
 
-}  // namespace
+std::vector<double> SwitchedModes::squares() const {
+  return stiffness_times(system, std::vector<double>(size(), 1.0));
+}
 
 std::vector<double> SwitchedModes::weighted(std::span<const LocalIndex> dofs,
                                             std::span<const double> weights) const {
@@ -27,6 +27,12 @@ std::vector<double> SwitchedModes::weighted(std::span<const LocalIndex> dofs,
     for (std::size_t j = 0; j < size(); ++j) sums[j] += weights[k] * phi[j];
   }
   return sums;
+}
+
+std::vector<double> SwitchedModes::weighted(std::span<const double> weights) const {
+  std::vector<LocalIndex> dofs(weights.size());
+  std::iota(dofs.begin(), dofs.end(), LocalIndex{0});
+  return weighted(dofs, weights);
 }
 
 SwitchedRun::SwitchedRun(const LinearSystem& system, std::size_t number,
@@ -43,6 +49,7 @@ SwitchedRun::SwitchedRun(const LinearSystem& system, std::size_t number,
       q_(coordinates_.structures.front()),
       fields_{&q_.displacement, &q_.velocity},
       step_in_modes_(std::array{&modes_.system}, q_, time_step),
+      links_(system, modes_.system, modes_.links, time_step),
       all_(modes_.size()),
       before_(modes_.size()),
       velocity_(modes_.size()),
@@ -50,13 +57,7 @@ SwitchedRun::SwitchedRun(const LinearSystem& system, std::size_t number,
       rest_force_(rest_forces(modes_.system)) {
   for (std::vector<double>& memory : q_.filtered) fields_.push_back(&memory);
   std::iota(all_.begin(), all_.end(), LocalIndex{0});
-  if (!modes_.dashpots) return;
-  brake_.emplace(interactions::DashpotModes(modes_.system, *modes_.dashpots, time_step));
-  step_in_modes_.watch(all_, true);
-}
-
-std::span<const double> SwitchedRun::coordinates() const {
-  return in_modes_ ? std::span<const double>(q_.displacement) : std::span<const double>();
+  step_in_modes_.watch(all_, !links_.empty());
 }
 
 void SwitchedRun::bring(std::span<const LocalIndex> dofs) const {
@@ -133,20 +134,27 @@ StepSums SwitchedRun::energies(const LinearSystem& system, const std::vector<dou
 
 StepSums SwitchedRun::energies_in_modes() const {
   if (!first_rank_) return {};
-  return energies(modes_.system, q_.displacement, q_.velocity);
+  StepSums sums = energies(modes_.system, q_.displacement, q_.velocity);
+  sums.link_energy_before = links_.energy_in_modes(q_.velocity);
+  return sums;
+}
+
+StepSums SwitchedRun::energies_at_full_order() const {
+  StepSums sums = energies(system_, state_.displacement, state_.velocity);
+  sums.link_energy_before = links_.energy_of_own(state_.velocity);
+  return sums;
 }
 
 void SwitchedRun::enter_modes() {
-  energy_.change_order(number_, energies(system_, state_.displacement, state_.velocity),
-                       energies_in_modes());
+  links_.gather();
+  energy_.change_order(number_, energies_at_full_order(), energies_in_modes());
   in_modes_ = true;
 }
 
 void SwitchedRun::leave_modes() {
   note_energy(0);
   bring_all();
-  const std::vector<double> squares =
-      stiffness_times(modes_.system, std::vector<double>(modes_.size(), 1.0));
+  const std::vector<double> squares = modes_.squares();
   const Filters<double> filters = filters_of(modes_.system, time_step_);
   for (std::size_t f = 0; f < q_.filtered.size(); ++f) {
     if (filters.filters[f].take == 0) continue;
@@ -158,13 +166,13 @@ void SwitchedRun::leave_modes() {
     expand(motion, moved);
     state_.filtered[f] = stiffness_times(system_, moved);
   }
+  links_.give_back();
   in_modes_ = false;
-  energy_.change_order(number_, energies_in_modes(),
-                       energies(system_, state_.displacement, state_.velocity));
+  energy_.change_order(number_, energies_in_modes(), energies_at_full_order());
 }
 
-void SwitchedRun::step(double duration, const std::array<double, 3>& ground_acceleration,
-                       bool with_energies, std::span<const double> supports,
+void SwitchedRun::step(const std::array<double, 3>& ground_acceleration, bool with_energies,
+                       bool with_forces, std::span<const double> supports,
                        std::span<const double> loads) {
   const LinearSystem& system = modes_.system;
   const double* const velocity = q_.velocity.data();
@@ -173,21 +181,21 @@ void SwitchedRun::step(double duration, const std::array<double, 3>& ground_acce
     system.stiffness->apply({velocity, velocity, 0}, store);
   }
   step_in_modes_.remember(0, all_, before_);
-  step_in_modes_.begin(duration, ground_acceleration,
-                       {with_energies ? stiffness_velocity_.data() : nullptr}, supports, loads);
+  const double* const rate = with_energies ? stiffness_velocity_.data() : nullptr;
+  step_in_modes_.begin(time_step_, ground_acceleration, {rate, with_forces}, supports, loads);
   system.stiffness->apply({q_.displacement.data(), velocity, system.damping.beta}, step_in_modes_);
   step_in_modes_.complete();
-  if (!brake_) return;
+  if (links_.empty()) return;
   velocity_ = q_.velocity;
-  brake_->brake(duration / time_step_, before_.velocity, velocity_);
+  links_.push(before_.velocity, velocity_);
   step_in_modes_.correct(0, all_, before_, velocity_);
-  loss_ = brake_->loss(before_.velocity, velocity_);
 }
 
 StepSums SwitchedRun::sums() const {
   if (!first_rank_) return {};
   StepSums sums = step_in_modes_.sums(0);
-  sums.link_loss = loss_;
+  sums.link_energy_before = links_.energy();
+  sums.link_loss = links_.loss();
   return sums;
 }
 
@@ -196,12 +204,16 @@ double SwitchedRun::about_rest() const {
 }
 
 void SwitchedRun::keep(const StateKeeper& state) {
-  if (state.puts()) bring_all();
+  if (state.puts()) {
+    bring_all();
+    if (in_modes_) links_.give_back();
+  }
   const std::string name = "modes_" + std::to_string(number_);
   state.numbers(name, in_modes_, largest_energy_);
   for (std::size_t f = 0; f < fields_.size(); ++f) {
     state.table(name + "_" + std::to_string(f), *fields_[f]);
   }
+  if (!state.puts()) links_.gather();
 }
 
 }  // namespace pounding

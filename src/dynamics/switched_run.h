@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,7 +8,7 @@
 #include "common/saved_state.h"
 #include "dynamics/energy_balance.h"
 #include "dynamics/structure_step.h"
-#include "interactions/dashpot_modes.h"
+#include "interactions/links_in_modes.h"
 
 namespace pounding {
 
@@ -18,7 +17,7 @@ struct SwitchedModes {
   /// Every rank has all coordinates, alike; `generalised->rows` is Phi at the dofs that the rank
   /// owns of the mesh, row by row. No links.
   LinearSystem system;
-  std::optional<interactions::DashpotRows> dashpots;  ///< of all ranks, over the coordinates
+  interactions::AllLinks links;
   double part = 0;  ///< of its largest energy that may lie outside [-]
 
   std::size_t size() const { return system.lumped_mass.size(); }  ///< of q
@@ -26,10 +25,15 @@ struct SwitchedModes {
   const double* row(std::size_t dof) const {
     return system.generalised->rows.data() + dof * size();
   }
-  /// Phi^T w of owned dofs. Local.
+  std::vector<double> squares() const;  ///< omega^2, per coordinate [1/s2]
+  /// Phi^T w of owned dofs, of some or of all. Local.
   std::vector<double> weighted(std::span<const LocalIndex> dofs,
                                std::span<const double> weights) const;
+  std::vector<double> weighted(std::span<const double> weights) const;
 };
+
+/// K w of the owned dofs. Collective.
+std::vector<double> stiffness_times(const LinearSystem& system, const std::vector<double>& w);
 
 /// A structure that the step takes in modes or at full order. Its modes are stepped by the scheme
 /// of the whole (StructureStep), so that a motion in their space is the same motion in either: only
@@ -51,9 +55,10 @@ class SwitchedRun final : public SteppedRun<double> {
 
   bool in_modes() const override { return in_modes_; }
   void bring(std::span<const LocalIndex> dofs) const override;
+  void take_links(std::span<double> memory) override { links_.take(memory); }
   void bring_all() const;
-  /// q in modes, on every rank; else none.
-  std::span<const double> coordinates() const;
+  /// q, on every rank.
+  std::span<const double> coordinates() const { return q_.displacement; }
 
   /// Projects the state at full order; whether E_out is no more than its part of the largest energy
   /// so far. Collective over the structure's ranks, as the next two.
@@ -62,14 +67,20 @@ class SwitchedRun final : public SteppedRun<double> {
   void enter_modes();
   void leave_modes();
 
-  /// One step in modes; see StructureStep::begin. Local.
-  void step(double duration, const std::array<double, 3>& ground_acceleration, bool with_energies,
+  /// One step in modes, of which `forces` may be asked for; see StructureStep::begin. Local.
+  void step(const std::array<double, 3>& ground_acceleration, bool with_energies, bool with_forces,
             std::span<const double> supports, std::span<const double> loads);
+  /// Force of that step on a coordinate, damping included, and that of a link of this rank.
+  double coordinate_force(std::size_t j) const {
+    return step_in_modes_.force(0, static_cast<LocalIndex>(j));
+  }
+  double link_force(std::size_t link) const { return links_.force(link); }
   /// Sums of that step, on the first rank; zero on others.
   StepSums sums() const;
   /// See rest_work; likewise.
   double about_rest() const;
 
+  /// To save before the links are saved, to bring back after they were, which is collective.
   void keep(const StateKeeper& state);
 
  private:
@@ -80,6 +91,7 @@ class SwitchedRun final : public SteppedRun<double> {
   StepSums energies(const LinearSystem& system, const std::vector<double>& displacement,
                     const std::vector<double>& velocity) const;
   StepSums energies_in_modes() const;
+  StepSums energies_at_full_order() const;
   /// Largest energy so far, with that of the motion in modes about the rest and `outside` [J].
   void note_energy(double outside);
 
@@ -93,13 +105,12 @@ class SwitchedRun final : public SteppedRun<double> {
   StructureState& q_;                         ///< the only one of these
   std::vector<std::vector<double>*> fields_;  ///< q, q' and z_i of it
   StructureStep<double> step_in_modes_;
-  std::optional<interactions::DashpotBrake<double>> brake_;
+  interactions::LinksInModes links_;
   std::vector<LocalIndex> all_;  ///< coordinates
   interactions::Before before_;
   std::vector<double> velocity_;
   std::vector<double> stiffness_velocity_;
   std::vector<double> rest_force_;  ///< K u_0 over the coordinates; empty without
-  double loss_ = 0;                 ///< of dashpots in the step [J]
   double largest_energy_ = 0;       ///< of the motion about the rest [J]
   bool in_modes_ = false;
 };

@@ -18,27 +18,34 @@ constexpr double unfelt = 1e-13;
 
 }  // namespace
 
+std::vector<double> link_rows(const LinearSystem& system) {
+  const std::vector<Link>& links = system.links->links();
+  const Trace& trace = system.links->trace();
+  const std::size_t size = system.lumped_mass.size();
+  std::vector<double> rows(links.size() * size, 0.0);
+  for (std::size_t b = 0; b < links.size(); ++b) {
+    for (std::size_t k = 0; k < links[b].point.size(); ++k) {
+      if (links[b].point[k] < 0) continue;
+      trace.add_force(static_cast<std::size_t>(links[b].point[k]), links[b].weight[k],
+                      {&rows[b * size], size});
+    }
+  }
+  return rows;
+}
+
 std::optional<DashpotRows> dashpot_rows(const LinearSystem& system) {
   if (!system.links || !system.generalised || !system.laws.empty()) return {};
   const std::vector<Link>& links = system.links->links();
   if (links.empty() || !carried_by_supports(system).empty()) return {};
-  const Trace& trace = system.links->trace();
-  const std::size_t size = trace.dofs().size();
   DashpotRows dashpots;
-  dashpots.rows.assign(links.size() * size, 0.0);
-  for (std::size_t b = 0; b < links.size(); ++b) {
-    const Link& link = links[b];
+  for (const Link& link : links) {
     const auto law = law_of(link.origin, 0.5);  // whose rate c / (2 dt) is c
     if (!link.incident.empty() || dynamic_cast<const DashpotLaw*>(law.get()) == nullptr) {
       return {};
     }
     dashpots.strengths.push_back(law->rate());
-    for (std::size_t k = 0; k < link.point.size(); ++k) {
-      if (link.point[k] < 0) continue;
-      trace.add_force(static_cast<std::size_t>(link.point[k]), link.weight[k],
-                      {&dashpots.rows[b * size], size});
-    }
   }
+  dashpots.rows = link_rows(system);
   return dashpots;
 }
 

@@ -18,6 +18,10 @@ struct DashpotRows {
   bool operator==(const DashpotRows& other) const = default;
 };
 
+/// The links of a structure in generalised coordinates as rows over these, shape (links,
+/// coordinates). Local.
+std::vector<double> link_rows(const LinearSystem& system);
+
 /// The dashpots of a structure whose links are all dashpots, which no wave drives and no support
 /// carries; none of any other. Local.
 std::optional<DashpotRows> dashpot_rows(const LinearSystem& system);

@@ -98,6 +98,8 @@ class SteppedStructure {
   /// where they are asked for.
   virtual bool in_modes() const { return false; }
   virtual void bring(std::span<const LocalIndex> /*dofs*/) const {}
+  /// Memory of its links on this rank, which it keeps itself while it is in modes.
+  virtual void take_links(std::span<double> /*memory*/) {}
   /// u_n at the known points of a trace [m, rad], where members of a batch ask for it; else empty.
   virtual std::span<const double> points(const Trace& /*trace*/) { return {}; }
   /// Dofs that `correct` may change. Allocates; before the first step. `always`: in any step; else

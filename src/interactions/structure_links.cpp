@@ -96,6 +96,7 @@ StructureLinks::StructureLinks(const LinearSystem& system, std::size_t structure
 
 void StructureLinks::attach(std::span<SteppedStructure* const> structures) {
   structures[structure_]->watch(trace_.dofs(), true);
+  structures[structure_]->take_links(memory_.values());
 }
 
 void StructureLinks::measure(const std::vector<double>& owned, std::vector<double>& elongations) {

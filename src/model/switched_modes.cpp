@@ -10,6 +10,7 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "dynamics/switched_run.h"
+#include "interactions/structure_links.h"
 #include "modal/modal_analysis.h"
 #include "modal/reduced_system.h"
 #include "stability/stable_time_step.h"
@@ -37,52 +38,69 @@ void keep_owned_rows(const Mesh& mesh, std::size_t size, GeneralisedCoordinates&
   coordinates.row_of.clear();
 }
 
-/// The dashpots of all ranks over the coordinates; none where no rank has any. Collective.
-std::optional<interactions::DashpotRows> all_dashpots(MPI_Comm comm, const LinearSystem& modes) {
-  interactions::DashpotRows own;
+/// Gathers the links of all ranks. `reduced`: the structure whose regions those of `modes` have;
+/// `structure`: that of the scene. Collective.
+void gather_links(MPI_Comm comm, const Structure& reduced, const Structure& structure,
+                  SwitchedModes& modes) {
+  constexpr std::size_t numbers = 4;
+  std::vector<double> rows;
+  std::vector<double> origins;
   on_every_rank(comm, [&] {
-    if (!modes.links || modes.links->links().empty()) return;
-    auto rows = interactions::dashpot_rows(modes);
-    if (!rows) {
-      throw UserError("option -" + modes.name + "_model switched: not with links other than " +
-                      "dashpots, nor with dashpots that follow a support; give full");
+    bool refused = structure.soil && structure.soil->is_shared();
+    if (modes.system.links) {
+      refused = refused || !interactions::carried_by_supports(modes.system).empty();
+      rows = interactions::link_rows(modes.system);
     }
-    own = std::move(*rows);
+    for (std::size_t b = 0; modes.system.links && b < modes.system.links->links().size(); ++b) {
+      const interactions::LinkOrigin& origin = modes.system.links->links()[b].origin;
+      refused = refused || !(interactions::law_of(origin, 0.5)->rate() > 0);
+      const auto region = origin.region - reduced.regions.data();
+      origins.insert(origins.end(), {static_cast<double>(region), double(origin.component),
+                                     double(origin.part), origin.share});
+    }
+    if (!refused) return;
+    throw UserError(
+        "option -" + structure.name + "_model switched: not with soil that mats " +
+        "share, nor links that a support stretches or not linear in their rate; give full");
   });
-  own = {gather_rows(comm, own.rows), gather_rows(comm, own.strengths)};
-  return own.strengths.empty() ? std::nullopt : std::optional(std::move(own));
+  modes.links.rows = gather_rows(comm, rows);
+  origins = gather_rows(comm, origins);
+  for (std::size_t i = 0; i < origins.size(); i += numbers) {
+    modes.links.origins.push_back(
+        {.region = &structure.regions[static_cast<std::size_t>(origins[i])],
+         .component = static_cast<int>(origins[i + 1]),
+         .part = static_cast<interactions::SpringPart>(origins[i + 2]),
+         .share = origins[i + 3]});
+  }
 }
 
 /// Phi^T M u_0 of a rest; nothing where no rank has one. Collective.
 std::vector<double> rest_in_modes(MPI_Comm comm, const LinearSystem& system,
                                   const SwitchedModes& modes) {
-  std::vector<LocalIndex> dofs(system.rest_displacement.size());
-  std::vector<double> momenta(dofs.size());
-  for (std::size_t i = 0; i < dofs.size(); ++i) {
-    dofs[i] = static_cast<LocalIndex>(i);
-    momenta[i] = system.lumped_mass[i] * system.rest_displacement[i];
-  }
-  std::vector<double> rest = modes.weighted(dofs, momenta);
-  rest.push_back(dofs.empty() ? 0 : 1);
+  std::vector<double> momenta = system.rest_displacement;
+  for (std::size_t i = 0; i < momenta.size(); ++i) momenta[i] *= system.lumped_mass[i];
+  std::vector<double> rest = modes.weighted(momenta);
+  rest.push_back(momenta.empty() ? 0 : 1);
   reduce_over_ranks(comm, MPI_SUM, rest);
   const bool any = rest.back() > 0;
   rest.resize(any ? modes.size() : 0);
   return rest;
 }
 
-void give_modes(MPI_Comm comm, Structure structure, std::size_t s, Model& model) {
+void give_modes(MPI_Comm comm, const Structure& structure, std::size_t s, Model& model) {
   LinearSystem& system = model.systems[s];
-  structure.modal = structure.switched;
+  Structure reduced = structure;
+  reduced.modal = structure.switched;
   ModalBasis& basis = *model.buildings[s].open_basis;
   auto switched = std::make_shared<SwitchedModes>();
   switched->part = structure.switched->switched_part;
   LinearSystem& modes = switched->system;
-  modes = build_reduced_system(MPI_COMM_SELF, 0, structure, model.meshes[s], basis,
+  modes = build_reduced_system(MPI_COMM_SELF, 0, reduced, model.meshes[s], basis,
                                model.support_columns());
   modes.uniform_damping = system.uniform_damping;
   modes.loads =
       shape_reduced_loads(model.scene_loads(), static_cast<int>(s), basis.load_parts, true);
-  switched->dashpots = all_dashpots(comm, modes);
+  gather_links(comm, reduced, structure, *switched);
   modes.links.reset();
   keep_owned_rows(model.meshes[s], basis.size(), *modes.generalised);
   modes.rest_displacement = rest_in_modes(comm, system, *switched);

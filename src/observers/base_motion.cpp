@@ -27,11 +27,12 @@ DisplacementSum::DisplacementSum(std::size_t structure, std::span<const TracePoi
 double DisplacementSum::of(const CdLagrange& stepper) const {
   const State& state = stepper.state();
   const std::vector<double>& owned = state.structures[structure_].displacement;
-  const std::span<const double> q = stepper.coordinates(structure_);
-  double sum = std::inner_product(q.begin(), q.end(), in_modes_.begin(), 0.0);
-  for (std::size_t i = 0; q.empty() && i < dofs_.size(); ++i) {
-    sum += weights_[i] * owned[dofs_[i]];
+  const SwitchedRun* const run = stepper.in_modes(structure_);
+  double sum = 0;
+  for (std::size_t j = 0; run && j < in_modes_.size(); ++j) {
+    sum += in_modes_[j] * run->coordinates()[j];
   }
+  for (std::size_t i = 0; !run && i < dofs_.size(); ++i) sum += weights_[i] * owned[dofs_[i]];
   for (std::size_t c = 0; c < carried_.size(); ++c) {
     sum += carried_[c] * state.supports.displacement[c];
   }

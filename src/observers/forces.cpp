@@ -168,6 +168,7 @@ Forces::Forces(const ObservedRun& run) : run_(run), peaks_start_(run.scene.spect
     elements_.push_back({s, std::make_unique<ElementForces>(model.systems[s], mesh, rows)});
   }
   for (const Total& total : totals_) {
+    total.force->find_modes(model.systems[total.structure]);
     run.scheme.stepper().watch_forces(total.structure, total.force->dofs());
   }
 }

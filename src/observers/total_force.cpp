@@ -55,10 +55,36 @@ TotalForce::TotalForce(const ForceItem& item, const LinearSystem& system, const 
   }
 }
 
+void TotalForce::find_modes(const LinearSystem& system) {
+  if (!system.switched) return;
+  const std::vector<double> squares = system.switched->squares();
+  in_modes_.resize(squares.size());
+  for (std::size_t k = 0; k < Wrench{}.size(); ++k) {
+    std::vector<double> unit(system.lumped_mass.size());
+    for (const Counted& counted : counted_) {
+      Wrench wrench{};
+      add_force(counted, 1, wrench);
+      unit[static_cast<std::size_t>(counted.dof)] = wrench[k];
+    }
+    const std::vector<double> parts = system.switched->weighted(stiffness_times(system, unit));
+    for (std::size_t j = 0; j < parts.size(); ++j) {
+      if (squares[j] > 0) in_modes_[j][k] = parts[j] / squares[j];
+    }
+  }
+}
+
 void TotalForce::add(const CdLagrange& stepper, std::size_t structure,
                      const interactions::StructureLinks* links,
                      std::span<interactions::InelasticElements* const> inelastic,
                      const interactions::SoilRows* soil, Wrench& total) const {
+  const auto take = [&total](double force, const Wrench& unit) {
+    for (std::size_t k = 0; k < total.size(); ++k) total[k] -= force * unit[k];
+  };
+  if (const SwitchedRun* const run = stepper.in_modes(structure)) {
+    for (std::size_t j = 0; j < in_modes_.size(); ++j) take(run->coordinate_force(j), in_modes_[j]);
+    for (std::size_t b = 0; b < links_.size(); ++b) take(run->link_force(b), links_[b]);
+    return;
+  }
   const StructureState& state = stepper.state().structures[structure];
   for (const Counted& counted : counted_) {
     double force = stepper.force(structure, counted.dof);
@@ -67,16 +93,11 @@ void TotalForce::add(const CdLagrange& stepper, std::size_t structure,
     add_force(counted, -force, total);
   }
   for (std::size_t b = 0; links != nullptr && b < links_.size(); ++b) {
-    const double force = links->force(b);
-    for (std::size_t k = 0; k < total.size(); ++k) total[k] -= force * links_[b][k];
+    take(links->force(b), links_[b]);
   }
-  for (std::size_t r = 0; r < soil_.size(); ++r) {
-    const double force = soil->force(r);
-    for (std::size_t k = 0; k < total.size(); ++k) total[k] -= force * soil_[r][k];
-  }
+  for (std::size_t r = 0; r < soil_.size(); ++r) take(soil->force(r), soil_[r]);
   for (std::size_t i = 0; links == nullptr && i < braked_.size(); ++i) {
-    const double velocity = stepper.braked(structure, i);
-    for (std::size_t k = 0; k < total.size(); ++k) total[k] -= velocity * braked_[i][k];
+    take(stepper.braked(structure, i), braked_[i]);
   }
 }
 

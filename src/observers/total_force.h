@@ -23,8 +23,10 @@ namespace pounding {
 ///     R = - sum_i r_i ( K (u_n + beta v-) + D v- + b N )_i
 ///
 /// r_i the force and the moment that a unit force on dof i has, or the force that uniform damping
-/// filters in place of the first term. Exact in the scheme: R is the change of momentum of the part
-/// above, less that by gravity, contacts and mass damping.
+/// filters in place of the first term. A structure that is switched has the first term in modes by
+/// the forces F of its coordinates, K u = K Phi diag(omega^-2) F: r^T K Phi is found once. Exact in
+/// the scheme: R is the change of momentum of the part above, less that by gravity, contacts and
+/// mass damping.
 class TotalForce {
  public:
   /// Finds its terms at full order; of a structure in generalised coordinates only those of links
@@ -33,6 +35,8 @@ class TotalForce {
   TotalForce(const ForceItem& item, const LinearSystem& system, const Mesh& mesh,
              std::span<const interactions::SoilRow> soil, std::size_t structure);
 
+  /// Finds its terms in the modes of a system that is switched. Collective.
+  void find_modes(const LinearSystem& system);
   /// The owned dofs whose forces are asked for: of generalised coordinates all.
   const std::vector<LocalIndex>& dofs() const { return watched_; }
   /// Adds this rank's part of R after the step to t_n of a structure; `links`: null where it has
@@ -56,6 +60,8 @@ class TotalForce {
   Vector3 point_;
   std::vector<Counted> counted_;  ///< empty in generalised coordinates
   std::vector<LocalIndex> watched_;
+  /// Per coordinate of a system that is switched, this rank's part of a unit force on it.
+  std::vector<Wrench> in_modes_;
   std::vector<Wrench> links_;   ///< per link of this rank, of a unit force of it
   std::vector<Wrench> soil_;    ///< per row between mats, of a unit force of it
   std::vector<Wrench> braked_;  ///< per coordinate, of v- + v+ where all links are dashpots

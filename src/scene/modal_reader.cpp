@@ -47,9 +47,9 @@ void refuse_couplings(const OptionReader& options, const Structure& structure,
       }
     }
   }
-  for (const char* option : {"p_delta", "mass_scaling", "time_step_target", "rigid", "diaphragm",
-                             "join", "pin", "levels", "tie", "absorbing", "absorbing_base",
-                             "soil_mat", "modal_damping", "modal_attachment", "modal_patches"}) {
+  for (const char* option :
+       {"p_delta", "mass_scaling", "time_step_target", "absorbing", "absorbing_base",
+        "modal_damping", "modal_attachment", "modal_patches"}) {
     const std::string pattern = std::string("<structure>_") + option;
     if (switched && options.changed(pattern, {structure.name})) {
       options.forbid(pattern, {structure.name}, remedy);
@@ -69,8 +69,8 @@ void read_model(OptionReader& options, Structure& structure) {
   }
   refuse_couplings(options, structure, kind);
   ModalModel modal;
-  modal.switched = kind == "switched";
-  modal.attachment = !modal.switched;
+  modal.switched_part = kind == "switched" ? 1 : 0;
+  modal.attachment = kind == "modal";
   options.read(modal, names);
   if (modal.candidates > 0 && modal.candidates < modal.modes) {
     options.refuse(candidates, names,
@@ -122,10 +122,6 @@ void check_switched(const OptionReader& options, const Scene& scene, bool ensemb
     }
     for (const Loop& loop : scene.loops) {
       if (loop.structure == structure.name) apart = "loop " + loop.name;
-    }
-    for (const ForceItem& force : scene.forces) {
-      const bool of_nodes = force.kind < ForceKind::members;
-      if (of_nodes && force.structure == structure.name) apart = "force " + force.name;
     }
     if (apart.empty()) continue;
     options.refuse(model, {structure.name}, "not with " + apart + "; give full");

@@ -28,12 +28,12 @@ struct ModalModel {
                                        ///< empty: the structure's Rayleigh damping
   std::string basis_file;              ///< where the basis is kept; empty: nowhere
   int ranks = 1;                       ///< that compute the basis together, if there are so many
-  bool switched = false;               ///< modes while nothing strikes, full order else
-  /// Part of the largest energy that may lie outside the basis where a structure goes to modes [-].
-  double switched_part = 1e-6;
+  /// Part of the largest energy that may lie outside the basis where a structure goes to modes [-];
+  /// 0 of one that is in modes throughout.
+  double switched_part = 0;
 
-  bool is_switched() const { return switched; }
-  bool is_lasting() const { return !switched; }
+  bool is_switched() const { return switched_part > 0; }
+  bool is_lasting() const { return !is_switched(); }
   bool counts() const { return modes > 0; }
   bool counts_none() const { return modes == 0; }
   bool attaches() const { return attachment; }

@@ -42,6 +42,8 @@ class LawMemory {
   std::span<const double> operator[](std::size_t row) const {
     return {values_.data() + begin_[row], begin_[row + 1] - begin_[row]};
   }
+  /// All of them, row after row.
+  std::span<double> values() { return values_; }
 
  private:
   std::vector<double> values_;

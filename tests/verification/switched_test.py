@@ -9,8 +9,11 @@ import numpy
 import program
 from decks import SMALL
 
-sys.path.insert(0, os.path.join(program.SOURCE, "tests", "restart"))
+sys.path[:0] = [os.path.join(program.SOURCE, "tests", folder) for folder in ("restart", "composition")]
+from cells import Cell  # noqa: E402
+from features import FEATURES  # noqa: E402
 from restart_test import RestartCase, checkpoint, history  # noqa: E402
+from scene import STEP, Scene  # noqa: E402
 
 TIME_STEP = 1e-5
 # The two-storey pair on a very coarse mesh, damped so that 120 modes hold what stays between strikes.
@@ -26,6 +29,23 @@ PLANT = ["-options_file", "petsc-options/plant/small.yaml", "-floor1_gap", 0.5, 
 def switched(scene, part, *more, names=("s1", "s2"), modes=120):
     return scene + [word for name in names for word in (
         f"-{name}_model", "switched", f"-{name}_modal_vectors", modes, f"-{name}_switched_part", part)] + list(more)
+
+
+# Two houses that meet twice, one of them on soil with hidden motions under a mat, in 40 modes between strikes.
+FEATURE = {feature.name: feature.options for feature in FEATURES}
+STRUCK = {"a_modal_vectors": 40, "a_switched_part": 1e-4, "a_damping_beta": 2e-4, "joint_gap": 2e-3, "end_time": 3000 * STEP}
+
+
+def house(*names, **options):
+    """A house in modes between strikes that has features of tests/composition, with its reactions and the force through a level."""
+    scene = Scene()
+    for name in ("modes between strikes", *names, "reactions", "storey force"):
+        scene.lay(FEATURE[name])
+    return Scene.of({**scene.options, "output_interval": 10 * STEP, **options})
+
+
+def at_full_order(scene):
+    return Scene.of({key: value for key, value in scene.options.items() if not key.startswith(("a_model", "a_modal", "a_switched"))})
 
 
 def in_modes(folder):
@@ -78,6 +98,49 @@ class Switched(RestartCase):
         self.assertGreaterEqual(len(shown), 4)
         self.assert_close(*({name: file[name][()] for name in shown} for file in files), shown, 3e-3)
 
+    def held(self, scene):
+        cell = Cell(scene)
+        self.addCleanup(cell.close)
+        return cell
+
+    def test_all_modes_are_full_order_on_soil_with_rigid_parts_ties_and_links_that_remember(self):
+        for names, tolerance in ((("soil under a mat", "eccentric join", "stiffness damping"), 1e-7),  # of a basis on soft soil
+                                 (("soil from a table", "tie"), 1e-7),
+                                 (("rigid slab", "Zener feet", "uniform damping", "rest under gravity"), 1e-9)):
+            with self.subTest(names=names):
+                cell = self.held(house(*names, a_modal_vectors=1000, a_switched_part=1e-2, joint_gap=.5, end_time=2000 * STEP))
+                run = cell.records()
+                self.assertGreater(run.summary["in_modes"]["share"], .5)
+                self.assertLess(run.summary["energy"]["relative_residual"], 1e-12)
+                self.assertIsNone(run.apart(cell.records(scene=at_full_order(cell.scene)), tolerance))
+
+    def test_forces_and_memories_go_through_strikes_and_ranks(self):
+        cell = self.held(house("soil from a table", **STRUCK))
+        run = cell.reference
+        self.assertGreater(run.summary["in_modes"]["share"], .3)
+        self.assertGreater(run.summary["in_modes"]["left"], 0)
+        self.assertLess(run.summary["energy"]["relative_residual"], 1e-12)
+        self.assertGreater(abs(run.ledger["switch_loss"]).max(), 0)
+        self.assertIsNone(run.apart(cell.records(scene=at_full_order(cell.scene)), 5e-3))
+        for ranks in (2, 3):
+            self.assertIsNone(run.apart(cell.records(ranks=ranks), 1e-8))
+        found = set()
+        for step in (900, 2000):
+            _, output = cell.run("-checkpoint_steps", step, "-end_time", (step + 9) * STEP)
+            with h5py.File(os.path.join(output, "checkpoint.h5")) as file:
+                found.add(bool(file["tables/order"][0]))
+            self.assertIsNone(run.apart(cell.records("-restart", os.path.join(output, "checkpoint.h5")), 0))
+        self.assertEqual(found, {False, True})
+        none = Scene.of({**cell.scene.options, "a_switched_part": 0})
+        self.assertIsNone(cell.records(scene=none).apart(cell.records(scene=at_full_order(none)), 0))
+
+    def test_soil_that_mats_share_and_dashpots_that_a_support_stretches_are_refused(self):
+        for name, options in (("soil that mats share", {}), ("supports", {"a_stay_dashpot": 2e4})):
+            with self.subTest(name=name):
+                result, _ = self.held(house(name, **options)).run()
+                self.assertEqual(result.returncode, 1)
+                self.assertIn("soil that mats share, nor links that a support stretches", program.error_lines(result)[0])
+
     def test_where_contact_never_rests_it_stays_at_full_order(self):
         rattling = [*PAIR, "-floor2_gap", 0, "-floor1_gap", 0, "-end_time", 0.1]
         full, run = self.complete(rattling), self.complete(switched(rattling, 1e-6))
@@ -92,9 +155,7 @@ class Switched(RestartCase):
                  "contact floor2, which has forces beside hard contact"),
                 (["-s1_mass_scaling", 1e-4], "-s1_mass_scaling"), (["-s1_modal_damping", .02], "-s1_modal_damping"),
                 (["-s1_modal_patches", 4], "-s1_modal_patches"), (["-s1_brace1_yield_force", 1e3], "-s1_brace1_yield_force"),
-                (["-s1_rigid", "slab"], "-s1_rigid"), (["-fidelity_window", .1], "-fidelity_window"),
-                (["-forces", "foot", "-foot_structure", "s1", "-foot_kind", "reactions"], "force foot"),
-                (["-s1_switched_part", .5], "-s1_switched_part")):
+                (["-fidelity_window", .1], "-fidelity_window"), (["-s1_switched_part", .5], "-s1_switched_part")):
             with self.subTest(words=words):
                 line = program.must_refuse(self, [*switched(PAIR, 1e-6), *words], expected)
                 self.assertIn("-s1_", line)
