@@ -92,7 +92,7 @@ class BasisMaker {
            << " Hz: no mode of the structure lies below it; give a higher one";
       throw UserError(text.str());
     }
-    return static_cast<std::size_t>(below);
+    return static_cast<std::size_t>(std::min(below, request_.most_modes));
   }
 
   /// Matrix that has the modes' frequencies, in y or in the coordinates z of rigid bodies.

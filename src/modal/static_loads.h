@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -13,11 +14,12 @@ namespace pounding {
 
 /// Request for a basis: its content.
 struct ModalRequest {
-  int modes = 0;             ///< number of modes; 0: all below the cut-off
-  int candidates = 0;        ///< number of lowest modes to choose them from; 0: no others
-  double cutoff = 0;         ///< [Hz]
-  bool attachment = true;    ///< a vector per contact point as well
-  bool residual = false;     ///< and one per motion of the ground
+  int modes = 0;       ///< number of modes; 0: all below the cut-off
+  int candidates = 0;  ///< number of lowest modes to choose them from; 0: no others
+  double cutoff = 0;   ///< [Hz]
+  int most_modes = std::numeric_limits<int>::max();  ///< of those below it
+  bool attachment = true;                            ///< a vector per contact point as well
+  bool residual = false;                             ///< and one per motion of the ground
   int patches = 0;           ///< or per patch of them, so many in all; 0: per point
   Vector3 gravity{0, 0, 0};  ///< that the structure is to rest under [m/s2]; 0: no vector for it
   std::vector<TracePoint> contact_points;

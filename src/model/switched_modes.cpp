@@ -23,7 +23,9 @@ namespace {
 /// Lowest modes whose dashpots' forces the basis answers, beside the modes themselves.
 constexpr int braked_modes = 40;
 
-/// Where a basis that is to be chosen ends, however little its modes are damped [Hz].
+/// Where a basis that is to be chosen ends at least, since motions of the ground drive those below,
+/// and at most, however little its modes are damped [Hz].
+constexpr double lowest_cutoff = 33;
 constexpr double highest_cutoff = 1000;
 
 /// Phi of the owned dofs alone, in their order, in place of all points of the basis.
@@ -136,7 +138,7 @@ std::shared_ptr<const LoadShapes> with_dashpot_loads(const LinearSystem& system,
 double settling_time(const LinearSystem& system, double omega, double part) {
   const double ratio = system.uniform_damping ? system.uniform_damping->ratio_at(omega)
                                               : damping_ratio(system.damping, omega);
-  return -std::log(part) / (2 * ratio * omega);
+  return std::log(struck_part / part) / (2 * ratio * omega);
 }
 
 void prepare_switched(const Mesh& mesh, LinearSystem& system, ModalRequest& request) {
@@ -146,7 +148,8 @@ void prepare_switched(const Mesh& mesh, LinearSystem& system, ModalRequest& requ
   const ModalResult lowest = lowest_modes(system, mesh, links ? most : 1, true);
   if (request.modes == 0 && request.cutoff == 0) {
     const double first = lowest.first_frequency();
-    request.cutoff = std::max(first, 1.0);
+    request.cutoff = std::max(1.02 * first, lowest_cutoff);
+    request.most_modes = most_chosen_modes;
     const auto lasts = [&](double frequency) {
       const double omega = 2 * std::numbers::pi * frequency;
       return first * settling_time(system, omega, request.switched_part) > 1;

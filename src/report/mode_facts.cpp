@@ -232,9 +232,10 @@ Facts reduction_facts(const Building& building) {
     const double part = modal.switched_part;
     facts.add("switched_part", part,
               "  switched: in modes once at most {switched_part:g} of its energy");
-    facts.add(
-        "settling_time", settling_time(*building.system, omega, part),
-        " is outside, to which motions above its highest mode fall in {settling_time:.3g} s\n");
+    facts.add("settling_time", settling_time(*building.system, omega, part),
+              " is outside, to which motions above its highest mode fall within "
+              "{settling_time:.3g} s of a "
+              "strike\n");
   }
   facts.say(
       "  modal reduction: {coordinates} generalised coordinates for {} dofs\n    {modes} modes",
@@ -243,6 +244,9 @@ Facts reduction_facts(const Building& building) {
     facts.say(", those below the cut-off of {} Hz", {modal.cutoff});
   } else if (modal.candidates > modal.modes) {
     facts.say(", chosen among the {} lowest", {modal.candidates});
+  } else if (modal.modes == 0) {
+    facts.say(basis.modes == most_chosen_modes ? ", the most that are chosen"
+                                               : ", chosen by their damping");
   } else if (modal.modes > basis.modes) {
     facts.say(" ({} asked for, the structure has no more)", {modal.modes});
   }

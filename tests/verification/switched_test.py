@@ -165,6 +165,15 @@ class Switched(RestartCase):
             folder, _ = program.must_run(self, [*words, "-end_time", 1e-4])
             program.must_run(self, ["-options_file", os.path.join(folder, "resolved.yaml")])
 
+    def test_a_basis_that_is_not_given_settles_in_a_period_or_is_as_large_as_any(self):
+        words = [*PLANT, "-end_time", 1e-4, "-modes", 1, "-block_model", "switched", "-frame_model", "switched", "-block_switched_part", 1e-12]
+        structures = program.must_run(self, words)[1]["structures"]
+        block, frame = structures["block"], structures["frame"]
+        self.assertEqual(block["modal"]["modes"], 300)
+        period = 1 / frame["frequencies"][0]["frequency"]
+        self.assertLess(abs(frame["modal"]["settling_time"] / period - 1), 0.05)
+        self.assertGreater(block["modal"]["settling_time"], 1 / block["frequencies"][0]["frequency"])
+
     def test_the_part_goes_with_the_model(self):
         program.must_refuse(self, [*PAIR, "-s1_switched_part", 1e-6], "-s1_switched_part", "goes with -s1_model switched")
 
