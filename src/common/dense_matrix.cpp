@@ -142,6 +142,17 @@ bool solve_dense(std::span<double> matrix, std::span<double> values, std::span<i
   return info == 0;
 }
 
+bool factorise_definite(std::vector<double>& matrix) {
+  const auto n = static_cast<std::size_t>(std::lround(std::sqrt(matrix.size())));
+  auto order = static_cast<PetscBLASInt>(n);
+  PetscBLASInt info = 0;
+  LAPACKpotrf_("U", &order, matrix.data(), &order, &info);  // LAPACK's columns are the rows
+  for (std::size_t i = 0; i < n; ++i) {
+    std::fill(&matrix[i * n] + i + 1, &matrix[i * n] + n, 0.0);
+  }
+  return info == 0;
+}
+
 bool invert_definite(std::vector<double>& matrix) {
   const auto n = static_cast<std::size_t>(std::lround(std::sqrt(matrix.size())));
   auto order = static_cast<PetscBLASInt>(n);

@@ -73,6 +73,10 @@ bool solve_dense(std::vector<double>& matrix, std::vector<double>& values);
 /// Solution of A x = b without allocation: `pivots`, shape (n), is scratch.
 bool solve_dense(std::span<double> matrix, std::span<double> values, std::span<int> pivots);
 
+/// Factor L of a symmetric positive definite matrix L L^T, shape (n, n) by rows, in its place, 0
+/// above the diagonal. False, and the matrix lost, if it is not definite. LAPACK dpotrf.
+bool factorise_definite(std::vector<double>& matrix);
+
 /// Inverse of a symmetric positive definite matrix, shape (n, n), in its place, symmetric to the
 /// last bit. False, and the matrix lost, if it is not definite. LAPACK dpotrf, dpotri.
 bool invert_definite(std::vector<double>& matrix);

@@ -48,7 +48,7 @@ void multiply_together(const double* rows, std::size_t n, const BatchValue* x, B
 
 /// out[k] += sum over r of parts[r] rows[r * n + k].
 template <std::size_t count>
-void add_rows(const double* rows, std::size_t n, const double* parts, double* out) {
+void add_together(const double* rows, std::size_t n, const double* parts, double* out) {
   std::size_t k = 0;
   for (; k + lanes <= n; k += lanes) {
     Lanes sum;
@@ -66,7 +66,7 @@ void add_rows(const double* rows, std::size_t n, const double* parts, double* ou
 }
 
 template <std::size_t count>
-void add_rows(const double* rows, std::size_t n, const BatchValue* parts, BatchValue* out) {
+void add_together(const double* rows, std::size_t n, const BatchValue* parts, BatchValue* out) {
   BatchValue scale[count];
   for (std::size_t r = 0; r < count; ++r) scale[r] = parts[r];
   for (std::size_t k = 0; k < n; ++k) {
@@ -81,7 +81,7 @@ void add_both_ways(const double* rows, const double* weights, std::size_t n, con
                    Value* parts, Value* out) {
   multiply_together<count>(rows, n, x, parts);
   for (std::size_t r = 0; r < count; ++r) parts[r] = (Value{} + weights[r]) * parts[r];
-  add_rows<count>(rows, n, parts, out);
+  add_together<count>(rows, n, parts, out);
 }
 
 /// B^T diag(weights) B x in blocks of `together` rows.
@@ -113,6 +113,13 @@ void multiply_rows(const double* rows, std::size_t count, std::size_t n, const B
   }
   for (; r + 3 <= count; r += 3) multiply_together<3>(rows + r * n, n, x, out + r);
   for (; r < count; ++r) multiply_together<1>(rows + r * n, n, x, out + r);
+}
+
+void add_rows(const double* rows, std::size_t count, std::size_t n, const double* parts,
+              double* out) {
+  std::size_t r = 0;
+  for (; r + 4 <= count; r += 4) add_together<4>(rows + r * n, n, parts + r, out);
+  for (; r < count; ++r) add_together<1>(rows + r * n, n, parts + r, out);
 }
 
 void multiply_both_ways(const double* rows, const double* weights, std::size_t count, std::size_t n,

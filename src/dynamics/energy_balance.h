@@ -57,7 +57,8 @@ inline void damping_work(const LedgerStep& step, double& work) {
 }
 inline void gravity_work(const LedgerStep& step, double& work) {
   for (std::size_t d = 0; d < 3; ++d) {
-    work += step.time_step / 2 * step.system.gravity[d] * step.sums.momentum[d];
+    const double momentum = step.sums.momentum[d] + step.sums.water_momentum[d];
+    work += step.time_step / 2 * step.system.gravity[d] * momentum;
   }
 }
 inline void input_work(const LedgerStep& step, double& work) {

@@ -128,6 +128,20 @@ struct DofMasses {
   }
 };
 
+/// Adds the sums of one run to those of its member.
+template <typename Number>
+void add_to_member(const StepTotals<double>& from, std::size_t member, StepTotals<Number>& to) {
+  const auto add = [member](double part, Number& sum) {
+    set_member(sum, member, of_member(sum, member) + part);
+  };
+  add(from.dofs.stiffness_work, to.dofs.stiffness_work);
+  add(from.dofs.mass_sum, to.dofs.mass_sum);
+  add(from.dofs.filtered, to.dofs.filtered);
+  add(from.dofs.device, to.dofs.device);
+  add(from.dofs.known_work, to.dofs.known_work);
+  for (std::size_t d = 0; d < 3; ++d) add(from.momentum[d], to.momentum[d]);
+}
+
 /// The ground's part of the three vectors of a pattern whose directions repeat.
 class PatternGround {
  public:

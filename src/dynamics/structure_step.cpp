@@ -12,7 +12,6 @@ namespace pounding {
 namespace {
 
 constexpr std::size_t lanes = wide_lane_count;
-constexpr std::size_t pattern = step_pattern;
 
 bool directions_are(const LinearSystem& system, std::size_t dof, std::array<int, 3> expected) {
   if (dof + 3 > system.direction.size()) return false;
@@ -20,20 +19,6 @@ bool directions_are(const LinearSystem& system, std::size_t dof, std::array<int,
     if (system.direction[dof + d] != expected[d]) return false;
   }
   return true;
-}
-
-/// Adds the sums of one run to those of its member.
-template <typename Number>
-void add_to_member(const StepTotals<double>& from, std::size_t member, StepTotals<Number>& to) {
-  const auto add = [member](double part, Number& sum) {
-    set_member(sum, member, of_member(sum, member) + part);
-  };
-  add(from.dofs.stiffness_work, to.dofs.stiffness_work);
-  add(from.dofs.mass_sum, to.dofs.mass_sum);
-  add(from.dofs.filtered, to.dofs.filtered);
-  add(from.dofs.device, to.dofs.device);
-  add(from.dofs.known_work, to.dofs.known_work);
-  for (std::size_t d = 0; d < 3; ++d) add(from.momentum[d], to.momentum[d]);
 }
 
 }  // namespace
@@ -84,12 +69,18 @@ StructureStep<Number>::StructureStep(std::span<const LinearSystem* const> system
   }
   for (std::size_t l = 0; system_.loads && l < system_.loads->loads.size(); ++l) {
     const LoadShape& shape = system_.loads->loads[l];
-    loads_.push_back(
-        {shape.load, shape.dofs,
-         constants_of<Number>(
-             systems, [l](const auto& s) -> const auto& { return s.loads->loads[l].force; })});
+    const auto force = [l](const auto& s) -> const auto& {
+      return s.loads->loads[l].force;
+    };
+    loads_.push_back({shape.load, shape.dofs, constants_of<Number>(systems, force)});
   }
-  if (system_.supports || system_.loads) known_step_.assign(dofs_, Number{});
+  for (std::size_t d = 0; !system_.water.dofs.empty() && d < 3; ++d) {
+    const auto force = [d](const auto& s) -> const auto& {
+      return s.water.force[d];
+    };
+    loads_.push_back({d, system_.water.dofs, constants_of<Number>(systems, force), true});
+  }
+  if (system_.supports || !loads_.empty()) known_step_.assign(dofs_, Number{});
   find_segments(wait);
 }
 
@@ -101,16 +92,23 @@ StructureStep<Number>::~StructureStep() = default;
 template <typename Number>
 Number StructureStep<Number>::load_power() const {
   Number power{};
-  for (const Load& load : loads_) {
-    const double value = load_values_[load.number];
-    if (value == 0) continue;
+  for (const auto& [number, dofs, force, of_ground] : loads_) {
+    if (of_ground || load_values_[number] == 0) continue;
     Number product{};
-    for (std::size_t k = 0; k < load.dofs.size(); ++k) {
-      product += load.force[k] * state_.velocity[load.dofs[k]];
-    }
-    power += (Number{} + value) * product;
+    for (std::size_t k = 0; k < dofs.size(); ++k) product += force[k] * state_.velocity[dofs[k]];
+    power += (Number{} + load_values_[number]) * product;
   }
   return power;
+}
+
+template <typename Number>
+std::array<double, 3> StructureStep<Number>::water_momentum() const {
+  std::array<double, 3> momentum{};
+  const auto& [dofs, force] = system_.water;
+  for (std::size_t k = 0; k < 3 * dofs.size(); ++k) {
+    momentum[k % 3] += force[k % 3][k / 3] * of_member(state_.velocity[dofs[k / 3]], 0);
+  }
+  return momentum;
 }
 
 template <typename Number>
@@ -186,7 +184,7 @@ void StructureStep<Number>::begin(double duration, const std::array<Number, 3>& 
     }
   }
   if constexpr (std::is_same_v<Number, double>) {
-    for (std::size_t l = 0; l < pattern; ++l) {
+    for (std::size_t l = 0; l < step_pattern; ++l) {
       vectors_->ground[0][l / lanes][l % lanes] = ground_step_[l % 3];
       vectors_->ground[1][l / lanes][l % lanes] = l % 6 < 3 ? ground_step_[l % 3] : 0;
     }
@@ -197,16 +195,17 @@ void StructureStep<Number>::begin(double duration, const std::array<Number, 3>& 
     for (std::size_t i = 0; i < supports_[c].size(); ++i) known_step_[i] += step * supports_[c][i];
   }
   load_values_ = loads;
-  for (const Load& load : loads_) {
-    const Number step = h * (Number{} + load_values_[load.number]);
-    for (std::size_t k = 0; k < load.dofs.size(); ++k) {
-      const auto i = static_cast<std::size_t>(load.dofs[k]);
+  for (const auto& [number, dofs, force, of_ground] : loads_) {
+    const Number step = of_ground ? -ground_step_[number] : h * (Number{} + load_values_[number]);
+    for (std::size_t k = 0; k < dofs.size(); ++k) {
+      const auto i = static_cast<std::size_t>(dofs[k]);
       const Number inverse =
           shares_masses() ? Number{} + system_.inverse_mass[i] : inverse_mass_[i];
-      known_step_[i] = known_step_[i] - step * load.force[k] * inverse;
+      known_step_[i] = known_step_[i] - step * force[k] * inverse;
     }
   }
   load_before_ = load_power();
+  water_before_ = water_momentum();
   added_kinetic_before_ = 0;
 }
 
@@ -383,13 +382,15 @@ StepSums StructureStep<Number>::sums(std::size_t member) const {
   if constexpr (std::is_same_v<Number, double>) {
     add_to(
         vectors_->totals, [](const WideLanes& value) { return add_up(value); }, total);
-    for (std::size_t l = 0; l < pattern; ++l) {
+    for (std::size_t l = 0; l < step_pattern; ++l) {
       total.momentum[l % 3] += vectors_->momentum[0][l / lanes][l % lanes];
       if (l % 6 < 3) total.momentum[l % 3] += vectors_->momentum[1][l / lanes][l % lanes];
     }
   }
   total.added_kinetic_before = added_kinetic_before_;
   total.load = of_member(load_before_ + load_power(), member);
+  total.water_momentum = water_momentum();
+  for (std::size_t d = 0; d < 3; ++d) total.water_momentum[d] += water_before_[d];
   return total;
 }
 

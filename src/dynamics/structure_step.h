@@ -136,9 +136,10 @@ class StructureStep final : public stiffness::ReceiverOf<Number> {
   };
 
   struct Load {
-    std::size_t number = 0;  ///< in the scene
+    std::size_t number = 0;  ///< in the scene; the direction of the ground's load on water
     std::span<const LocalIndex> dofs;
     Constants<Number> force;
+    bool of_ground = false;
   };
 
   void find_segments(bool wait);
@@ -152,6 +153,8 @@ class StructureStep final : public stiffness::ReceiverOf<Number> {
                         const Number* force, const ActionParts<Number>& parts);
   /// sum_l f_l p_l^T v of the velocities as they are [W].
   Number load_power() const;
+  /// w_d^T v of them, of the first run: w_d the ground's load on water [kg m/s].
+  std::array<double, 3> water_momentum() const;
 
   /// Dofs of a mesh have the same masses in all runs of a batch, those of `system_`.
   bool shares_masses() const {
@@ -189,8 +192,9 @@ class StructureStep final : public stiffness::ReceiverOf<Number> {
   std::vector<Number> known_step_;
   std::span<const double> load_values_;  ///< f of all loads of the scene in this step
   std::unique_ptr<VectorParts> vectors_;
-  StepTotals<Number> totals_;  ///< beside those of vectors
-  Number load_before_{};       ///< load_power before the step
+  StepTotals<Number> totals_;             ///< beside those of vectors
+  Number load_before_{};                  ///< load_power before the step
+  std::array<double, 3> water_before_{};  ///< water_momentum before the step
   double added_kinetic_before_ = 0;
 };
 

@@ -141,21 +141,22 @@ struct WaitingDofs {
 /// v- = v_{n-1/2}, v+ = v_{n+1/2}, s = v+ + v-, and those of interactions. The support input
 /// is that of the loads on the dofs as well.
 struct StepSums : interactions::LedgerPart {
-  double stiffness_work = 0;         ///< q^T s [W]
-  double mass_sum = 0;               ///< s^T M s [J]
-  std::array<double, 3> momentum{};  ///< iota_d^T M s [kg m/s]
-  double filtered = 0;               ///< (f - q)^T s, f the force that uniform damping filters [W]
-  double device = 0;                 ///< x^T s, x the force of the extra damping [W]
-  double load = 0;                   ///< sum_l f_l p_l^T s of loads [W], in the support input too
-  double kinetic_before = 0;         ///< v-^T M v- [J], if energies are asked for
-  double added_kinetic_before = 0;   ///< v-^T S v- [J] likewise
-  double stiffness_before = 0;       ///< v-^T K v- [W] likewise
-  double strain_before = 0;          ///< u_n^T K u_{n-1} [J] likewise
-  double strain_back = 0;            ///< u_{n-1}^T K u_n [J] likewise: the same as K is symmetric
-  double displacement_mass = 0;      ///< u_n^T M u_n [kg m2] likewise
-  double extra_damping_before = 0;   ///< v-^T D v- [W], D the damping beside alpha M + beta K
-  double rest_before = 0;            ///< (K u_0)^T (u_0 / 2 - u_n + dt/2 v-) where uniform damping
-                                     ///< acts about a rest u_0 [J], if energies are asked for
+  double stiffness_work = 0;               ///< q^T s [W]
+  double mass_sum = 0;                     ///< s^T M s [J]
+  std::array<double, 3> momentum{};        ///< iota_d^T M s [kg m/s]
+  std::array<double, 3> water_momentum{};  ///< w_d^T s, w_d the ground's load on water [kg m/s]
+  double filtered = 0;              ///< (f - q)^T s, f the force that uniform damping filters [W]
+  double device = 0;                ///< x^T s, x the force of the extra damping [W]
+  double load = 0;                  ///< sum_l f_l p_l^T s of loads [W], in the support input too
+  double kinetic_before = 0;        ///< v-^T M v- [J], if energies are asked for
+  double added_kinetic_before = 0;  ///< v-^T S v- [J] likewise
+  double stiffness_before = 0;      ///< v-^T K v- [W] likewise
+  double strain_before = 0;         ///< u_n^T K u_{n-1} [J] likewise
+  double strain_back = 0;           ///< u_{n-1}^T K u_n [J] likewise: the same as K is symmetric
+  double displacement_mass = 0;     ///< u_n^T M u_n [kg m2] likewise
+  double extra_damping_before = 0;  ///< v-^T D v- [W], D the damping beside alpha M + beta K
+  double rest_before = 0;           ///< (K u_0)^T (u_0 / 2 - u_n + dt/2 v-) where uniform damping
+                                    ///< acts about a rest u_0 [J], if energies are asked for
 };
 
 /// All that the dofs of a structure leave in a step, lane by lane.

@@ -123,6 +123,25 @@ struct RigidNodes {
   }
 };
 
+/// Water of any shape that wets nodes of a structure, p = 0 on its free surface: the Laplacian of
+/// its pressures, row by row, and how these press. Pressures of wetted nodes are the first.
+struct WaterBody {
+  std::string pool;
+  double density = 0;              ///< [kg/m3]
+  std::vector<GlobalIndex> nodes;  ///< that are wetted, increasing, file order
+  std::vector<Vector3> area;       ///< of these: of the water's faces there, out of it [m2]
+  std::int32_t pressures = 0;
+  std::vector<std::int64_t> row_begin;
+  std::vector<std::int32_t> columns;
+  std::vector<double> laplacian;  ///< [m]
+  PoolOutline outline;
+
+  static void members(auto& self, auto& stream) {
+    stream(self.pool, self.density, self.nodes, self.area, self.pressures, self.row_begin,
+           self.columns, self.laplacian, self.outline);
+  }
+};
+
 /// Marks of nodes of a structure beside its elements; every rank learns them.
 struct NodeMarks {
   std::vector<RigidNodes> rigid;  ///< no node is in two of them; ties are the last
@@ -131,9 +150,10 @@ struct NodeMarks {
   std::vector<SupportedNode> supported;  ///< sorted; empty where the ground moves as one
   /// The support with which all the ground moves, into the scene's supports; -1: there is none.
   int ground_support = -1;
+  std::vector<WaterBody> water;  ///< of pools that have cells, in their order; no node is in two
 
   static void members(auto& self, auto& stream) {
-    stream(self.rigid, self.absorbing, self.supported, self.ground_support);
+    stream(self.rigid, self.absorbing, self.supported, self.ground_support, self.water);
   }
 };
 

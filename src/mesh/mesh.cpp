@@ -105,6 +105,7 @@ void share_marks(MPI_Comm comm, const NodeMarks& of_rank0, Mesh& mesh) {
       marks.absorbing, std::back_inserter(mesh.absorbing),
       [&](const AbsorbingNode& absorbing) { return mesh.owned_node(absorbing.node) >= 0; });
   mesh.ground_support = marks.ground_support;
+  mesh.water = std::move(marks.water);
   if (marks.supported.empty()) return;
   std::vector<GlobalIndex> local = mesh.file_node;
   std::ranges::sort(local);

@@ -69,6 +69,7 @@ struct Mesh {
   std::vector<SupportedNode> supported;  ///< of the local nodes, in file order
   /// The support with which all the ground of the structure moves; -1: there is none.
   int ground_support = -1;
+  std::vector<WaterBody> water;  ///< all of it; one rank owns the nodes that it moves
 
   LocalIndex node_count() const { return static_cast<LocalIndex>(file_node.size()); }
   /// Whether a component of a local node follows the rigid part that it is in.

@@ -19,6 +19,7 @@
 #include "mesh/soil_node.h"
 #include "mesh/tied_nodes.h"
 #include "mesh/unused_elements.h"
+#include "mesh/water_body.h"
 #include "scene/law_kinds.h"
 #include "scene/spring_reader.h"
 
@@ -98,6 +99,7 @@ class MeshBuilder {
     mark_rigid_groups();
     check_element_sizes(structure_.name, mesh_);
     check_repeated_elements(structure_.name, mesh_);
+    read_water();
     std::ranges::move(find_unused(raw_, mesh_, taken_), std::back_inserter(mesh_.unused));
     add_pools(structure_, mesh_);
     return std::move(mesh_);
@@ -253,11 +255,7 @@ class MeshBuilder {
     for (ElementSet& set : mesh_.regions) {
       for (GlobalIndex& node : set.connectivity) node = used_.index(node);
     }
-    mesh_.coordinates.resize(3 * mesh_.node_tags.size());
-    for (std::size_t i = 0; i < raw_.node_tags.size(); ++i) {
-      const GlobalIndex node = used_.index(raw_.node_tags[i]);
-      if (node >= 0) std::copy_n(&raw_.coordinates[3 * i], 3, &mesh_.coordinates[3 * node]);
-    }
+    mesh_.coordinates = coordinates_of(raw_, used_, mesh_.node_tags.size());
   }
 
   void read_group(const std::string& name, const std::vector<RawGroup>& parts) {
@@ -307,6 +305,29 @@ class MeshBuilder {
                       name + "'");
     }
     return found->second;
+  }
+
+  /// Water of the pools that have cells, which no region of the structure takes.
+  void read_water() {
+    for (const Pool& pool : structure_.pools) {
+      if (pool.is_tank()) continue;
+      const auto found = groups_.find(pool.water);
+      if (found == groups_.end()) unknown_group(pool.water, "-" + pool.name + "_water");
+      const GlobalMesh cells = water_cells(pool, found->second, raw_);
+      taken_.insert({pool.water, 3});
+      for (const ElementSet& set : cells.regions) {
+        for (const std::int64_t tag : set.tags) {
+          if (seen_[0].insert(tag)) continue;
+          throw UserError("option -" + pool.name + "_water " + pool.water + ": cell " +
+                          std::to_string(tag) + " is in another group with an element of " +
+                          structure_.name + " or with water; name each cell once");
+        }
+      }
+      std::vector<GlobalIndex> of_structure;
+      for (const std::int64_t tag : cells.node_tags) of_structure.push_back(used_.index(tag));
+      mesh_.water.push_back(join_water(pool, cells, of_structure));
+    }
+    check_wetted_nodes(mesh_);
   }
 
   void mark_rigid_groups() {

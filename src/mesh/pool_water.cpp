@@ -83,6 +83,7 @@ class Water {
     outline.corner = box_.low;
     outline.sides = {box_.sides()[0], box_.sides()[1]};
     outline.depth = pool_.level - box_.low[2];
+    outline.volume = outline.sides[0] * outline.sides[1] * outline.depth;
     if (!(outline.depth > 0)) {
       refuse_level("the floor is at z = " + number_text(box_.low[2]) +
                    " m: there is no water; leave the pool out of -pools");
@@ -282,7 +283,12 @@ class Water {
 void add_pools(const Structure& structure, GlobalMesh& mesh) {
   const auto first = std::ranges::find(structure.regions, true, &Region::of_water);
   auto number = static_cast<int>(first - structure.regions.begin());
+  auto body = mesh.water.begin();
   for (const Pool& pool : structure.pools) {
+    if (!pool.is_tank()) {
+      mesh.pools.push_back(body++->outline);
+      continue;
+    }
     Water water(structure, pool, mesh);
     for (const WaterRegion& region : water_regions(pool)) water.add(region, number++);
     mesh.pools.push_back(water.outline());

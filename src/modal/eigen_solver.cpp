@@ -127,6 +127,13 @@ MatHandle mass_matrix(const LinearSystem& system) {
       entries[column.begin + j] += row.count;
     }
   });
+  std::vector<AddedMass::Entry> wet;
+  for (std::size_t w = 0; system.coupled_mass && w < system.coupled_mass->waters().size(); ++w) {
+    for (const auto& entry : system.coupled_mass->waters()[w].mass_entries()) {
+      wet.push_back(entry);
+      ++entries[entry.row];
+    }
+  }
   for (PetscInt& count : entries) count = std::min(count, n);  // PETSc refuses more than a row has
   MatHandle matrix;
   POUNDING_PETSC(MatCreateAIJ(system.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 0,
@@ -136,6 +143,7 @@ MatHandle mass_matrix(const LinearSystem& system) {
     POUNDING_PETSC(MatSetValue(matrix.get(), first + i, first + j, value, ADD_VALUES));
   };
   for (LocalIndex i = 0; i < n; ++i) add(i, i, system.lumped_mass[i]);
+  for (const auto& [row, column, value] : wet) add(row, column, value);
   for_each_block([&](const NodeDofs& row, const NodeDofs& column, const NodeBlock& block) {
     for (int i = 0; i < row.count; ++i) {
       for (int j = 0; j < column.count; ++j) {

@@ -267,6 +267,10 @@ RigidMotions::RigidMotions(const LinearSystem& system, const Mesh& mesh) : syste
   for (std::size_t d = 0; d < 3; ++d) {
     centre_[d] = mass_ > 0 ? sums[d + 1] / mass_ : 0;
     motions_[d] = system.influence(static_cast<int>(d));
+    for (std::size_t k = 0; k < system.water.dofs.size(); ++k) {
+      const auto i = static_cast<std::size_t>(system.water.dofs[k]);
+      motions_[d][i] += system.inverse_mass[i] * system.water.force[d][k];
+    }
     motions_[d + 3].assign(system.lumped_mass.size(), 0.0);
   }
   for_each_translation(mesh, [&](std::size_t dof, int c, const Vector3& x) {
@@ -290,8 +294,17 @@ std::array<double, 6> RigidMotions::participation(const double* y) const {
 }
 
 double RigidMotions::weighted_square(const std::vector<double>& a) const {
+  std::vector<double> motion = a;  // of all modes: (M + S)^-1 M a where there is water
+  if (system_.coupled_mass && !system_.coupled_mass->waters().empty()) {
+    std::vector<double> momentum = a;
+    for (std::size_t i = 0; i < a.size(); ++i) momentum[i] *= system_.lumped_mass[i];
+    std::vector<double> field(system_.coupled_mass->field_size());
+    system_.coupled_mass->take(momentum.data(), field.data());
+    system_.coupled_mass->solve(field.data());
+    system_.coupled_mass->put(field.data(), motion.data());
+  }
   double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * a[i] * system_.lumped_mass[i];
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * motion[i] * system_.lumped_mass[i];
   return sum;
 }
 

@@ -19,6 +19,7 @@
 #include "modal/orthonormal_space.h"
 #include "modal/shifted_solver.h"
 #include "modal/static_loads.h"
+#include "modal/water_coordinates.h"
 #include "system/admissible_motions.h"
 #include "system/support_shapes.h"
 
@@ -31,14 +32,15 @@ constexpr double inside_span = 1e-8;
 /// Relative difference of two eigenvalues that are the same.
 constexpr double same_eigenvalue = 1e-7;
 
-/// Makes a basis of orthonormal columns in y = M^1/2 u, whose dofs the ranks of the system share
-/// out. Collective, all of it.
+/// Makes a basis of orthonormal columns in y = M^1/2 u, or beside water in its coordinates, whose
+/// dofs the ranks of the system share out. Collective, all of it.
 class BasisMaker {
  public:
   BasisMaker(const LinearSystem& system, const Mesh& mesh, const ModalRequest& request)
       : system_(system),
         mesh_(mesh),
         request_(request),
+        water_(system),
         matrix_(mass_scaled(system, system.stiffest_matrix())),
         damping_(request.damping == nullptr
                      ? MatHandle()
@@ -46,10 +48,12 @@ class BasisMaker {
         dofs_(system.lumped_mass.size()),
         independent_(static_cast<std::size_t>(system.independent_dofs())),
         space_(system.comm, dofs_) {
+    for (MatHandle* const matrix : {&matrix_, &damping_}) water_.restrict_matrix(*matrix);
     if (system.rigid_bodies.empty()) return;
     admissible_.emplace(system, AdmissibleMotions::Alone::mass_scaled);
     idle_ = idle_value();
     restricted_ = admissible_->restrict_matrix(system.stiffest_matrix(), idle_);
+    water_.restrict_matrix(restricted_);
   }
 
   ModalBasis make() {
@@ -219,6 +223,7 @@ class BasisMaker {
 
   /// Static responses to forces M^1/2 f, without their part in the modes.
   DenseMatrix static_responses(DenseMatrix z) {
+    water_.from_force(z);
     space_.normalise(z);
     if (z.columns == 0) return z;
     change_columns(z, [this](auto& y) { admit(y); });
@@ -241,13 +246,16 @@ class BasisMaker {
   }
 
   /// Rayleigh-Ritz: the basis is W S with W the space and S^T (W^T A W) S diagonal.
-  void rotate(ModalBasis& basis) const {
+  void rotate(ModalBasis& basis) {
     DenseMatrix rotation = projected_matrix(matrix_);
     describe_residual_vectors(rotation, basis);
     basis.squared_frequency = symmetric_eigenvalues(rotation);
     for (double& value : basis.squared_frequency) value = std::max(value, 0.0);
     if (damping_.get() != nullptr) add_damping_weights(rotation, basis);
     find_modes_in(rotation, basis);
+    DenseMatrix columns = space_.release();
+    water_.to_scaled(columns);
+    space_.replace(std::move(columns));
     add_participation(rotation, basis);
     add_rows(rotation, basis);
     const auto parts = [&](const DenseMatrix& fields) {
@@ -366,6 +374,7 @@ class BasisMaker {
   const LinearSystem& system_;
   const Mesh& mesh_;
   const ModalRequest& request_;
+  WaterCoordinates water_;
   MatHandle matrix_;
   MatHandle damping_;  ///< see ModalRequest::damping
   std::size_t dofs_;

@@ -179,6 +179,15 @@ std::string hash_of(const std::vector<RigidNodes>& rigid) {
   return hash.text();
 }
 
+std::string hash_of(const std::vector<WaterBody>& waters) {
+  Hash hash;
+  for (const WaterBody& water : waters) {
+    hash.add(water.density, water.nodes, water.columns, water.laplacian);
+    for (const Vector3& area : water.area) hash.add(area);
+  }
+  return hash.text();
+}
+
 /// Formulations, materials, sections and whatever else makes element matrices.
 std::string hash_of(const std::vector<Region>& regions) {
   Hash hash;
@@ -296,6 +305,7 @@ BasisKey basis_key(const Structure& structure, const GlobalMesh& mesh,
   return {{"mesh", hash_of(mesh)},
           {"elements", hash_of(structure.regions) +
                            (structure.numbers == Numbers::in_single ? " in 32 bits" : "")},
+          {"water", hash_of(mesh.water)},
           {"matrices", hash_of_matrices(structure.matrices)},
           {"clamp", clamp.text()},
           {"rigid groups", hash_of(mesh.rigid)},

@@ -42,6 +42,11 @@ std::vector<double> weight_of(const LinearSystem& system, const Vector3& gravity
     const int direction = system.direction[i];
     if (direction >= 0) weight[i] = std::sqrt(system.lumped_mass[i]) * gravity[direction];
   }
+  const auto& [dofs, force] = system.water;
+  for (std::size_t k = 0; k < 3 * dofs.size(); ++k) {
+    const auto i = static_cast<std::size_t>(dofs[k / 3]);
+    weight[i] += std::sqrt(system.inverse_mass[i]) * force[k % 3][k / 3] * gravity[k % 3];
+  }
   return weight;
 }
 

@@ -46,18 +46,13 @@ GapWatch::Bound energy_bound(const interactions::ContactProblem& contact, std::s
   GapWatch::Bound bound;
   EnergyNorm norm(system, time_step, margin, work);
   for (std::size_t d = 0; d < 3; ++d) {
-    std::vector<double> force = system.influence(static_cast<int>(d));
-    std::transform(force.begin(), force.end(), system.lumped_mass.begin(), force.begin(),
-                   std::multiplies<>());
-    bound.force_norm[d] = norm.bound(std::move(force));
+    bound.force_norm[d] = norm.bound(system.ground_load(static_cast<int>(d)));
   }
   if (any_damped_about_rest(system)) {
     std::vector<double> load = rest_forces(system);
     for (std::size_t d = 0; d < 3; ++d) {
-      const std::vector<double> iota = system.influence(static_cast<int>(d));
-      for (std::size_t i = 0; i < load.size(); ++i) {
-        load[i] -= system.lumped_mass[i] * iota[i] * system.gravity[d];
-      }
+      const std::vector<double> of_ground = system.ground_load(static_cast<int>(d));
+      for (std::size_t i = 0; i < load.size(); ++i) load[i] -= of_ground[i] * system.gravity[d];
     }
     bound.rest_norm = norm.bound(std::move(load));
   }

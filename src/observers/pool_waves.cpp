@@ -77,6 +77,7 @@ PoolWaves::PoolWaves(const ObservedRun& run) : run_(run) {
     const auto first = std::ranges::find(structure.regions, true, &Region::of_water);
     auto region = static_cast<int>(first - structure.regions.begin());
     for (const Pool& pool : structure.pools) {
+      if (!pool.is_tank()) continue;
       std::array<std::map<TracePoint, double>, 2> weights;
       for (const WaterRegion& water : water_regions(pool)) {
         if (water.part == WaterPart::wave) {
@@ -118,6 +119,7 @@ void PoolWaves::report(RunStatistics& statistics) {
   std::size_t p = 0;
   for (const Structure& structure : run_.scene.structures) {
     for (const Pool& pool : structure.pools) {
+      if (!pool.is_tank()) continue;
       const double height = peaks_[2 * p];
       statistics.findings.add(
           "pools", pool.name,
@@ -136,8 +138,9 @@ void PoolWaves::report(RunStatistics& statistics) {
 
 OutputKind pool_output() {
   return output<PoolWaves>({}, [](const ObservedRun& run) {
-    return std::ranges::any_of(run.scene.structures,
-                               [](const Structure& structure) { return !structure.pools.empty(); });
+    return std::ranges::any_of(run.scene.structures, [](const Structure& structure) {
+      return std::ranges::any_of(structure.pools, &Pool::is_tank);
+    });
   });
 }
 

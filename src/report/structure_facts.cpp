@@ -149,7 +149,13 @@ Facts rigid_facts(const Building& building) {
 
 /// Water of a pool: its masses against motions along x and y.
 Facts pool_facts(const Structure& structure, const Pool& pool) {
-  const double mass = pool.density * pool.outline.volume();
+  const double mass = pool.density * pool.outline.volume;
+  if (!pool.is_tank()) {
+    Facts facts{FACTS_OF(pool.outline, corner, sides, depth, wetted, pressures)};
+    facts.add("mass", mass);
+    facts.say("  pool {}: {mass:.0f} kg of water, {wetted} wetted nodes, no waves\n", {pool.name});
+    return facts;
+  }
   Facts facts{FACTS_OF(pool.outline, corner, sides, depth, freeboard)};
   facts.add("mass", mass);
   facts.say(

@@ -60,10 +60,30 @@ void spare(const Structure& structure, WaterPart part, Region& region) {
   }
 }
 
+/// Refuses options beside which the added mass of water with cells would be left out.
+void refuse_beside_cells(const OptionReader& options, const Pool& pool,
+                         const Structure& structure) {
+  const std::string prefix = "-" + structure.name + "_";
+  const bool by_alpha =
+      structure.modal && structure.damping.alpha > 0 && structure.modal->damping_ratios.empty();
+  const bool starts =
+      structure.modal && (structure.starts_in_motion() || structure.starts_displaced());
+  const std::string other = starts                       ? "model modal and a start of its own"
+                            : structure.step_target      ? "time_step_target"
+                            : structure.mass_scaling > 0 ? "mass_scaling"
+                            : structure.switched         ? "model switched"
+                            : by_alpha                   ? "damping_alpha of a structure in modes"
+                                                         : "";
+  if (other.empty()) return;
+  options.refuse("<pool>_water", {pool.name},
+                 "not with " + prefix + other + ", which leaves the mass of the water out");
+}
+
 }  // namespace
 
 std::vector<WaterRegion> water_regions(const Pool& pool) {
   std::vector<WaterRegion> regions;
+  if (!pool.is_tank()) return regions;
   for (const std::size_t d : {0, 1, 2}) regions.push_back({WaterPart::impulsive, d});
   for (const std::size_t d : {0, 1}) {
     regions.push_back({WaterPart::convective, d});
@@ -93,7 +113,8 @@ void take_pools(const OptionReader& options, std::span<const Pool> pools, Struct
                      "not with -" + structure.name +
                          "_matrices; write the water into the matrices and leave the pool out");
     }
-    if (structure.uniform_damping && structure.uniform_damping->reference == 0) {
+    if (!pool.is_tank()) refuse_beside_cells(options, pool, structure);
+    if (pool.is_tank() && structure.uniform_damping && structure.uniform_damping->reference == 0) {
       options.refuse("<pool>_structure", names,
                      "the first mode is a wave now; give -" + structure.name +
                          "_damping_reference, the frequency of one of its own");
@@ -120,7 +141,7 @@ void fill_pools(std::span<const PoolOutline> outlines, Structure& structure) {
   for (std::size_t p = 0; p < structure.pools.size(); ++p) {
     Pool& pool = structure.pools[p];
     pool.outline = outlines[p];
-    const double mass = pool.density * pool.outline.volume();
+    const double mass = pool.density * pool.outline.volume;
     for (const auto& [part, direction, n] : water_regions(pool)) {
       Region& water = *region++;
       water.mass = mass;

@@ -24,7 +24,7 @@ struct WaterRegion {
   int mode = 0;  ///< of a wave or its dashpots, from 0
 };
 
-/// Regions of each pool, in their order among those of its structure.
+/// Regions of each pool, in their order among those of its structure; none of one with cells.
 std::vector<WaterRegion> water_regions(const Pool& pool);
 
 std::vector<Pool> read_pools(OptionReader& options, std::span<const std::string> names);

@@ -57,6 +57,7 @@ class SceneReader {
       scene_.supports.push_back(read_support(options_, name));
     }
     check_supports(options_, scene_);
+    for (const Support& support : scene_.supports) refuse_beside_water(support);
     for (const std::string& name : listed_.at(OptionBlock::load)) {
       scene_.loads.push_back(read_load(options_, scene_, name));
       group_points(scene_, name + "_on", scene_.loads.back().structure, scene_.loads.back().group);
@@ -207,6 +208,25 @@ class SceneReader {
     if (structure.mass_scaling > 0 && !scene_.export_matrices.empty()) {
       options_.refuse("export_matrices", {},
                       "structure " + structure.name + " has scaled mass, which is not diagonal");
+    }
+    for (const Pool& pool : structure.pools) {
+      if (!pool.is_tank() && !scene_.export_matrices.empty()) {
+        options_.refuse("export_matrices", {},
+                        "not with -" + pool.name + "_water, whose mass is not diagonal");
+      }
+    }
+  }
+
+  /// Water with cells follows the ground as one.
+  void refuse_beside_water(const Support& support) const {
+    for (const SupportedGroup& group : support.groups) {
+      const std::string& name = group.structure;
+      for (const Pool& pool : named_structure(options_, scene_, "", {}, name).pools) {
+        if (pool.is_tank()) continue;
+        options_.refuse("<pool>_water", {pool.name},
+                        "not with -supports " + support.name + ", which moves structure " + name +
+                            " apart from its ground");
+      }
     }
   }
 

@@ -59,10 +59,8 @@ class Search {
       links_.emplace_back(systems[s]);
       weight_.emplace_back(dofs, 0.0);
       for (std::size_t d = 0; d < 3; ++d) {
-        const std::vector<double> iota = systems[s].influence(static_cast<int>(d));
-        for (std::size_t i = 0; i < iota.size(); ++i) {
-          weight_[s][i] += systems[s].lumped_mass[i] * iota[i] * systems[s].gravity[d];
-        }
+        const std::vector<double> load = systems[s].ground_load(static_cast<int>(d));
+        for (std::size_t i = 0; i < dofs; ++i) weight_[s][i] += load[i] * systems[s].gravity[d];
       }
       if (systems[s].loads) systems[s].loads->add_at_rest(weight_[s]);
     }

@@ -7,11 +7,13 @@
 namespace pounding {
 
 CoupledMass::CoupledMass(std::span<const double> lumped_mass, NodeBlocks added,
-                         std::vector<RigidBody> bodies, std::vector<TiedPart> ties)
+                         std::vector<RigidBody> bodies, std::vector<TiedPart> ties,
+                         std::vector<AddedMass> waters)
     : added_(std::move(added)),
       factor_(lumped_mass, added_),
       bodies_(std::move(bodies)),
-      ties_(std::move(ties)) {
+      ties_(std::move(ties)),
+      waters_(std::move(waters)) {
   number_nodes();
 }
 
@@ -27,6 +29,7 @@ void CoupledMass::number_nodes() {
   };
   for (const RigidBody& body : bodies_) place_part(body.nodes());
   for (const TiedPart& tie : ties_) place_part(tie.nodes());
+  for (const AddedMass& water : waters_) place_part(water.nodes());
   for (const auto& [begin, entry] : places) {
     nodes_.push_back(entry.first);
     number_.push_back(entry.second);
@@ -51,6 +54,7 @@ void CoupledMass::for_each_part(double* x, Function&& function) const {
   auto first = first_node_.begin();
   for (const RigidBody& body : bodies_) function(body, x + width * *first++);
   for (const TiedPart& tie : ties_) function(tie, x + width * *first++);
+  for (const AddedMass& water : waters_) function(water, x + width * *first++);
 }
 
 void CoupledMass::solve(double* x) const {
@@ -64,8 +68,10 @@ void CoupledMass::solve(double* x, const Parts& parts) const {
     double* const place = x + width * first_node_[p];
     if (p < bodies_.size()) {
       bodies_[p].solve(place);
-    } else {
+    } else if (p - bodies_.size() < ties_.size()) {
       ties_[p - bodies_.size()].solve(place);
+    } else {
+      waters_[p - bodies_.size() - ties_.size()].solve(place);
     }
   }
 }
@@ -95,6 +101,7 @@ void CoupledMass::put(const double* x, double* owned) const {
 
 double CoupledMass::added_product(const double* v) const {
   double total = 0;
+  for (const AddedMass& water : waters_) total += water.added_product(v);
   for (const auto& [pair, block] : added_.blocks) {
     const NodeDofs& row = added_.nodes[pair[0]];
     const NodeDofs& column = added_.nodes[pair[1]];

@@ -73,6 +73,9 @@ class Assembly {
     bounds_.finish(system_);
     for (const auto& [dof, mass] : lent_) system_.lumped_mass[dof] = mass;
     reduce_over_ranks(mesh_.comm, MPI_SUM, system_.total_mass);
+    for (const WaterBody& water : mesh_.water) {
+      system_.total_mass += water.density * water.outline.volume;
+    }
     on_every_rank(mesh_.comm, [&] { added_mass_.finish(system_); });
     added_mass_.share(system_);
     system_.condensed_dofs = std::ssize(system_.condensed);

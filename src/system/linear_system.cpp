@@ -14,6 +14,13 @@ std::vector<double> LinearSystem::influence(int d) const {
   return iota;
 }
 
+std::vector<double> LinearSystem::ground_load(int d) const {
+  std::vector<double> load = influence(d);
+  for (std::size_t i = 0; i < load.size(); ++i) load[i] *= lumped_mass[i];
+  for (std::size_t k = 0; k < water.dofs.size(); ++k) load[water.dofs[k]] += water.force[d][k];
+  return load;
+}
+
 GlobalIndex LinearSystem::independent_dofs() const {
   GlobalIndex count = global_dofs;
   for (const RigidBodyReport& body : rigid_bodies) count -= body.dofs - body.motions;
@@ -30,6 +37,7 @@ LinearSystem describe_system(const Structure& structure, const Mesh& mesh) {
   system.initial_velocity = structure.initial_velocity;
   system.gravity = structure.gravity;
   system.global_dofs = mesh.global_dofs;
+  system.wet = !mesh.water.empty();
   system.has_laws_beside = std::ranges::any_of(structure.regions, follows_law);
   return system;
 }

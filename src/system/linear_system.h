@@ -47,6 +47,14 @@ struct GeneralisedCoordinates {
   std::vector<double> rows;                  ///< of Phi, shape (places, owned dofs) [kg^-1/2]
 };
 
+/// Force of the water in pools with cells by its pressure for a ground that is accelerated by 1
+/// along each axis, its pressure on held nodes counted [kg]; on the dofs of this rank that it
+/// presses on.
+struct WaterLoad {
+  std::vector<LocalIndex> dofs;
+  std::array<std::vector<double>, 3> force;
+};
+
 /// One building as a linear second-order system in the ground frame, whatever its origin:
 ///
 ///     (M + S) u'' + C u' + K u = -M iota a_g(t) + sum_l f_l(t) p_l + L^T r
@@ -55,7 +63,8 @@ struct GeneralisedCoordinates {
 /// or, with uniform damping over a band, s G K in place of K (see UniformDamping) and C = D, where
 /// the motions u are those that rigid bodies and ties admit (see RigidBody, TiedPart), with M
 /// diagonal, D the damping beside alpha and beta (dashpots, and regions damped otherwise), and S
-/// the mass that stiff elements are given for a longer time step, mostly none. Arrays hold this
+/// the mass that stiff elements are given for a longer time step, mostly none, or the added mass of
+/// water, for which the ground's force is -(M iota + w) a_g, see `ground_load`. Arrays hold this
 /// rank's owned dofs. Constant during a run; copies share their operators.
 struct LinearSystem {
   std::string name;
@@ -96,6 +105,8 @@ struct LinearSystem {
   GlobalIndex condensed_dofs = 0;
   RotaryScaling rotary_scaling;               ///< in `lumped_mass` already
   std::vector<RigidBodyReport> rigid_bodies;  ///< and ties, of all ranks
+  bool wet = false;                           ///< it has pools with cells of water
+  WaterLoad water;  ///< empty on ranks that have none of it, and in generalised coordinates
   /// M + S of the dofs in S, the rigid bodies and ties; null if this rank has none of them.
   std::shared_ptr<CoupledMass> coupled_mass;
   Vector3 initial_displacement{0, 0, 0};  ///< of every translation at t = 0 [m]
@@ -121,7 +132,7 @@ struct LinearSystem {
   std::vector<Sliver> slivers;  ///< the worst of every group that has any
 
   /// M + S is not diagonal, or rigid bodies or ties couple it, on some rank.
-  bool mass_is_coupled() const { return mass_scaling.elements > 0 || !rigid_bodies.empty(); }
+  bool mass_is_coupled() const { return mass_scaling.elements > 0 || !rigid_bodies.empty() || wet; }
   /// Dofs over all ranks; rigid bodies count by their motions, followers of a tie do not count.
   GlobalIndex independent_dofs() const;
   /// K for eigenvalues: every link at its stiffest.
@@ -140,6 +151,8 @@ struct LinearSystem {
   bool has_extra_damping() const { return extra_damping != nullptr; }
   /// iota of a direction [-].
   std::vector<double> influence(int d) const;
+  /// M iota + w of a direction, w the force of the water [kg]: the load of -1 m/s2 of the ground.
+  std::vector<double> ground_load(int d) const;
   LocalIndex owned_dofs() const { return static_cast<LocalIndex>(lumped_mass.size()); }
 };
 

@@ -223,6 +223,7 @@ std::vector<NodeCluster> coupled_nodes(const Structure& structure, const GlobalM
     couplings.join(part.nodes, false);
     for (const GlobalIndex node : part.nodes) rigid[node] = 1;
   }
+  for (const WaterBody& water : mesh.water) couplings.join(water.nodes, false);
   const auto meets_rigid = [&](std::span<const GlobalIndex> nodes) {
     return std::ranges::any_of(nodes, [&](GlobalIndex node) { return rigid[node] != 0; });
   };

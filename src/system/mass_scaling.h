@@ -87,9 +87,9 @@ double add_element_mass(double time_step, const Rayleigh& damping,
 /// Blocks that the factor of one group may have beside its diagonal, each kept twice: 0.6 GB.
 inline constexpr std::size_t most_factor_blocks = 1000000;
 
-/// Nodes that scaled elements, links or rigid bodies connect, group by group: M + S couples the
-/// dofs of the ones, the step solves for forces or motion of the others together, so one rank must
-/// own them. Elements that meet a rigid body are not scaled.
+/// Nodes that scaled elements, links, rigid bodies or water connect, group by group: M + S couples
+/// the dofs of the ones, the step solves for forces or motion of the others together, so one rank
+/// must own them. Elements that meet a rigid body are not scaled.
 /// `structure_number` is copied. Throws UserError where alpha alone forbids the wanted step or the
 /// factor of a group has more than `most_blocks`. Serial.
 std::vector<NodeCluster> coupled_nodes(const Structure& structure, const GlobalMesh& mesh,

@@ -12,6 +12,19 @@
 
 namespace pounding {
 
+namespace {
+
+void add_load(const AddedMass& water, WaterLoad& load) {
+  for (std::size_t n = 0; n < water.nodes().size(); ++n) {
+    for (int c = 0; c < std::min(water.nodes()[n].count, 3); ++c) {
+      load.dofs.push_back(water.nodes()[n].begin + c);
+      for (std::size_t d = 0; d < 3; ++d) load.force[d].push_back(water.ground_force(d)[n][c]);
+    }
+  }
+}
+
+}  // namespace
+
 double ScaledMass::add(const ElementBlock& block, std::size_t element, const Region& region,
                        std::span<const double> stiffness, std::span<const double> mass) {
   if (meets_rigid_body(mesh_, block, element)) {
@@ -107,9 +120,16 @@ void ScaledMass::finish(LinearSystem& system) {
     }
   }
   std::vector<TiedPart> ties = make_ties(system.lumped_mass);
-  if (!added.nodes.empty() || !bodies.empty() || !ties.empty()) {
-    system.coupled_mass = std::make_unique<CoupledMass>(system.lumped_mass, std::move(added),
-                                                        std::move(bodies), std::move(ties));
+  std::vector<AddedMass> waters;
+  for (const WaterBody& water : mesh_.water) {
+    waters.emplace_back(mesh_, water, system.lumped_mass);
+    add_load(waters.back(), system.water);
+    if (waters.back().nodes().empty()) waters.pop_back();
+  }
+  if (!added.nodes.empty() || !bodies.empty() || !ties.empty() || !waters.empty()) {
+    system.coupled_mass =
+        std::make_unique<CoupledMass>(system.lumped_mass, std::move(added), std::move(bodies),
+                                      std::move(ties), std::move(waters));
   }
 }
 

@@ -15,7 +15,7 @@ namespace pounding {
 
 /// Collects the mass S that the stiff elements of a structure are given (see mass_scaling.h),
 /// element by element in the order of the mesh, and leaves M + S factorised, with the structure's
-/// rigid bodies and ties.
+/// rigid bodies, ties and the water that it holds.
 class ScaledMass {
  public:
   ScaledMass(const Structure& structure, const Mesh& mesh) : structure_(structure), mesh_(mesh) {}

@@ -187,6 +187,8 @@ FEATURES = [
                                 "tank_structure": "@", "tank_faces": "basin,upside", "tank_level": 3.5, "tank_density": 1000.0,
                                 "tank_gravity": 9.80665, "tank_damping": .02}, beside="damping",
             spared={"all modes": "in modes the structure's damping is taken off the waves by strain energy"}),
+    Feature("water by cells", "element", {"@_basin_element": "shell", "@_basin_material": "concrete", "@_basin_thickness": .1, "pools": "+sea",
+                                          "sea_structure": "@", "sea_water": "sea_cells", "sea_density": 1000.0}),
 
     Feature("few modes", "model", {"@_model": "modal", "@_modal_vectors": 8}),
     Feature("chosen modes", "model", {"@_model": "modal", "@_modal_vectors": 8, "@_modal_candidates": 20}),

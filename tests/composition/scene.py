@@ -151,6 +151,7 @@ def houses(name, groups):
                                         for x in (0, .5) for z in (0, h / 2)]),
         "basin": lambda: ("quadrangle", [[find(*a, z), find(*b, z), find(*b, z + rise), find(*a, z + rise)] for a, b in edge
                                          for z in (top, top + rise)]),
+        "sea_cells": lambda: layers(top, top + rise, top + 2 * rise),
         "base": lambda: ("point", [[i] for i in feet]),
         "feet": lambda: ("point", [[i] for i in feet]),
         "west": lambda: ("point", [[feet[0]], [feet[3]]]),
@@ -189,7 +190,7 @@ def kept(write, kind):
     return name
 
 
-GROUPS = ("slab skewed prisms tets deck face upside column pier stay brace strut wall basin base feet west east pad ground pump nib block raft subgrade mast mast_foot "
+GROUPS = ("slab skewed prisms tets deck face upside column pier stay brace strut wall basin sea_cells base feet west east pad ground pump nib block raft subgrade mast mast_foot "
           "bottom curb curb_foot").split()
 
 BASE = {
@@ -239,7 +240,8 @@ class Scene:
         own = f"{structure}_"
         keys = [key.removeprefix(own) for key in self.options if key.startswith(own)]
         texts = [value for key, value in self.options.items() if key.startswith((own, f"p{own}")) and isinstance(value, str)]
-        texts += [value for key, value in self.options.items() if key.endswith("_faces") and self.options[key[:-5] + "structure"] == structure]
+        texts += [value for key, value in self.options.items()
+                  if key.endswith(("_faces", "_water")) and self.options[key[:-5] + "structure"] == structure]
         texts += re.findall(rf"\b{structure}:(\w+)", " ".join(v for v in self.options.values() if isinstance(v, str)))
         return {g for g in GROUPS if any(key.startswith(f"{g}_") for key in keys) or re.search(rf"\b{g}\b", " ".join(texts))}
 

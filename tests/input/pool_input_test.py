@@ -35,6 +35,33 @@ class Refused(unittest.TestCase):
         self.refused(["-tank_level", 0], "-tank_level", "z = 0 m", "leave the pool out")
         self.refused(["-tank_level", .5], "-tank_level", "too few rows of nodes", mesh="h=3,nz=3")
 
+    def test_water_options(self):
+        """Beside cells a pool has neither faces nor waves, and its structure nothing that leaves their mass out."""
+        for option, value in (("faces", "body"), ("level", 2.5), ("modes", 2), ("damping", .01), ("gravity", 9.8), ("freeboard", 1)):
+            self.refused_water([f"-tank_{option}", value], f"-tank_{option} {value}", "-tank_water")
+        self.refused_water(["-tank_density", 0], "-tank_density 0")
+        for words, other in ((["-t_mass_scaling", 1e-3], "-t_mass_scaling"),
+                             (["-t_time_step_target", 1e-3], "-t_time_step_target"),
+                             (["-t_model", "switched", "-t_modal_vectors", 5, "-t_switched_part", .01], "-t_model switched"),
+                             (["-t_model", "modal", "-t_modal_vectors", 5, "-t_damping_alpha", 1], "-t_damping_alpha"),
+                             (["-t_model", "modal", "-t_modal_vectors", 5, "-t_initial_velocity", "1,0,0"], "-t_model modal"),
+                             (["-supports", "s", "-s_groups", "t:floor", "-s_delay", .1, "-motion_x_record", program.write_samples([0, 1, 0], .01),
+                               "-motion_x_time_step", .01, "-motion_x_unit", "m/s2"], "-supports s")):
+            self.refused_water(words, "-tank_water water", other)
+        self.refused_water(["-export_matrices", "somewhere"], "-export_matrices", "-tank_water")
+        self.refused_water(["-t_clamp", "none", "-t_rigid", "high_x"], "-tank_water", "moves with high_x", ranks=2)
+
+    def test_cells(self):
+        self.refused_water(["-tank_water", "none"], "-tank_water", "'none'", "walls")
+        self.refused_water(["-tank_water", "walls"], "-tank_water walls", "no volume cells", ranks=2)
+        self.refused_water([], "-tank_water water", "its face around (", "line it with elements", mesh="water=1,half=1")
+        self.refused_water(["-t_water_element", "hex8", "-t_water_material", "concrete"], "-tank_water water", "name each cell once")
+        self.refused_water(["-pools", "tank,other", "-other_structure", "t", "-other_water", "water"], "-other_water water", "name each cell once")
+
+    def refused_water(self, words, *parts, mesh="water=1", ranks=1):
+        program.must_refuse(self, [*BASIN, "-t_mesh", "tests/meshes/basin.geo", "-t_mesh_set", mesh, "-pools", "tank", "-tank_structure", "t",
+                                   "-tank_water", "water", *words], *parts, ranks=ranks)
+
 
 if __name__ == "__main__":
     unittest.main()
