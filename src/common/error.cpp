@@ -9,19 +9,14 @@ void require_finite_file(const std::string& path, const std::string& place, std:
   std::error_code failure;
   const std::filesystem::file_status status = std::filesystem::status(path, failure);
   if (failure || !std::filesystem::exists(status)) return;
-  if (std::filesystem::is_directory(status)) {
-    throw UserError(place + path + ": is a folder; give a file");
-  }
-  if (!std::filesystem::is_regular_file(status)) {
-    throw UserError(place + path + ": is a device, a pipe or a socket, which may have no end; " +
-                    "give a file");
-  }
+  refuse_if(std::filesystem::is_directory(status), place + path + ": is a folder; give a file");
+  refuse_if(
+      !std::filesystem::is_regular_file(status),
+      place + path + ": is a device, a pipe or a socket, which may have no end; " + "give a file");
   const std::uintmax_t size = std::filesystem::file_size(path, failure);
-  if (!failure && size > most) {
-    throw UserError(place + path + ": holds " + std::to_string(size / 1000000) +
-                    " MB, which is no such file; at most " + std::to_string(most / 1000000) +
-                    " MB are read");
-  }
+  refuse_if(!failure && size > most, place + path + ": holds " + std::to_string(size / 1000000) +
+                                         " MB, which is no such file; at most " +
+                                         std::to_string(most / 1000000) + " MB are read");
 }
 
 std::string place_text(const Vector3& place) {

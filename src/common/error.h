@@ -28,6 +28,12 @@ class DivergenceError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Throws UserError if something is wrong. `why` is made in any case: it must name nothing that is
+/// there only then, and loops over a mesh throw on their own.
+inline void refuse_if(bool wrong, const std::string& why) {
+  if (wrong) throw UserError(why);
+}
+
 /// Bytes of the largest table or record that is read; meshes and matrices may be larger.
 constexpr std::uintmax_t largest_text = 512'000'000;
 

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace pounding {
 
@@ -21,5 +23,12 @@ inline constexpr std::array<std::string_view, 6> motion_names{"x", "y", "z", "rx
 /// Components of a node's displacement as files name them: translations, then rotations.
 inline constexpr std::array<std::string_view, 6> component_names{"ux", "uy", "uz",
                                                                  "rx", "ry", "rz"};
+
+/// Names of things that have one.
+std::vector<std::string> names_of(const auto& things) {
+  std::vector<std::string> names;
+  for (const auto& thing : things) names.push_back(thing.name);
+  return names;
+}
 
 }  // namespace pounding

@@ -83,10 +83,9 @@ void use_vector_unit(MPI_Comm comm, std::string_view name) {
   if (name == "auto") return use_unit_number(common);
   const auto* const found = std::ranges::find(names, name);
   const auto unit = static_cast<std::size_t>(found - std::begin(names));
-  if (found == std::end(names)) {
-    throw UserError("option -vector_unit " + std::string(name) + ": the program was built for " +
-                    compiled() + "; -DPOUNDING_VECTOR_UNITS=all builds it for all units");
-  }
+  refuse_if(found == std::end(names), "option -vector_unit " + std::string(name) +
+                                          ": the program was built for " + compiled() +
+                                          "; -DPOUNDING_VECTOR_UNITS=all builds it for all units");
   if (unit <= common) return use_unit_number(unit);
   throw UserError("option -vector_unit " + std::string(name) +
                   ": the best that program and machine have is " + names[common]);

@@ -152,13 +152,11 @@ ModalRequest modal_request(MPI_Comm comm, const Scene& scene, std::size_t s, con
 void forbid_damping_matrix(const Structure& structure) {
   if (structure.matrices.empty()) return;
   const std::string path = matrix_file(structure.matrices, "damping");
-  if (!path.empty()) {
-    throw UserError("option -" + structure.name + "_matrices " + structure.matrices + ": " + path +
-                    " would be lost with -" + structure.name +
-                    (structure.switched ? "_model switched" : "_model modal") +
-                    "; take the file away and give -" + structure.name +
-                    "_modal_damping or _damping, or -" + structure.name + "_model full");
-  }
+  refuse_if(!path.empty(), "option -" + structure.name + "_matrices " + structure.matrices + ": " +
+                               path + " would be lost with -" + structure.name +
+                               (structure.switched ? "_model switched" : "_model modal") +
+                               "; take the file away and give -" + structure.name +
+                               "_modal_damping or _damping, or -" + structure.name + "_model full");
 }
 
 /// Runs an action on a file; its errors become the user's.

@@ -52,11 +52,9 @@ std::optional<SavedState> read_restart(MPI_Comm comm, const Scene& scene, const 
   SavedState saved = read_checkpoint(comm, scene.restart, identity, model.meshes, model.systems);
   const std::int64_t step = saved.integer("step");
   if (step < 0) saved.refuse_values("step");
-  if (step > model.steps) {
-    throw UserError(
-        sentence("option -end_time {} s: the checkpoint {} stands at {} s already",
-                 {scene.end_time, scene.restart, static_cast<double>(step) * model.time_step}));
-  }
+  refuse_if(step > model.steps,
+            sentence("option -end_time {} s: the checkpoint {} stands at {} s already",
+                     {scene.end_time, scene.restart, static_cast<double>(step) * model.time_step}));
   if (rank_of(comm) == 0) print_restart(scene, model, step);
   return saved;
 }

@@ -19,14 +19,8 @@
 namespace pounding {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what, const std::string& remedy) {
-  throw UserError("option -ensemble: " + what + "; " + remedy);
-}
-
-void require_lasting_pairs(const Contact& contact) {
-  if (contact.sliding == 0) return;
-  refuse("the pairs of contact " + contact.name + " are found anew",
-         "leave -" + contact.name + "_sliding out");
+void refuse_scene_if(bool wrong, const std::string& what, const std::string& remedy) {
+  refuse_if(wrong, "option -ensemble: " + what + "; " + remedy);
 }
 
 /// Elements have the numbers of all members: no factor on their stiffness, nor on damping that
@@ -147,27 +141,25 @@ Model member_structures(const MemberScene& member, const EnsembleModel& shared) 
 }  // namespace
 
 void require_ensemble_scene(const Scene& scene) {
-  for (const Contact& contact : scene.contacts) require_lasting_pairs(contact);
+  for (const Contact& contact : scene.contacts) {
+    refuse_scene_if(contact.sliding != 0,
+                    "the pairs of contact " + contact.name + " are found anew",
+                    "leave -" + contact.name + "_sliding out");
+  }
   for (const ForceItem& force : scene.forces) {
-    if (force.of_elements()) {
-      refuse("forces " + force.name + " are those of elements",
-             "leave them out of -forces: members keep reactions, storeys and cuts");
-    }
+    refuse_scene_if(force.of_elements(), "forces " + force.name + " are those of elements",
+                    "leave them out of -forces: members keep reactions, storeys and cuts");
   }
-  if (!scene.equipment.empty()) {
-    refuse("equipment is set beside its floors' spectra", "give -equipment none");
-  }
-  if (scene.certificate.window > 0) {
-    refuse("-fidelity_window is about single runs", "leave it out");
-  }
-  if (!scene.loops.empty()) refuse("loops are recorded", "give -loops none");
-  if (scene.fields_interval > 0) refuse("fields are written", "give -fields_interval 0");
-  if (!scene.restart.empty()) {
-    refuse("-restart continues single runs",
-           "leave it out: an ensemble goes on by itself in its folder");
-  }
-  if (scene.probes.empty()) refuse("there is nothing to record", "give -probes");
-  if (scene.allow_unstable) refuse("-allow_unstable is for single runs", "leave it out");
+  refuse_scene_if(!scene.equipment.empty(), "equipment is set beside its floors' spectra",
+                  "give -equipment none");
+  refuse_scene_if(scene.certificate.window > 0, "-fidelity_window is about single runs",
+                  "leave it out");
+  refuse_scene_if(!scene.loops.empty(), "loops are recorded", "give -loops none");
+  refuse_scene_if(scene.fields_interval > 0, "fields are written", "give -fields_interval 0");
+  refuse_scene_if(!scene.restart.empty(), "-restart continues single runs",
+                  "leave it out: an ensemble goes on by itself in its folder");
+  refuse_scene_if(scene.probes.empty(), "there is nothing to record", "give -probes");
+  refuse_scene_if(scene.allow_unstable, "-allow_unstable is for single runs", "leave it out");
 }
 
 MemberScene read_member(const Scene& shared, const OptionsDatabase& scene, const MemberTable& table,

@@ -66,11 +66,10 @@ class Ensemble {
   std::string path(const char* name) const { return scene_.output + "/" + name; }
 
   void read_members() {
-    for (const Contact& contact : scene_.contacts) {
-      layout_.contacts.push_back(contact.name);
-      layout_.friction = layout_.friction || contact.friction > 0;
-    }
-    for (const Span& span : scene_.spans) layout_.spans.push_back(span.name);
+    layout_.contacts = names_of(scene_.contacts);
+    layout_.friction = std::ranges::any_of(
+        scene_.contacts, [](const Contact& contact) { return contact.friction > 0; });
+    layout_.spans = names_of(scene_.spans);
     layout_.struck = scene_.struck;
     table_ = read_member_table(comm_, read_.ensemble, scene_);
     layout_.table = &table_;
@@ -134,12 +133,11 @@ class Ensemble {
       const StepLimits own = member_limits(members_[m], parts_);
       limits.stable = std::min(limits.stable, own.stable);
       limits.resolved = faster(limits.resolved, own.resolved);
-      if (scene_.time_step > own.stable) {
-        throw UserError(table_.place(m) +
-                        sentence("option -time_step {} s: above its stable time step {} s; give a "
-                                 "smaller one, or leave it out",
-                                 {scene_.time_step, own.stable}));
-      }
+      refuse_if(scene_.time_step > own.stable,
+                table_.place(m) +
+                    sentence("option -time_step {} s: above its stable time step {} s; give a "
+                             "smaller one, or leave it out",
+                             {scene_.time_step, own.stable}));
     }
     choose_time_step(scene_, limits, shared_);
     choose_time_step(scene_, limits, model());
@@ -157,7 +155,7 @@ class Ensemble {
         layout_.channels.push_back(probe.name + " " + direction);
       }
     }
-    for (const ResolvedProbe& base : shared_.storey_bases) layout_.bases.push_back(base.name);
+    layout_.bases = names_of(shared_.storey_bases);
     for (const interactions::Constraint& row : shared_.interface.constraints) {
       layout_.pair_contacts.push_back(row.contact);
       layout_.pair_places.insert(layout_.pair_places.end(), row.at.begin(), row.at.end());

@@ -62,9 +62,8 @@ void CsvFile::close() {
   const bool failed = std::ferror(file_) != 0;
   const bool lost = (target_ == Target::device ? std::fclose(file_) : std::fflush(file_)) != 0;
   file_ = nullptr;
-  if ((failed || lost) && !unread) {
-    throw UserError(path_ + ": could not be written completely (is the disk full?)");
-  }
+  refuse_if((failed || lost) && !unread,
+            path_ + ": could not be written completely (is the disk full?)");
 }
 
 }  // namespace pounding

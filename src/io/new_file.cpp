@@ -21,9 +21,8 @@ void free_name(const std::string& path) {
   std::error_code failure;
   const fs::file_status there = fs::symlink_status(path, failure);
   if (!fs::exists(there)) return;
-  if (!fs::is_regular_file(there) && !fs::is_symlink(there)) {
-    throw UserError(path + ": cannot be written: something that is no file has that name");
-  }
+  refuse_if(!fs::is_regular_file(there) && !fs::is_symlink(there),
+            path + ": cannot be written: something that is no file has that name");
   if (unlink(path.c_str()) != 0 && errno != ENOENT) {
     throw UserError(path + ": cannot be written (" + std::strerror(errno) + ")");
   }
@@ -31,9 +30,8 @@ void free_name(const std::string& path) {
 
 void require_no_link(const std::string& path) {
   std::error_code failure;
-  if (fs::is_symlink(fs::symlink_status(path, failure))) {
-    throw UserError(path + ": a symbolic link, which is not followed for writing; take it away");
-  }
+  refuse_if(fs::is_symlink(fs::symlink_status(path, failure)),
+            path + ": a symbolic link, which is not followed for writing; take it away");
 }
 
 NewFile::NewFile(const std::string& path) : path_(path) {

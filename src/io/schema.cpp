@@ -1,8 +1,8 @@
 #include "io/schema.h"
 
-#include <sstream>
 #include <stdexcept>
 
+#include "common/facts.h"
 #include "common/version.h"
 
 namespace pounding::schema {
@@ -12,9 +12,7 @@ namespace {
 std::string schema_of(const Hdf5Reader& file) {
   for (const char* attribute : {"schema", "version"}) {
     try {
-      std::ostringstream text;
-      text << "of schema " << file.number("/", attribute);
-      return text.str();
+      return sentence("of schema {}", {file.number("/", attribute)});
     } catch (const std::runtime_error&) {
       continue;
     }

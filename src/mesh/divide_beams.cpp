@@ -100,11 +100,10 @@ class BeamDivider {
     const double length = norm(minus(position(last), position(first)));
     const double beams = std::ldexp(beams_per_half_wave, splits_);
     const double parts = std::ceil(beams * length / half_wave_of(region));
-    if (!(parts <= most_parts)) {
-      throw UserError("option -" + structure_.name + "_" + region.group +
-                      "_divide auto: a line would become more than a thousand beams up to the "
-                      "highest of -spectra_frequencies; lower that, or give a count");
-    }
+    refuse_if(!(parts <= most_parts),
+              "option -" + structure_.name + "_" + region.group +
+                  "_divide auto: a line would become more than a thousand beams up to the "
+                  "highest of -spectra_frequencies; lower that, or give a count");
     return std::max<std::size_t>(1, static_cast<std::size_t>(parts));
   }
 

@@ -36,11 +36,10 @@ void check_header(const std::string& option, const std::filesystem::path& file) 
   std::getline(stream, line);
   const bool known = line.starts_with("$MeshFormat") || line.starts_with("$Comments") ||
                      line.starts_with("$NOD") || line.starts_with("$NOE");
-  if (!known) {
-    throw UserError("option " + option + ": " + file.string() +
-                    " line 1: a .msh file begins with $MeshFormat, this one does not; export the "
-                    "mesh again");
-  }
+  refuse_if(!known,
+            "option " + option + ": " + file.string() +
+                " line 1: a .msh file begins with $MeshFormat, this one does not; export the "
+                "mesh again");
 }
 
 /// Gmsh passes over statements of a geometry that is one line without an end.
@@ -113,20 +112,16 @@ bool is_geometry(const std::filesystem::path& file) {
 }
 
 void check_mesh_file(const std::string& option, const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file)) {
-    throw UserError("option " + option +
-                    ": no such file; give the path of a Gmsh .geo or .msh file");
-  }
+  refuse_if(!std::filesystem::is_regular_file(file),
+            "option " + option + ": no such file; give the path of a Gmsh .geo or .msh file");
   const std::string ending = file.extension().string();
-  if (contains(models, ending)) {
-    throw UserError("option " + option + ": files with the ending '" + ending +
-                    "' are not meshes of Gmsh; run/import makes a scene and a .msh of it "
-                    "(docs/manual/import.md)");
-  }
-  if (!is_geometry(file) && !contains(meshes, ending)) {
-    throw UserError("option " + option + ": files with the ending '" + ending +
-                    "' are not read; give a Gmsh .geo or .msh file (or .mesh, .bdf, .nas)");
-  }
+  refuse_if(contains(models, ending),
+            "option " + option + ": files with the ending '" + ending +
+                "' are not meshes of Gmsh; run/import makes a scene and a .msh of it "
+                "(docs/manual/import.md)");
+  refuse_if(!is_geometry(file) && !contains(meshes, ending),
+            "option " + option + ": files with the ending '" + ending +
+                "' are not read; give a Gmsh .geo or .msh file (or .mesh, .bdf, .nas)");
   if (ending == ".msh") check_header(option, file);
   if (is_geometry(file)) check_line_end(option, file);
 }

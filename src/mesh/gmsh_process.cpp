@@ -14,12 +14,12 @@
 #include <poll.h>
 #include <span>
 #include <spawn.h>
-#include <sstream>
 #include <stdexcept>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "common/error.h"
+#include "common/facts.h"
 #include "scene/option_values.h"
 
 namespace pounding {
@@ -229,21 +229,19 @@ RawAnswer GmshRun::answer() {
                          static_cast<std::size_t>(most_answer));
   } catch (const AnswerCut&) {  // its exit status has the reason
   } catch (const TimeIsUp&) {
-    std::ostringstream text;
-    text << "option " << request_.option << ": Gmsh was not done after " << request_.time_limit
-         << " s; look for a loop without end or too fine a mesh, or give a larger "
-            "-mesh_time_limit";
-    throw UserError(text.str());
+    throw UserError(sentence(
+        "option {}: Gmsh was not done after {} s; look for a loop without end or too fine a mesh, "
+        "or give a larger -mesh_time_limit",
+        {request_.option, request_.time_limit}));
   }
   const int status = process.end(false);
   const std::string head = "option " + request_.option + ": ";
   if (status != 0 || !answer) {
     throw UserError(head + describe_end(status, process.last_words()));
   }
-  if (!answer->denied.empty()) {
-    throw UserError(head + "stopped as it was about to " + answer->denied +
-                    ", and a mesh may only be read; take that out of the file");
-  }
+  refuse_if(!answer->denied.empty(),
+            head + "stopped as it was about to " + answer->denied +
+                ", and a mesh may only be read; take that out of the file");
   if (!answer->error.empty()) {
     std::ranges::replace(answer->error, '\n', ' ');
     throw UserError(head + "Gmsh could not read it (" + answer->error + ")");

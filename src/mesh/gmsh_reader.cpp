@@ -38,10 +38,9 @@ std::unique_ptr<GmshRun> begin_raw_mesh(const Structure& structure, double time_
   request.make = is_geometry(structure.mesh);
   request.parameters = structure.mesh_set;
   check_mesh_file(request.option, structure.mesh);
-  if (!request.make && !structure.mesh_set.empty()) {
-    throw UserError("option -" + structure.name + "_mesh_set: " + structure.mesh +
-                    " is a mesh, parameters apply to .geo files only");
-  }
+  refuse_if(!request.make && !structure.mesh_set.empty(),
+            "option -" + structure.name + "_mesh_set: " + structure.mesh +
+                " is a mesh, parameters apply to .geo files only");
   return std::make_unique<GmshRun>(std::move(request));
 }
 

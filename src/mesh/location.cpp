@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <sstream>
 #include <vector>
 
+#include "common/error.h"
 #include "common/parallel.h"
 #include "elements/element_traits.h"
 
@@ -15,10 +15,8 @@ namespace {
 
 /// (x, y, z) to a tenth of a millimetre.
 std::string describe_position(const Vector3& x) {
-  std::ostringstream text;
-  text << "(" << std::round(1e4 * x[0]) / 1e4 << ", " << std::round(1e4 * x[1]) / 1e4 << ", "
-       << std::round(1e4 * x[2]) / 1e4 << ")";
-  return text.str();
+  const auto rounded = [](double value) { return std::round(1e4 * value) / 1e4; };
+  return place_text({rounded(x[0]), rounded(x[1]), rounded(x[2])});
 }
 
 /// The first element of the file that holds a node; empty if none does.

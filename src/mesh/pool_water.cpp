@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <sstream>
 
 #include "common/error.h"
+#include "common/facts.h"
 #include "elements/rigid_tank.h"
 #include "mesh/facet_point.h"
 #include "scene/pool_reader.h"
@@ -92,11 +92,7 @@ class Water {
 
   double tolerance() const { return 1e-6 * box_.diagonal(); }
 
-  static std::string number_text(double value) {
-    std::ostringstream text;
-    text << value;
-    return text.str();
-  }
+  static std::string number_text(double value) { return sentence("{}", {value}); }
 
   void sort_facets(const std::vector<Facet>& facets) {
     for (const Facet& facet : facets) {

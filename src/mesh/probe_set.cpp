@@ -1,12 +1,11 @@
 #include "mesh/probe_set.h"
 
 #include <algorithm>
-#include <iomanip>
 #include <limits>
 #include <set>
-#include <sstream>
 
 #include "common/error.h"
+#include "common/facts.h"
 #include "mesh/element_checks.h"
 #include "scene/law_kinds.h"
 
@@ -24,10 +23,9 @@ SnappedPoint nearest_node(const GlobalMesh& mesh, const std::string& option,
                           const std::string& structure, const Vector3& point) {
   constexpr double far = 0.05;        // of the extent of the mesh
   constexpr double round_off = 1e-9;  // m
-  if (mesh.node_count() == 0) {
-    throw UserError("option -" + option + ": structure " + structure +
-                    " has no element of its mesh, whose nodes could be near points");
-  }
+  refuse_if(mesh.node_count() == 0,
+            "option -" + option + ": structure " + structure +
+                " has no element of its mesh, whose nodes could be near points");
   GlobalIndex best = 0;
   double best_distance = std::numeric_limits<double>::max();
   for (GlobalIndex node = 0; node < mesh.node_count(); ++node) {
@@ -41,13 +39,10 @@ SnappedPoint nearest_node(const GlobalMesh& mesh, const std::string& option,
   double farthest = far * bounding_box({&mesh, 1}).diagonal();
   const double size = best_distance > 0 ? element_size_at(mesh, best) : 0;
   if (size > 0) farthest = std::min(farthest, size);
-  if (best_distance > farthest) {
-    std::ostringstream text;
-    text << "option -" << option << ": the point (" << point[0] << ", " << point[1] << ", "
-         << point[2] << ") is " << best_distance << " m away from the nearest node of structure "
-         << structure << "; give a point on the mesh";
-    throw UserError(text.str());
-  }
+  refuse_if(best_distance > farthest,
+            sentence("option -{}: the point {} is {} m away from the nearest node of structure {}; "
+                     "give a point on the mesh",
+                     {option, place_text(point), best_distance, structure}));
   return {best, best_distance, size > 0 ? size : farthest};
 }
 
@@ -60,11 +55,9 @@ std::vector<SnappedPoint> probe_nodes(const Probe& probe, const GlobalMesh& mesh
     return nodes;
   }
   const auto found = mesh.groups.find(probe.group);
-  if (found == mesh.groups.end() || found->second.nodes.empty()) {
-    throw UserError("option -" + probe.name + "_group: group '" + probe.group +
-                    "' is not in the mesh of " + probe.structure +
-                    ", which has: " + group_names(mesh));
-  }
+  refuse_if(found == mesh.groups.end() || found->second.nodes.empty(),
+            "option -" + probe.name + "_group: group '" + probe.group + "' is not in the mesh of " +
+                probe.structure + ", which has: " + group_names(mesh));
   for (const GlobalIndex node : found->second.nodes) nodes.push_back({node, 0, 0});
   return nodes;
 }
@@ -174,11 +167,10 @@ std::string snap_doubt(const std::string& owner, double distance, double element
   constexpr double far_snap = 0.2;   // of the largest element at the node
   constexpr double far_place = 0.5;  // m, however large elements are
   if (distance <= std::min(far_snap * element_size, far_place)) return "";
-  std::ostringstream text;
-  text << std::setprecision(3) << owner << ": its node is " << distance
-       << " m away from the point asked for, where elements measure " << element_size
-       << " m; give the place of a node, or refine the mesh";
-  return text.str();
+  return sentence(
+      "{}: its node is {:.3g} m away from the point asked for, where elements measure {:.3g} m; "
+      "give the place of a node, or refine the mesh",
+      {owner, distance, element_size});
 }
 
 void add_point_groups(const Structure& structure, GlobalMesh& mesh) {

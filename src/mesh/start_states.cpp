@@ -178,11 +178,10 @@ std::vector<NodalStart> find_start_states(const Scene& scene, std::span<const Gl
   for (std::size_t s = 0; s < meshes.size(); ++s) {
     const Structure& structure = scene.structures[s];
     starts.push_back(StartMaker(structure, meshes[s]).make());
-    if (scene.preload && !starts.back().displacement.empty()) {
-      throw UserError("option -" + structure.name + "_initial_state " + structure.initial_state +
-                      ": the run starts from the static equilibrium; no displacements with "
-                      "-preload static");
-    }
+    refuse_if(scene.preload && !starts.back().displacement.empty(),
+              "option -" + structure.name + "_initial_state " + structure.initial_state +
+                  ": the run starts from the static equilibrium; no displacements with "
+                  "-preload static");
   }
   return starts;
 }

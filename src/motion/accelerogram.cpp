@@ -18,50 +18,39 @@ namespace {
 constexpr double longest_step = 0.1;  // s: beyond any accelerogram, unless the option says so
 
 void check_count(const std::string& file, const RecordHeader& header, std::vector<double>& values) {
-  if (values.size() < 2) {
-    throw UserError(file + ": holds " + std::to_string(values.size()) +
-                    " value; an accelerogram needs at least 2");
-  }
+  refuse_if(values.size() < 2, file + ": holds " + std::to_string(values.size()) +
+                                   " value; an accelerogram needs at least 2");
   if (!header.number_of_values()) return;
   const long long announced = *header.number_of_values();
   const auto found = static_cast<long long>(values.size());
   const bool surplus_is_zero = std::all_of(values.begin() + std::min(announced, found),
                                            values.end(), [](double value) { return value == 0; });
-  if (found < announced || !surplus_is_zero) {
-    throw UserError(file + ": the header announces " + std::to_string(announced) + " values but " +
-                    std::to_string(found) +
-                    " are found; the header or the file is not the right one");
-  }
+  refuse_if(found < announced || !surplus_is_zero,
+            file + ": the header announces " + std::to_string(announced) + " values but " +
+                std::to_string(found) + " are found; the header or the file is not the right one");
   values.resize(std::min(announced, found));
 }
 
 double choose_time_step(const RecordedMotion& motion, const RecordHeader& header, double column) {
   const double option = motion.time_step;
-  if (!std::isfinite(option) || option < 0) {
-    throw UserError(motion.file + ": time_step " + text_of(option) + " must be positive [s]");
-  }
+  refuse_if(!std::isfinite(option) || option < 0,
+            motion.file + ": time_step " + text_of(option) + " must be positive [s]");
   const double stated = header.time_step().value_or(0);
   double chosen = 0;
   for (const double step : {stated, option, column}) {
     if (step == 0) continue;
-    if (chosen > 0 && std::abs(step / chosen - 1) > 1e-3) {
-      throw UserError(
-          motion.file + ": time step " + text_of(chosen) + " s and " + text_of(step) +
-          " s contradict one another (header, option time_step, time column); correct one");
-    }
+    refuse_if(chosen > 0 && std::abs(step / chosen - 1) > 1e-3,
+              motion.file + ": time step " + text_of(chosen) + " s and " + text_of(step) +
+                  " s contradict one another (header, option time_step, time column); correct one");
     if (chosen == 0) chosen = step;
   }
-  if (chosen == 0) {
-    throw UserError(motion.file + ": the time step is not in the file; give time_step [s]");
-  }
-  if (chosen > longest_step && option == 0) {
-    throw UserError(motion.file + ": a time step of " + text_of(chosen) + " s (from the " +
-                    (stated > 0 ? "header" : "time column") + ") is above " +
-                    text_of(longest_step) +
-                    " s: are the times not seconds, or is that column no time? Correct the file, "
-                    "or give time_step: " +
-                    text_of(chosen) + " if it is meant");
-  }
+  refuse_if(chosen == 0, motion.file + ": the time step is not in the file; give time_step [s]");
+  refuse_if(chosen > longest_step && option == 0,
+            motion.file + ": a time step of " + text_of(chosen) + " s (from the " +
+                (stated > 0 ? "header" : "time column") + ") is above " + text_of(longest_step) +
+                " s: are the times not seconds, or is that column no time? Correct the file, "
+                "or give time_step: " +
+                text_of(chosen) + " if it is meant");
   return chosen;
 }
 
@@ -92,10 +81,9 @@ void take_unit(const RecordedMotion& motion, const RecordUnit& unit, const std::
                             ": the header says mm/s2 but m/s2 is asked and taken; leave unit out, "
                             "and a scale of 0.001 as well");
   }
-  if ((unit.name == "g" || unit.name == "g/10") && record.peak() > largest_peak) {
-    throw UserError(motion.file + ": in " + unit.name + " the peak would be " +
-                    text_of(record.peak() / standard_gravity) + " g; correct the unit");
-  }
+  refuse_if((unit.name == "g" || unit.name == "g/10") && record.peak() > largest_peak,
+            motion.file + ": in " + unit.name + " the peak would be " +
+                text_of(record.peak() / standard_gravity) + " g; correct the unit");
 }
 
 Accelerogram read_format(const RecordedMotion& motion, const RecordFormat& format,

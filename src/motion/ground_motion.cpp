@@ -24,39 +24,30 @@ constexpr double resting = 0.05;
 
 void check_scaling(const std::string& name, const MotionComponent& component) {
   const double pga = component.pga, scale = component.scale;
-  if (!std::isfinite(pga) || pga < 0) {
-    throw UserError(name + ": pga " + text_of(pga) + " must be positive [m/s2]");
-  }
-  if (!std::isfinite(scale)) {
-    throw UserError(name + ": scale " + text_of(scale) + " must be a finite number");
-  }
-  if (pga > 0 && scale != 1) {
-    throw UserError(name + ": pga " + text_of(pga) + " and scale " + text_of(scale) +
-                    " exclude one another; give one of them");
-  }
-  if (pga == 0 && std::holds_alternative<SyntheticMotion>(component.source)) {
-    throw UserError(name + ": a synthetic motion needs a pga [m/s2]");
-  }
+  refuse_if(!std::isfinite(pga) || pga < 0,
+            name + ": pga " + text_of(pga) + " must be positive [m/s2]");
+  refuse_if(!std::isfinite(scale), name + ": scale " + text_of(scale) + " must be a finite number");
+  refuse_if(pga > 0 && scale != 1, name + ": pga " + text_of(pga) + " and scale " + text_of(scale) +
+                                       " exclude one another; give one of them");
+  refuse_if(pga == 0 && std::holds_alternative<SyntheticMotion>(component.source),
+            name + ": a synthetic motion needs a pga [m/s2]");
 }
 
 double scaling_factor(const std::string& name, const MotionComponent& component,
                       const MotionDescription& description) {
   if (component.pga == 0) return component.scale;
   const double factor = component.pga / description.file_peak;
-  if (!std::isfinite(factor)) {
-    throw UserError(name + ": " + description.source +
-                    " is zero throughout and cannot be scaled to pga " + text_of(component.pga) +
-                    "; leave pga out or give another record");
-  }
+  refuse_if(!std::isfinite(factor),
+            name + ": " + description.source + " is zero throughout and cannot be scaled to pga " +
+                text_of(component.pga) + "; leave pga out or give another record");
   return factor;
 }
 
 void require_possible_peak(const std::string& name, const std::string& what, double peak) {
-  if (!(peak <= impossible_peak)) {
-    throw UserError(name + ": " + what + " " + text_of(peak) + " m/s2 (" +
-                    text_of(peak / standard_gravity) + " g) is above " + text_of(impossible_peak) +
-                    " m/s2 (10000 g), which nothing bears; correct unit, scale or pga");
-  }
+  refuse_if(!(peak <= impossible_peak),
+            name + ": " + what + " " + text_of(peak) + " m/s2 (" +
+                text_of(peak / standard_gravity) + " g) is above " + text_of(impossible_peak) +
+                " m/s2 (10000 g), which nothing bears; correct unit, scale or pga");
 }
 
 /// Motion of a ground that starts at rest: at the end, and the largest displacement at the samples.

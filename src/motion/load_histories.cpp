@@ -101,9 +101,8 @@ void read_table(const std::string& load, LoadFunction& function) {
     function.times.push_back(numbers[0]);
     function.values.push_back(numbers[1]);
   }
-  if (function.times.empty()) {
-    throw UserError("option -" + load + "_table " + function.file + ": no pair of time and value");
-  }
+  refuse_if(function.times.empty(),
+            "option -" + load + "_table " + function.file + ": no pair of time and value");
 }
 
 }  // namespace

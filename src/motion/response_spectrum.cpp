@@ -104,10 +104,9 @@ std::vector<std::vector<SpectrumPoint>> rotated_spectra(
     std::span<const double> first, std::span<const double> second, double time_step,
     std::span<const double> frequencies, std::span<const double> damping_ratios,
     std::span<const double> percentiles, AfterRecord after) {
-  if (first.size() != second.size()) {
-    throw UserError("two components of " + std::to_string(first.size()) + " and " +
-                    std::to_string(second.size()) + " samples are no pair");
-  }
+  refuse_if(first.size() != second.size(), "two components of " + std::to_string(first.size()) +
+                                               " and " + std::to_string(second.size()) +
+                                               " samples are no pair");
   // Peaks by ratio, frequency and direction.
   const std::size_t count = frequencies.size();
   std::vector<std::vector<double>> peaks(damping_ratios.size() * count);

@@ -60,9 +60,8 @@ std::vector<double> envelope_of(std::span<const std::vector<double>> spectra) {
 
 std::vector<double> broadened(std::span<const double> frequencies, std::span<const double> values,
                               double fraction) {
-  if (!(fraction >= 0 && fraction < 1)) {
-    throw UserError("broadening must be in [0, 1), not " + std::to_string(fraction));
-  }
+  refuse_if(!(fraction >= 0 && fraction < 1),
+            "broadening must be in [0, 1), not " + std::to_string(fraction));
   std::vector<double> result(values.begin(), values.end());
   if (fraction == 0) return result;
   for (std::size_t i = 0; i < values.size(); ++i) {

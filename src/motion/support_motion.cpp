@@ -31,10 +31,9 @@ Accelerogram read_rotation(const std::string& name, const MotionComponent& compo
   record.unit = "m/s2";  // numbers as they are
   Accelerogram rotation = read_accelerogram(record);
   for (double& a : rotation.acceleration) a *= component.scale;
-  if (!(rotation.peak() <= impossible_rotation)) {
-    throw UserError(name + ": " + record.file + ": peak " + text_of(rotation.peak()) +
-                    " rad/s2 is beyond any ground; correct the file or the scale");
-  }
+  refuse_if(!(rotation.peak() <= impossible_rotation),
+            name + ": " + record.file + ": peak " + text_of(rotation.peak()) +
+                " rad/s2 is beyond any ground; correct the file or the scale");
   return rotation;
 }
 

@@ -194,10 +194,9 @@ TargetSpectrum read_target_spectrum(const std::string& file, const std::string& 
       continue;
     }
     names_allowed = false;
-    if (!row || row->values.size() != 2 || !(row->values[0] > 0) || !(row->values[1] > 0)) {
-      throw UserError(at_line(file, line.number) + "'" + line.text.substr(0, 60) +
-                      "' is not a frequency [Hz] and " + values + ", both positive");
-    }
+    refuse_if(!row || row->values.size() != 2 || !(row->values[0] > 0) || !(row->values[1] > 0),
+              at_line(file, line.number) + "'" + line.text.substr(0, 60) +
+                  "' is not a frequency [Hz] and " + values + ", both positive");
     target.frequency.push_back(row->values[0]);
     target.ratio.push_back(row->values[1]);
   }
@@ -208,32 +207,29 @@ TargetSpectrum read_target_spectrum(const std::string& file, const std::string& 
     std::reverse(target.ratio.begin(), target.ratio.end());
   }
   for (std::size_t i = 1; i < size; ++i) {
-    if (!(target.frequency[i] > target.frequency[i - 1])) {
-      throw UserError(file + ": frequency " + std::to_string(target.frequency[i]) +
-                      " Hz is out of order; sort the lines by frequency, each once");
-    }
+    refuse_if(!(target.frequency[i] > target.frequency[i - 1]),
+              file + ": frequency " + std::to_string(target.frequency[i]) +
+                  " Hz is out of order; sort the lines by frequency, each once");
   }
   return target;
 }
 
 void check_synthetic(const TargetSpectrum& target, const SyntheticMotion& motion, double pga) {
-  const auto refuse = [](const std::string& what) { throw UserError("synthetic motion: " + what); };
+  const auto refuse_if = [](bool wrong, const std::string& what) {
+    pounding::refuse_if(wrong, "synthetic motion: " + what);
+  };
   const auto [rise_end, decay_start] = motion.envelope;
-  if (target.frequency.size() < 2) refuse("the target spectrum needs at least 2 frequencies");
-  if (!(target.frequency.front() < highest_matched)) {
-    refuse("the target spectrum must begin below " + std::to_string(highest_matched) + " Hz");
-  }
-  if (!(std::isfinite(pga) && pga > 0)) {
-    refuse("pga " + std::to_string(pga) + " must be positive [m/s2]");
-  }
-  if (!(motion.duration >= 2 / target.frequency.front() && motion.duration <= 1000)) {
-    refuse("duration " + std::to_string(motion.duration) +
-           " s must hold two periods of the lowest target frequency and not exceed 1000 s");
-  }
-  if (!(rise_end >= 0 && rise_end <= decay_start && decay_start <= motion.duration)) {
-    refuse("envelope " + std::to_string(rise_end) + "," + std::to_string(decay_start) +
-           " must be 0 <= end of rise <= start of decay <= duration [s]");
-  }
+  refuse_if(target.frequency.size() < 2, "the target spectrum needs at least 2 frequencies");
+  refuse_if(!(target.frequency.front() < highest_matched),
+            "the target spectrum must begin below " + std::to_string(highest_matched) + " Hz");
+  refuse_if(!(std::isfinite(pga) && pga > 0),
+            "pga " + std::to_string(pga) + " must be positive [m/s2]");
+  refuse_if(!(motion.duration >= 2 / target.frequency.front() && motion.duration <= 1000),
+            "duration " + std::to_string(motion.duration) +
+                " s must hold two periods of the lowest target frequency and not exceed 1000 s");
+  refuse_if(!(rise_end >= 0 && rise_end <= decay_start && decay_start <= motion.duration),
+            "envelope " + std::to_string(rise_end) + "," + std::to_string(decay_start) +
+                " must be 0 <= end of rise <= start of decay <= duration [s]");
 }
 
 Accelerogram generate_accelerogram(const TargetSpectrum& target, const SyntheticMotion& motion,
@@ -260,11 +256,10 @@ Accelerogram generate_accelerogram(const TargetSpectrum& target, const Synthetic
     if (score < best_score) best = current, best_score = score, best_rms = seen.rms;
     current = correct_spectrum(std::move(current), controls, misfit);
   }
-  if (!(best_rms < accepted_rms)) {
-    throw UserError("synthetic motion: the 5 % spectrum stays " +
-                    std::to_string(std::lround(100 * best_rms)) + " % rms from " + motion.target +
-                    "; lengthen the duration or smooth the target");
-  }
+  refuse_if(!(best_rms < accepted_rms), "synthetic motion: the 5 % spectrum stays " +
+                                            std::to_string(std::lround(100 * best_rms)) +
+                                            " % rms from " + motion.target +
+                                            "; lengthen the duration or smooth the target");
   const double scale = pga / peak_of(best);
   for (double& a : best) {
     a *= scale;

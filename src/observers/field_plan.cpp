@@ -80,12 +80,11 @@ std::optional<FieldSteps> planned_fields(const Scene& scene, const Model& model)
   const std::int64_t last = scene.fields_end > 0
                                 ? std::min(model.steps, parts(scene.fields_end / model.time_step))
                                 : model.steps;
-  if (steps.first > last) {
-    throw UserError(sentence(
-        "option -fields_start {} s: {} comes before the first frame",
-        {scene.fields_start,
-         (scene.fields_end > 0 ? "-fields_end or the end of the run" : "the end of the run")}));
-  }
+  refuse_if(
+      steps.first > last,
+      sentence("option -fields_start {} s: {} comes before the first frame",
+               {scene.fields_start, (scene.fields_end > 0 ? "-fields_end or the end of the run"
+                                                          : "the end of the run")}));
   steps.count = 1 + (last - steps.first) / steps.stride;
   return steps;
 }

@@ -58,22 +58,19 @@ TargetSpectrum read_capacity(const Scene& scene, const Equipment& item) {
   const double high = std::min(capacity.frequency.back(), floor.back());
   const auto number = [](double value) { return sentence("{:.6g}", {value}); };
   const bool asked = item.band[0] > 0;
-  if (asked && (item.band[0] < low || item.band[1] > high)) {
-    throw UserError(option_of(item, "<equipment>_band") + " " + number(item.band[0]) + "," +
-                    number(item.band[1]) + ": the capacity has " +
-                    number(capacity.frequency.front()) + " to " +
-                    number(capacity.frequency.back()) + " Hz, the floor spectra " +
-                    number(floor.front()) + " to " + number(floor.back()) + " Hz");
-  }
+  refuse_if(asked && (item.band[0] < low || item.band[1] > high),
+            option_of(item, "<equipment>_band") + " " + number(item.band[0]) + "," +
+                number(item.band[1]) + ": the capacity has " + number(capacity.frequency.front()) +
+                " to " + number(capacity.frequency.back()) + " Hz, the floor spectra " +
+                number(floor.front()) + " to " + number(floor.back()) + " Hz");
   const bool any = std::ranges::any_of(floor, [&](double frequency) {
     return frequency >= low && frequency <= high && within(item.band, frequency);
   });
-  if (!any) {
-    throw UserError(option_of(item, "<equipment>_capacity") + " " + item.capacity_file +
-                    ": none of spectra_frequencies is among its " +
-                    number(capacity.frequency.front()) + " to " +
-                    number(capacity.frequency.back()) + " Hz" + (asked ? " and in the band" : ""));
-  }
+  refuse_if(!any, option_of(item, "<equipment>_capacity") + " " + item.capacity_file +
+                      ": none of spectra_frequencies is among its " +
+                      number(capacity.frequency.front()) + " to " +
+                      number(capacity.frequency.back()) + " Hz" +
+                      (asked ? " and in the band" : ""));
   return capacity;
 }
 

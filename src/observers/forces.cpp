@@ -274,13 +274,12 @@ void Forces::load(const SavedState& saved) {
   std::array<double, 1> start{};
   saved.get("force_peaks_start", start);
   if (start[0] != peaks_start_) {
-    if (time >= peaks_start_) {
-      throw UserError(
-          sentence("option -spectra_start {:.12g} s: the peaks of forces were counted from {:.12g} "
-                   "s on until the checkpoint at {:.12g} s; give -spectra_start {:.12g}, one after "
-                   "the checkpoint, or start anew",
-                   {peaks_start_, start[0], time, start[0]}));
-    }
+    refuse_if(
+        time >= peaks_start_,
+        sentence("option -spectra_start {:.12g} s: the peaks of forces were counted from {:.12g} "
+                 "s on until the checkpoint at {:.12g} s; give -spectra_start {:.12g}, one after "
+                 "the checkpoint, or start anew",
+                 {peaks_start_, start[0], time, start[0]}));
     std::ranges::fill(table, 0.0);  // summed up from zero
   }
   from_rows(table, peaks_, peak_members);

@@ -253,11 +253,11 @@ std::vector<NamedWindow> read_impact_windows(const std::string& path) {
     const auto words = split_words(line.text);
     if (!named) {
       named = true;
-      if (words.size() < 3 || words[0] != "contact" || words[1] != "start" || words[2] != "end") {
-        throw UserError(at_line(path, line.number) +
-                        "the columns do not begin with contact,start,end: give the impacts.csv of "
-                        "a run");
-      }
+      refuse_if(
+          words.size() < 3 || words[0] != "contact" || words[1] != "start" || words[2] != "end",
+          at_line(path, line.number) +
+              "the columns do not begin with contact,start,end: give the impacts.csv of "
+              "a run");
       continue;
     }
     const auto start = words.size() < 3 ? std::nullopt : parse_number(words[1]);

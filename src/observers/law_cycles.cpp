@@ -78,11 +78,9 @@ void write_law_loops(MPI_Comm comm, const Scene& scene) {
       throw UserError("option -law_cycles: an amplitude above 1000 times the first corner");
     }
     const std::vector<OwnLaw> laws = laws_of(scene);
-    if (laws.empty()) {
-      throw UserError(
-          "option -law_cycles: nothing in the scene yields by a law in one dimension; see "
-          "-<structure>_<group>_skeleton");
-    }
+    refuse_if(laws.empty(),
+              "option -law_cycles: nothing in the scene yields by a law in one dimension; see "
+              "-<structure>_<group>_skeleton");
     create_output(scene.output);
     ResultTable file(scene, law_table);
     for (const OwnLaw& law : laws) write_loops(law, scene.law_cycles, file);

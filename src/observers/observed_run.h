@@ -42,11 +42,7 @@ struct ObservedRun {
   /// The rank that knows gaps and impulses, -1 without contacts.
   int contact_root() const { return scheme.contact() != nullptr ? scheme.contact()->root() : -1; }
   bool is_contact_root() const { return rank_of(comm) == contact_root(); }
-  std::vector<std::string> contact_names() const {
-    std::vector<std::string> names;
-    for (const Contact& contact : scene.contacts) names.push_back(contact.name);
-    return names;
-  }
+  std::vector<std::string> contact_names() const { return names_of(scene.contacts); }
   /// The first step from `step` on with a record of the history.
   std::int64_t next_record_step(std::int64_t step) const {
     return next_multiple(step, record_stride(scene, model));

@@ -58,9 +58,8 @@ ResultFolder::ResultFolder(const std::string& path)
     : path_(path), made_(missing_folders(fs::path(path).lexically_normal())) {
   std::error_code failure;
   fs::create_directories(path, failure);
-  if (failure || access(path.c_str(), W_OK | X_OK) != 0) {
-    throw UserError("option -output " + path + ": the folder cannot be created or written");
-  }
+  refuse_if(failure || access(path.c_str(), W_OK | X_OK) != 0,
+            "option -output " + path + ": the folder cannot be created or written");
   lock();
 }
 
@@ -71,9 +70,7 @@ void ResultFolder::lock() {
     if (lock_ < 0 && errno == ELOOP && unlink(path.c_str()) == 0) {
       continue;  // of a link the link went
     }
-    if (lock_ < 0) {
-      throw UserError("option -output " + path_ + ": the folder cannot be created or written");
-    }
+    refuse_if(lock_ < 0, "option -output " + path_ + ": the folder cannot be created or written");
     if (flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       close(lock_);
       throw UserError("option -output " + path_ + ": another run writes there (" +

@@ -39,11 +39,10 @@ bool is_one_of(const std::string& word, std::initializer_list<const char*> words
 
 void refuse_joined(const std::string& word) {
   const std::size_t equals = word.find('=');
-  if (equals != std::string::npos) {
-    throw UserError("'" + shown_value(word) + "' on the command line: write " +
-                    shown_value(word.substr(0, equals)) + " " +
-                    shown_value(word.substr(equals + 1)) + ", with a blank");
-  }
+  refuse_if(equals != std::string::npos, "'" + shown_value(word) + "' on the command line: write " +
+                                             shown_value(word.substr(0, equals)) + " " +
+                                             shown_value(word.substr(equals + 1)) +
+                                             ", with a blank");
 }
 
 bool is_silent(const std::string& name) {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string_view>
 
+#include "common/facts.h"
 #include "scene/option_values.h"
 #include "scene/structure_reader.h"
 
@@ -61,12 +61,10 @@ std::vector<Filler::Point> read_filler_table(OptionReader& options,
     if (!strain || !pressure) {
       options.refuse(filler_option, names, "'" + item + "' is not strain:pressure");
     }
-    if (!(*strain > before.strain && *strain <= 1)) {
-      options.refuse(filler_option, names, "strains must rise from 0, to 1 at most");
-    }
-    if (!(*pressure >= before.pressure)) {
-      options.refuse(filler_option, names, "pressures must not fall");
-    }
+    options.refuse_if(!(*strain > before.strain && *strain <= 1), filler_option, names,
+                      "strains must rise from 0, to 1 at most");
+    options.refuse_if(!(*pressure >= before.pressure), filler_option, names,
+                      "pressures must not fall");
     before = {*strain, *pressure};
     points.push_back(before);
   }
@@ -77,17 +75,15 @@ std::vector<Filler::Point> read_filler_table(OptionReader& options,
 /// A strip of the faces: elastic up to its strength, which it keeps to its end.
 std::optional<Filler> read_crushing(OptionReader& options, const OptionReader::Names& names) {
   if (!options.given(crushing_option, names)) {
-    options.forbid_all<Crushing>(names, goes_with(crushing_option, names));
+    options.forbid_all<Crushing>(names, goes_with(crushing_option));
     return std::nullopt;
   }
   Crushing strip;
   options.read(strip, names);
-  if (!(strip.elastic_depth() < strip.depth)) {
-    std::ostringstream text;
-    text << "the strip is elastic for " << strip.elastic_depth()
-         << " m, its strength over its stiffness; give more";
-    options.refuse("<contact>_crushing_depth", names, text.str());
-  }
+  options.refuse_if(
+      !(strip.elastic_depth() < strip.depth), "<contact>_crushing_depth", names,
+      sentence("the strip is elastic for {} m, its strength over its stiffness; give more",
+               {strip.elastic_depth()}));
   return strip.filler();
 }
 
@@ -107,9 +103,8 @@ StaticClosing read_static_closing(OptionReader& options, const OptionReader::Nam
     if (!elevation || !closing) {
       options.refuse(closing_option, names, "'" + shown_value(item) + "' is not elevation:closing");
     }
-    if (!points.elevations.empty() && !(*elevation > points.elevations.back())) {
-      options.refuse(closing_option, names, "elevations must rise");
-    }
+    options.refuse_if(!points.elevations.empty() && !(*elevation > points.elevations.back()),
+                      closing_option, names, "elevations must rise");
     points.elevations.push_back(*elevation);
     points.closings.push_back(*closing);
   }
@@ -122,16 +117,12 @@ InitialGap read_gap(OptionReader& options, const std::string& contact, bool is_w
   InitialGap gap;
   options.read(gap, names);
   if (options.text("<contact>_gap", names) != "geometry") {
-    if (!gap.survey.empty()) {
-      options.refuse("<contact>_survey", names,
-                     "not beside -" + option_name("<contact>_gap", names) +
-                         ": the survey is the gap; leave one of them out");
-    }
+    options.refuse_if(!gap.survey.empty(), "<contact>_survey", names,
+                      "not beside -<contact>_gap: the survey is the gap; leave one of them out");
     gap.values = options.reals("<contact>_gap", names);
     const std::size_t count = gap.values.size();
-    if (count != 1 && count != 2 && count != 4) {
-      options.refuse("<contact>_gap", names, "wrong count of numbers");
-    }
+    options.refuse_if(count != 1 && count != 2 && count != 4, "<contact>_gap", names,
+                      "wrong count of numbers");
   } else if (is_wall && gap.survey.empty()) {
     options.refuse("<contact>_gap", names, "a wall has no geometry, give its distance");
   }
@@ -144,21 +135,17 @@ InitialGap read_gap(OptionReader& options, const std::string& contact, bool is_w
 std::optional<Filler> read_filler(OptionReader& options, const std::string& contact) {
   const OptionReader::Names names{contact};
   if (!options.given(filler_option, names) || options.text(filler_option, names) == "none") {
-    options.forbid_all<Filler>(names, goes_with(filler_option, names), filler_option);
+    options.forbid_all<Filler>(names, goes_with(filler_option), filler_option);
     return read_crushing(options, names);
   }
   options.forbid(crushing_option, names,
-                 "not beside -" + option_name(filler_option, names) +
-                     ": a joint has a filler, or faces that are crushed");
-  options.forbid_all<Crushing>(names, goes_with(crushing_option, names));
+                 "not beside -<contact>_filler: a joint has a filler, or faces that are crushed");
+  options.forbid_all<Crushing>(names, goes_with(crushing_option));
   Filler filler;
   filler.table = read_filler_table(options, names);
   options.read(filler, names);
-  if (filler.unloading < filler.steepest() * (1 - 1e-12)) {
-    std::ostringstream text;
-    text << "the table is steeper, " << filler.steepest() << " Pa somewhere";
-    options.refuse(unloading, names, text.str());
-  }
+  options.refuse_if(filler.unloading < filler.steepest() * (1 - 1e-12), unloading, names,
+                    sentence("the table is steeper, {} Pa somewhere", {filler.steepest()}));
   return filler;
 }
 
@@ -168,30 +155,23 @@ void check_filler(const OptionReader& options, const Contact& contact, bool expo
   const OptionReader::Names names{contact.name};
   const bool crushes = contact.crushes();
   const std::string owner = "contact " + contact.name + " has a ";
-  if (contact.sliding > 0) {
-    options.refuse(
-        "<contact>_sliding", names,
-        owner + (crushes ? "strip that is crushed" : "filler") + ", which stays where it is");
-  }
-  if (exports) {
-    options.refuse("export_matrices", {},
-                   owner + (crushes ? "strip" : "filler") + ", which is no matrix; not with -" +
-                       option_name(crushes ? crushing_option : filler_option, names));
-  }
-  if (crushes && contact.friction > 0) {
-    options.refuse("<contact>_friction", names,
-                   "not beside -" + option_name(crushing_option, names) +
-                       ": friction acts in hard contact only, which begins where the strip is "
-                       "crushed to the last");
-  }
+  options.refuse_if(
+      contact.sliding > 0, "<contact>_sliding", names,
+      owner + (crushes ? "strip that is crushed" : "filler") + ", which stays where it is");
+  options.refuse_if(exports, "export_matrices", {},
+                    owner + (crushes ? "strip" : "filler") + ", which is no matrix; not with -" +
+                        option_name(crushes ? crushing_option : filler_option, names));
+  options.refuse_if(crushes && contact.friction > 0, "<contact>_friction", names,
+                    "not beside -<contact>_crushing: friction acts in hard contact only, which "
+                    "begins where the strip is crushed to the last");
 }
 
 /// The stop between nodes that a contact is, if `along` is given.
 std::optional<Stop> read_stop(OptionReader& options, const std::string& contact) {
   const OptionReader::Names names{contact};
   if (!options.given(stop_along, names)) {
-    options.forbid_all<Stop>(names, "it makes a stop of a contact that has a direction; give -" +
-                                        option_name(stop_along, names));
+    options.forbid_all<Stop>(
+        names, "it makes a stop of a contact that has a direction; give -<contact>_along");
     return std::nullopt;
   }
   Stop stop;
@@ -203,9 +183,8 @@ std::optional<Stop> read_stop(OptionReader& options, const std::string& contact)
     if (!(length > 0) || !std::isfinite(length)) options.refuse(stop_along, names);
     stop.along = Vector3{(*along)[0] / length, (*along)[1] / length, (*along)[2] / length};
   }
-  if (stop.dashpot > 0 && !(stop.stiffness > 0)) {
-    options.refuse(stop_dashpot, names, "it " + goes_with(stop_stiffness, names));
-  }
+  options.refuse_if(stop.dashpot > 0 && !(stop.stiffness > 0), stop_dashpot, names,
+                    "it " + goes_with(stop_stiffness));
   return stop;
 }
 
@@ -213,44 +192,33 @@ std::optional<Stop> read_stop(OptionReader& options, const std::string& contact)
 /// and matrices that would not hold it. `exports`: the run writes matrices.
 void check_stop(const OptionReader& options, const Contact& contact, bool exports) {
   const OptionReader::Names names{contact.name};
-  const std::string why =
-      "-" + option_name(stop_along, names) + " makes it a stop between nodes, which have no faces";
-  for (const char* option : {"<contact>_passes", "<contact>_gap_deviation", "<contact>_gap_patches",
-                             "<contact>_survey", "<contact>_static_closing", "<contact>_sliding"}) {
-    options.forbid(option, names, why);
-  }
+  const std::string why = "-<contact>_along makes it a stop between nodes, which have no faces";
+  options.forbid_each(
+      "<contact>_",
+      {"passes", "gap_deviation", "gap_patches", "survey", "static_closing", "sliding"}, names,
+      why);
   options.forbid_all<Filler>(names, why);
   options.forbid_all<Crushing>(names, why);
   const std::vector<double>& gaps = contact.gap.values;
-  if (gaps.empty() || gaps.size() > 2) {
-    options.refuse("<contact>_gap", names,
-                   "a stop takes one number, or two if it stops both ways; give the way until it "
-                   "closes");
-  }
+  options.refuse_if(
+      gaps.empty() || gaps.size() > 2, "<contact>_gap", names,
+      "a stop takes one number, or two if it stops both ways; give the way until it closes");
   if (std::ranges::any_of(gaps, [](double gap) { return gap < 0; })) {
     options.refuse("<contact>_gap", names, "a stop is open or just closed; give 0 or more");
   }
-  if (!contact.stop->along && contact.primary.is_wall()) {
-    options.refuse(stop_along, names, "there is no line to a wall; give a direction x,y,z");
-  }
-  if (contact.friction > 0 && contact.is_elastic()) {
-    options.refuse(
-        "<contact>_friction", names,
-        "not beside -" + option_name(stop_stiffness, names) + ": only a hard stop has friction");
-  }
-  if (contact.is_elastic() && exports) {
-    options.refuse("export_matrices", {},
-                   "stop " + contact.name + " gives way, which is no matrix; not with -" +
-                       option_name(stop_stiffness, names));
-  }
+  options.refuse_if(!contact.stop->along && contact.primary.is_wall(), stop_along, names,
+                    "there is no line to a wall; give a direction x,y,z");
+  options.refuse_if(contact.friction > 0 && contact.is_elastic(), "<contact>_friction", names,
+                    "not beside -<contact>_stiffness: only a hard stop has friction");
+  options.refuse_if(contact.is_elastic() && exports, "export_matrices", {},
+                    "stop " + contact.name + " gives way, which is no matrix; not with -" +
+                        contact.name + "_stiffness");
 }
 
 ContactSide read_side(OptionReader& options, Scene& scene, std::string_view pattern,
                       const std::string& contact) {
   const std::vector<std::string> words = split(options.text(pattern, {contact}), ':');
-  if (words.size() != 2 || words[0].empty() || words[1].empty()) {
-    options.refuse(pattern, {contact});
-  }
+  options.refuse_if(words.size() != 2 || words[0].empty() || words[1].empty(), pattern, {contact});
   named_structure(options, scene, pattern, {contact}, words[0]);
   group_points(scene, option_name(pattern, {contact}), words[0], words[1]);
   return {words[0], words[1]};
@@ -262,18 +230,16 @@ void read_gap_state(OptionReader& options, const Scene& scene, Contact& contact)
   const std::vector<double>& values = contact.gap.values;
   const auto negative = [](double gap) { return gap < 0; };
   const auto above_zero = [](double gap) { return gap > 0; };
-  if (state == "rest" && std::ranges::any_of(values, negative)) {
-    options.refuse("<contact>_gap_at", {contact.name},
-                   "at rest the joint is open or just closed; give a gap of 0 or more");
-  }
+  options.refuse_if(state == "rest" && std::ranges::any_of(values, negative), "<contact>_gap_at",
+                    {contact.name},
+                    "at rest the joint is open or just closed; give a gap of 0 or more");
   const bool laid_in = contact.filler || contact.is_elastic();
-  if (state == "unloaded" && laid_in && scene.preload) {
-    options.refuse("<contact>_gap_at", {contact.name},
-                   std::string(contact.crushes() ? "a strip that is crushed"
-                               : contact.filler  ? "the filler"
-                                                 : "a stop that gives way") +
-                       " is laid into the joint as it is at rest; leave it out");
-  }
+  options.refuse_if(state == "unloaded" && laid_in && scene.preload, "<contact>_gap_at",
+                    {contact.name},
+                    std::string(contact.crushes() ? "a strip that is crushed"
+                                : contact.filler  ? "the filler"
+                                                  : "a stop that gives way") +
+                        " is laid into the joint as it is at rest; leave it out");
   const auto is_open = [](const GapPatch& patch) { return patch.gap > 0; };
   const bool faces = !contact.primary.is_wall();
   const bool open = faces && !values.empty() && std::ranges::all_of(values, above_zero) &&
@@ -281,12 +247,10 @@ void read_gap_state(OptionReader& options, const Scene& scene, Contact& contact)
   const bool open_in_part = faces && !open &&
                             (std::ranges::any_of(values, above_zero) ||
                              std::ranges::any_of(contact.gap.patches, is_open));
-  if (state == "auto" && scene.preload && open_in_part && !laid_in) {
-    options.refuse("<contact>_gap", {contact.name},
-                   "open in one part and not in another, under -preload static; say with -" +
-                       option_name("<contact>_gap_at", {contact.name}) +
-                       " rest or unloaded in which state the joint has these gaps");
-  }
+  options.refuse_if(state == "auto" && scene.preload && open_in_part && !laid_in, "<contact>_gap",
+                    {contact.name},
+                    "open in one part and not in another, under -preload static; say with "
+                    "-<contact>_gap_at rest or unloaded in which state the joint has these gaps");
   // A survey is of the joint at rest.
   const bool assumed =
       state == "auto" && (open || laid_in || (faces && !contact.gap.survey.empty()));
@@ -304,9 +268,8 @@ Contact read_contact(OptionReader& options, Scene& scene, const std::string& nam
                         ? ContactSide{"wall", ""}
                         : read_side(options, scene, "<contact>_primary", name);
   options.read(contact, {name});
-  if (contact.primary.is_wall() && contact.passes == 2) {
-    options.refuse("<contact>_passes", {name}, "a wall has no nodes");
-  }
+  options.refuse_if(contact.primary.is_wall() && contact.passes == 2, "<contact>_passes", {name},
+                    "a wall has no nodes");
   contact.gap = read_gap(options, name, contact.primary.is_wall());
   contact.stop = read_stop(options, name);
   if (contact.stop) {
@@ -315,14 +278,11 @@ Contact read_contact(OptionReader& options, Scene& scene, const std::string& nam
     contact.filler = read_filler(options, name);
   }
   read_gap_state(options, scene, contact);
-  if (contact.sliding > 0 && contact.primary.is_wall()) {
-    options.refuse("<contact>_sliding", {name}, "a wall is endless; leave it out");
-  }
+  options.refuse_if(contact.sliding > 0 && contact.primary.is_wall(), "<contact>_sliding", {name},
+                    "a wall is endless; leave it out");
   if (contact.filler) check_filler(options, contact, !scene.export_matrices.empty());
-  if (contact.sliding > 0 && !scene.export_matrices.empty()) {
-    options.refuse("export_matrices", {},
-                   "the rows of contact " + name + " change; not with -" + name + "_sliding");
-  }
+  options.refuse_if(contact.sliding > 0 && !scene.export_matrices.empty(), "export_matrices", {},
+                    "the rows of contact " + name + " change; not with -" + name + "_sliding");
   return contact;
 }
 

@@ -11,6 +11,10 @@ namespace pounding {
 
 inline constexpr std::string_view region_damping_factor = "<structure>_<group>_damping_factor";
 
+/// Refuses the options of the damping of a region, `names` being its structure and group.
+void forbid_damping(const OptionReader& options, const OptionReader::Names& names,
+                    const Region& region, const std::string& why);
+
 /// Rayleigh damping of a structure: alpha and beta, or one damping ratio at two frequencies. Throws
 /// UserError.
 Rayleigh read_structure_damping(OptionReader& options, const std::string& structure);

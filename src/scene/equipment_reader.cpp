@@ -13,16 +13,12 @@ void require_probe(const OptionReader& options, const Scene& scene, const Equipm
   constexpr std::string_view pattern = "<equipment>_probe";
   const auto probe = std::ranges::find(scene.probes, item.probe, &Probe::name);
   if (probe == scene.probes.end()) {
-    std::vector<std::string> names;
-    for (const Probe& one : scene.probes) names.push_back(one.name);
     options.refuse(pattern, {item.name},
-                   "-probes has no such name" + suggestion(item.probe, names));
+                   "-probes has no such name" + suggestion(item.probe, names_of(scene.probes)));
   }
-  if (!probe->average) {
-    options.refuse(pattern, {item.name},
-                   "it records single nodes: equipment is mounted at one place; not with -" +
-                       item.probe + "_average false");
-  }
+  options.refuse_if(!probe->average, pattern, {item.name},
+                    "it records single nodes: equipment is mounted at one place; not with -" +
+                        item.probe + "_average false");
 }
 
 void require_rising(const OptionReader& options, std::string_view pattern, const std::string& name,
@@ -45,10 +41,8 @@ Equipment read_equipment(OptionReader& options, const Scene& scene, const std::s
   const bool computed = std::ranges::any_of(scene.spectra.damping_ratios, [&](double ratio) {
     return std::abs(ratio - item.damping) < 1e-9;
   });
-  if (!computed) {
-    options.refuse("<equipment>_damping", {name},
-                   "there are no floor spectra of this ratio; add it to -spectra_damping");
-  }
+  options.refuse_if(!computed, "<equipment>_damping", {name},
+                    "there are no floor spectra of this ratio; add it to -spectra_damping");
   require_rising(options, "<equipment>_band", name, item.band);
   require_rising(options, "<equipment>_high_band", name, item.high_band);
   return item;

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/option_row.h"
+
 namespace pounding {
 
 /// Path that a law takes back from its skeleton and towards it again, see
@@ -87,6 +89,17 @@ struct ShellCracking {
   double tension = 0;      ///< ratio in tension
   double compression = 1;  ///< ratio in compression; 1: no damage by it
   double bending = 0;      ///< ratio in bending
+
+  static void describe(auto& option) {
+    using namespace option_words;
+    // clang-format off
+    option(&ShellCracking::force, "<structure>_<group>_cracking_force", real("N/m", absent("left out: elastic"), positive), "shell that cracks by damage: force per length in tension along one axis at which it begins", for_shells);
+    option(&ShellCracking::moment, "<structure>_<group>_cracking_moment", real("N", absent("left out: cracking_force thickness / 6"), positive), "its moment per length about one axis at which damage begins", for_shells);
+    option(&ShellCracking::tension, "<structure>_<group>_cracked_tension", real("-", absent("required with cracking_force"), below_1), "slope of its force while it cracks in tension, over that of the sound shell", for_shells);
+    option(&ShellCracking::compression, "<structure>_<group>_cracked_compression", real("-", "1", up_to_1), "likewise in compression; 1: no damage by it", for_shells);
+    option(&ShellCracking::bending, "<structure>_<group>_cracked_bending", real("-", absent("left out: cracked_tension"), below_1), "likewise in bending", for_shells);
+    // clang-format on
+  }
 };
 
 /// Law that a shell follows by its mean strains: one of both at most.

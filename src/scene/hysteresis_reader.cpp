@@ -5,9 +5,9 @@
 #include <initializer_list>
 #include <iterator>
 #include <span>
-#include <sstream>
 #include <string>
 
+#include "common/facts.h"
 #include "scene/option_table.h"
 
 namespace pounding {
@@ -44,38 +44,32 @@ std::vector<SkeletonBreak> read_corners(OptionReader& options, std::string_view 
   for (std::size_t i = 0; i < values.size(); i += 2) corners.push_back({values[i], values[i + 1]});
   SkeletonBreak& first = corners.front();
   if (!(first.force > 0)) options.refuse(pattern, names, "the force of its first corner is 0");
-  if (!(std::abs(first.elongation * first_slope / first.force - 1) <= rounded)) {
-    std::ostringstream text;
-    text << "its first corner is not on the line of the stiffness, which has " << first.force
-         << " at " << first.force / first_slope;
-    options.refuse(pattern, names, text.str());
-  }
+  options.refuse_if(
+      !(std::abs(first.elongation * first_slope / first.force - 1) <= rounded), pattern, names,
+      sentence("its first corner is not on the line of the stiffness, which has {} at {}",
+               {first.force, first.force / first_slope}));
   first.elongation = first.force / first_slope;
   for (std::size_t i = 1; i < corners.size(); ++i) {
-    if (!(corners[i].elongation > corners[i - 1].elongation)) {
-      options.refuse(pattern, names, "elongations must increase from corner to corner");
-    }
-    if (corners[i].force / corners[i].elongation >
-        (1 + even) * corners[i - 1].force / corners[i - 1].elongation) {
-      options.refuse(pattern, names,
-                     "corner " + std::to_string(i + 1) +
-                         " lies above the line from the origin through the one before it");
-    }
+    options.refuse_if(!(corners[i].elongation > corners[i - 1].elongation), pattern, names,
+                      "elongations must increase from corner to corner");
+    options.refuse_if(corners[i].force / corners[i].elongation >
+                          (1 + even) * corners[i - 1].force / corners[i - 1].elongation,
+                      pattern, names,
+                      "corner " + std::to_string(i + 1) +
+                          " lies above the line from the origin through the one before it");
   }
   return corners;
 }
 
 void read_skeleton(OptionReader& options, const Names& names,
                    const std::array<double, 6>& first_slopes, NonlinearSpring& spring) {
-  options.forbid("<structure>_<group>_yield_force", names,
-                 "not beside -" + option_name(skeleton_option, names) +
-                     ", whose first corner says where it yields");
+  options.forbid(
+      "<structure>_<group>_yield_force", names,
+      "not beside -<structure>_<group>_skeleton, whose first corner says where it yields");
   const auto has_one = [](double slope) { return slope > 0; };
-  if (std::ranges::count_if(first_slopes, has_one) != 1) {
-    options.refuse(skeleton_option, names,
-                   "its stiffness must be along or about one axis only; give the other ones to a "
-                   "group of their own");
-  }
+  options.refuse_if(std::ranges::count_if(first_slopes, has_one) != 1, skeleton_option, names,
+                    "its stiffness must be along or about one axis only; give the other ones to a "
+                    "group of their own");
   const auto found = std::ranges::find_if(first_slopes, has_one);
   Hysteresis& law = spring.law;
   law.positive.breaks = read_corners(options, skeleton_option, names, *found);
@@ -89,33 +83,29 @@ void read_skeleton(OptionReader& options, const Names& names,
   for (const Skeleton* skeleton : {&law.positive, &law.negative}) {
     if (skeleton->breaks.empty()) continue;
     const SkeletonBreak& last = skeleton->breaks.back();
-    if (skeleton->last_slope > (1 + even) * last.force / last.elongation) {
-      options.refuse("<structure>_<group>_hardening", names,
-                     "more than the secant of the last corner");
-    }
+    options.refuse_if(skeleton->last_slope > (1 + even) * last.force / last.elongation,
+                      "<structure>_<group>_hardening", names,
+                      "more than the secant of the last corner");
   }
 }
 
 /// Sliders in parallel cannot soften, nor have other slopes back than there.
 void check_sliders(const OptionReader& options, const Names& names, std::string_view there,
                    std::string_view back, const Hysteresis& law) {
-  if (law.is_one_sided() || law.positive.breaks.size() != law.negative.breaks.size()) {
-    options.refuse(back, names, "kinematic hardening has the same slopes in both directions");
-  }
+  options.refuse_if(law.is_one_sided() || law.positive.breaks.size() != law.negative.breaks.size(),
+                    back, names, "kinematic hardening has the same slopes in both directions");
   double before = law.first_slope();
   for (std::size_t i = 1; i <= law.positive.breaks.size(); ++i) {
     const bool last = i == law.positive.breaks.size();
     const auto& plus = law.positive.breaks;
     const auto& minus = law.negative.breaks;
     const double slope = last ? law.positive.last_slope : slope_between(plus[i - 1], plus[i]);
-    if (slope < -even * before || slope > (1 + even) * before) {
-      options.refuse(there, names,
-                     "with kinematic hardening slopes must fall from corner to corner, and none "
-                     "below 0; the rule peak may soften");
-    }
-    if (!last && !(std::abs(slope_between(minus[i - 1], minus[i]) - slope) <= rounded * before)) {
-      options.refuse(back, names, "kinematic hardening has the same slopes in both directions");
-    }
+    options.refuse_if(slope < -even * before || slope > (1 + even) * before, there, names,
+                      "with kinematic hardening slopes must fall from corner to corner, and none "
+                      "below 0; the rule peak may soften");
+    options.refuse_if(
+        !last && !(std::abs(slope_between(minus[i - 1], minus[i]) - slope) <= rounded * before),
+        back, names, "kinematic hardening has the same slopes in both directions");
     before = slope;
   }
 }
@@ -129,41 +119,35 @@ bool has_rule(const Hysteresis& law, std::initializer_list<HystereticRule> rules
 void read_paths(OptionReader& options, const Names& names, const std::string& rules,
                 std::span<Hysteresis* const> laws) {
   using enum HystereticRule;
-  const auto chosen = [&](std::initializer_list<HystereticRule> wanted) {
+  const auto chosen = [&](std::string_view option, std::initializer_list<HystereticRule> wanted,
+                          const char* with) {
     std::vector<Hysteresis*> found;
     std::ranges::copy_if(laws, std::back_inserter(found),
                          [&](const Hysteresis* law) { return has_rule(*law, wanted); });
+    if (found.empty()) options.forbid(option, names, "goes with " + rules + " " + with);
     return found;
   };
-  const auto forbid = [&](std::string_view option, const char* with) {
-    options.forbid(option, names, "goes with " + rules + " " + with);
-  };
-  const std::vector<Hysteresis*> with_exponent = chosen({peak, pinching, bending});
-  if (with_exponent.empty()) forbid(exponent_option, "peak, pinching or bending");
-  for (Hysteresis* const law : with_exponent) {
+  for (Hysteresis* const law :
+       chosen(exponent_option, {peak, pinching, bending}, "peak, pinching or bending")) {
     if (options.given(exponent_option, names)) {
       law->unloading_exponent = options.real(exponent_option, names);
     } else if (law->rule == bending) {
       law->unloading_exponent = 0.5;
     }
   }
-  const std::vector<Hysteresis*> with_least = chosen({peak, pinching, bending, origin});
-  if (with_least.empty()) forbid(least_option, "peak, pinching, bending or origin");
-  for (Hysteresis* const law : with_least) law->unloading_least = options.real(least_option, names);
-  const std::vector<Hysteresis*> with_pinch = chosen({pinching});
-  if (with_pinch.empty()) forbid(pinch_option, "pinching");
-  for (Hysteresis* const law : with_pinch) {
+  for (Hysteresis* const law : chosen(least_option, {peak, pinching, bending, origin},
+                                      "peak, pinching, bending or origin")) {
+    law->unloading_least = options.real(least_option, names);
+  }
+  for (Hysteresis* const law : chosen(pinch_option, {pinching}, "pinching")) {
     const std::vector<double> pinch = options.reals(pinch_option, names, 2);
-    if (!(pinch[0] <= pinch[1]) || !(pinch[1] < 1)) {
-      options.refuse(pinch_option, names, "the force must not exceed the way, nor the way reach 1");
-    }
+    options.refuse_if(!(pinch[0] <= pinch[1]) || !(pinch[1] < 1), pinch_option, names,
+                      "the force must not exceed the way, nor the way reach 1");
     law->pinch_force = pinch[0];
     law->pinch_elongation = pinch[1];
   }
-  const std::vector<Hysteresis*> with_energy = chosen({peak, pinching});
-  if (with_energy.empty()) forbid(deterioration_option, "peak or pinching");
-  if (!options.given(deterioration_option, names)) return;
-  for (Hysteresis* const law : with_energy) {
+  for (Hysteresis* const law : chosen(deterioration_option, {peak, pinching}, "peak or pinching")) {
+    if (!options.given(deterioration_option, names)) return;
     const std::vector<double> values = options.reals(deterioration_option, names);
     if (values.size() > 2) options.refuse(deterioration_option, names, "more than two numbers");
     law->lasting_energy = values[0];
@@ -191,11 +175,9 @@ void read_axial(OptionReader& options, const Names& names, YieldingSection& sect
   const auto follows = [](const std::optional<Hysteresis>& law) {
     return law && law->rule == HystereticRule::kinematic;
   };
-  if (!follows(section.bending[0]) && !follows(section.bending[1])) {
-    options.refuse(axial, names,
-                   "goes with -" + option_name("<structure>_<group>_bending_rule", names) +
-                       " kinematic, the one rule whose strength may change");
-  }
+  options.refuse_if(!follows(section.bending[0]) && !follows(section.bending[1]), axial, names,
+                    "goes with -<structure>_<group>_bending_rule kinematic, the one rule whose "
+                    "strength may change");
   const std::vector<double> values = options.reals(axial, names);
   if (values.size() > 2) options.refuse(axial, names, "more than two numbers");
   section.axial_strength = values[0];
@@ -204,29 +186,19 @@ void read_axial(OptionReader& options, const Names& names, YieldingSection& sect
 
 void read_cracking(OptionReader& options, const Names& names, Region& region) {
   constexpr std::string_view force = "<structure>_<group>_cracking_force";
-  constexpr std::string_view moment = "<structure>_<group>_cracking_moment";
-  constexpr std::string_view bending = "<structure>_<group>_cracked_bending";
   if (!options.given(force, names)) {
-    for (const char* other :
-         {"cracking_moment", "cracked_tension", "cracked_compression", "cracked_bending"}) {
-      options.forbid(std::string("<structure>_<group>_") + other, names,
-                     "goes with -" + option_name(force, names));
-    }
+    options.forbid_all<ShellCracking>(names, "goes with -<structure>_<group>_cracking_force");
     return;
   }
   options.forbid("<structure>_<group>_shear_skeleton", names,
-                 "not beside -" + option_name(force, names) + ": give one law or the other");
-  if (region.material.poisson < 0) {
-    options.refuse("material_<material>_poisson", {region.material.name},
-                   "group " + region.group + " cracks, whose energy wants one of 0 or above");
-  }
+                 "not beside -<structure>_<group>_cracking_force: give one law or the other");
+  options.refuse_if(region.material.poisson < 0, "material_<material>_poisson",
+                    {region.material.name},
+                    "group " + region.group + " cracks, whose energy wants one of 0 or above");
   ShellCracking& law = region.yielding_shell.cracking.emplace();
-  law.force = options.real(force, names);
-  law.moment =
-      options.given(moment, names) ? options.real(moment, names) : law.force * region.thickness / 6;
-  law.tension = options.real("<structure>_<group>_cracked_tension", names);
-  law.compression = options.real("<structure>_<group>_cracked_compression", names);
-  law.bending = options.given(bending, names) ? options.real(bending, names) : law.tension;
+  options.read(law, names);
+  if (law.moment == 0) law.moment = law.force * region.thickness / 6;
+  if (!options.given("<structure>_<group>_cracked_bending", names)) law.bending = law.tension;
 }
 
 }  // namespace
@@ -238,31 +210,25 @@ void read_hysteresis(OptionReader& options, const Names& names,
   if (options.given(skeleton_option, names)) {
     read_skeleton(options, names, first_slopes, spring);
   } else {
-    options.forbid(back_option, names, "goes with -" + option_name(skeleton_option, names));
+    options.forbid(back_option, names, "goes with -<structure>_<group>_skeleton");
   }
   const bool kinematic = law.rule == HystereticRule::kinematic;
-  if (!kinematic && !spring.yields()) {
-    options.refuse(rule_option, names,
-                   "nothing yields; give -" +
-                       option_name("<structure>_<group>_yield_force", names) + " or -" +
-                       option_name(skeleton_option, names));
-  }
-  if (spring.has_circle() && (!kinematic || spring.has_skeleton())) {
-    options.refuse(kinematic ? skeleton_option : rule_option, names,
-                   "not beside -" + option_name("<structure>_<group>_yield_circle", names) +
-                       ", on which kinematic hardening of two slopes is all there is");
-  }
+  options.refuse_if(
+      !kinematic && !spring.yields(), rule_option, names,
+      "nothing yields; give -<structure>_<group>_yield_force or -<structure>_<group>_skeleton");
+  options.refuse_if(spring.has_circle() && (!kinematic || spring.has_skeleton()),
+                    kinematic ? skeleton_option : rule_option, names,
+                    "not beside -<structure>_<group>_yield_circle, on which kinematic hardening of "
+                    "two slopes is all there is");
   Hysteresis* const laws[] = {&law};
-  read_paths(options, names, "-" + option_name(rule_option, names), laws);
+  read_paths(options, names, "-<structure>_<group>_rule", laws);
   if (!spring.has_skeleton()) return;
   if (kinematic) check_sliders(options, names, skeleton_option, back_option, law);
   const bool one_sided = law.rule == HystereticRule::origin || law.rule == HystereticRule::peak ||
                          law.rule == HystereticRule::pinching;
-  if (law.is_one_sided() && !one_sided) {
-    options.refuse(back_option, names,
-                   "what carries nothing back takes -" + option_name(rule_option, names) +
-                       " origin, peak or pinching");
-  }
+  options.refuse_if(
+      law.is_one_sided() && !one_sided, back_option, names,
+      "what carries nothing back takes -<structure>_<group>_rule origin, peak or pinching");
 }
 
 void read_yielding_section(OptionReader& options, const Names& names, Region& region) {
@@ -275,15 +241,11 @@ void read_yielding_section(OptionReader& options, const Names& names, Region& re
     const std::string prefix = std::string("<structure>_<group>_") + kind;
     const std::string option = prefix + "_skeleton_" + "yz"[axis];
     if (!options.given(option, names)) return;
-    if (!(first_slope > 0)) {
-      options.refuse(option, names,
-                     "the beam is not flexible in shear; give its section a shear_area");
-    }
-    if (kind[0] == 's' && region.element == ElementType::euler_beam) {
-      options.refuse(option, names,
-                     "an euler_beam is not flexible in shear and has no strength in it; give -" +
-                         option_name("<structure>_<group>_element", names) + " beam");
-    }
+    options.refuse_if(!(first_slope > 0), option, names,
+                      "the beam is not flexible in shear; give its section a shear_area");
+    options.refuse_if(kind[0] == 's' && region.element == ElementType::euler_beam, option, names,
+                      "an euler_beam is not flexible in shear and has no strength in it; give "
+                      "-<structure>_<group>_element beam");
     law = read_law(options, names, option, prefix + "_rule", first_slope);
     laws.push_back(&*law);
   };
@@ -299,9 +261,7 @@ void read_yielding_section(OptionReader& options, const Names& names, Region& re
                    "goes with -" + option_name(prefix + "_skeleton_y", names) + " or _z");
   }
   read_axial(options, names, region.yielding);
-  read_paths(options, names,
-             "-" + option_name("<structure>_<group>_shear_rule", names) + " or -" +
-                 option_name("<structure>_<group>_bending_rule", names),
+  read_paths(options, names, "-<structure>_<group>_shear_rule or -<structure>_<group>_bending_rule",
              laws);
 }
 
@@ -314,9 +274,9 @@ void read_yielding_membrane(OptionReader& options, const Names& names, Region& r
         read_law(options, names, skeleton, rule, shear_modulus(region.material));
     laws.push_back(&*region.yielding_shell.shear);
   } else {
-    options.forbid(rule, names, "goes with -" + option_name(skeleton, names));
+    options.forbid(rule, names, "goes with -<structure>_<group>_shear_skeleton");
   }
-  read_paths(options, names, "-" + option_name(rule, names), laws);
+  read_paths(options, names, "-<structure>_<group>_shear_rule", laws);
   read_cracking(options, names, region);
 }
 

@@ -74,12 +74,10 @@ std::string read_table_text(const std::string& option, const std::string& file) 
   require_finite_file(file, option + " ");
   std::ifstream stream(file, std::ios::binary);
   std::string text(std::istreambuf_iterator<char>(stream), {});
-  if (!stream.is_open() || stream.bad()) {
-    throw UserError(option + " " + file + ": no such file, or it cannot be read");
-  }
-  if (text.find('\0') != std::string::npos) {
-    throw UserError(option + " " + file + ": not a text (it holds zeros), give a table");
-  }
+  refuse_if(!stream.is_open() || stream.bad(),
+            option + " " + file + ": no such file, or it cannot be read");
+  refuse_if(text.find('\0') != std::string::npos,
+            option + " " + file + ": not a text (it holds zeros), give a table");
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
   return text;
@@ -99,9 +97,8 @@ void check_columns(const MemberTable& table, const Scene& scene) {
                       "and _modal_damping" +
                       suggestion(column, free));
     }
-    if (!seen.insert(column).second) {
-      throw UserError(table.file + ": two columns are called '" + column + "'");
-    }
+    refuse_if(!seen.insert(column).second,
+              table.file + ": two columns are called '" + column + "'");
   }
 }
 
@@ -116,20 +113,16 @@ MemberTable parse_table(const std::string& file, const std::string& text) {
     if (trimmed(line).empty() || line.starts_with('#')) continue;
     if (table.columns.empty() && line.find(';') != std::string::npos) separator = ';';
     const std::vector<std::string> fields = fields_of(line, separator);
-    if (fields.empty()) {
-      throw UserError(file + ", line " + std::to_string(number) +
-                      ": a double quote is opened and not closed");
-    }
+    refuse_if(fields.empty(), file + ", line " + std::to_string(number) +
+                                  ": a double quote is opened and not closed");
     if (table.columns.empty()) {
       table.columns = fields;
       continue;
     }
-    if (fields.size() != table.columns.size()) {
-      throw UserError(file + ", line " + std::to_string(number) + ": " +
-                      std::to_string(fields.size()) + " values, " +
-                      std::to_string(table.columns.size()) +
-                      " columns; a value that holds the separator needs double quotes");
-    }
+    refuse_if(fields.size() != table.columns.size(),
+              file + ", line " + std::to_string(number) + ": " + std::to_string(fields.size()) +
+                  " values, " + std::to_string(table.columns.size()) +
+                  " columns; a value that holds the separator needs double quotes");
     table.lines.push_back(number);
     table.values.insert(table.values.end(), fields.begin(), fields.end());
   }
@@ -152,10 +145,9 @@ MemberTable read_member_table(MPI_Comm comm, const std::string& file, const Scen
   on_rank0(comm, [&] { text = read_table_text("option -ensemble", file); });
   broadcast(comm, text);
   MemberTable table = parse_table(file, text);
-  if (table.members() == 0) {
-    throw UserError("option -ensemble " + file +
-                    ": no runs in it; the first line names options, every other one is a run");
-  }
+  refuse_if(table.members() == 0,
+            "option -ensemble " + file +
+                ": no runs in it; the first line names options, every other one is a run");
   check_columns(table, scene);
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     std::map<std::string, std::string> found;  // each path is looked for once

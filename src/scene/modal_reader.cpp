@@ -11,7 +11,6 @@ namespace {
 using Names = OptionReader::Names;
 
 constexpr std::string_view model = "<structure>_model";
-constexpr std::string_view vectors = "<structure>_modal_vectors";
 constexpr std::string_view candidates = "<structure>_modal_candidates";
 constexpr std::string_view cutoff = "<structure>_modal_cutoff";
 constexpr std::string_view damping = "<structure>_modal_damping";
@@ -24,27 +23,23 @@ constexpr std::string_view switched_part = "<structure>_switched_part";
 void refuse_couplings(const OptionReader& options, const Structure& structure,
                       const std::string& kind) {
   const bool switched = kind == "switched";
-  const std::string chosen = "-" + option_name(model, {structure.name});
+  const std::string chosen = "-<structure>_model";
   const std::string remedy = "not in a structure with " + chosen + " " + kind +
                              "; leave it out, or give " + chosen + " full";
   for (const Region& region : structure.regions) {
     const Names names{structure.name, region.group};
     const LawTrait apart = switched ? any_law : is_full_order;
     if (const auto* law = apart.of(region)) options.forbid(law->option, names, remedy);
-    if (switched && region.damping_factor != 1) {
-      options.refuse(region_damping_factor, names, remedy);
-    }
+    options.refuse_if(switched && region.damping_factor != 1, region_damping_factor, names, remedy);
     if (is_nonlinear(region) && structure.uniform_damping) {
-      options.forbid(
-          is_nonlinear.of(region)->option, names,
-          "not with " + chosen + " modal and -" + structure.name +
-              "_damping_uniform, which would damp slack and yielding elements; leave one of "
-              "the three out");
+      options.forbid(is_nonlinear.of(region)->option, names,
+                     "not with " + chosen +
+                         " modal and -<structure>_damping_uniform, which would damp slack and "
+                         "yielding elements; leave one of the three out");
     }
     if (region.damping) {
-      for (const char* option : {"alpha", "beta", "ratio"}) {
-        options.forbid(std::string("<structure>_<group>_damping_") + option, names, remedy);
-      }
+      options.forbid_each("<structure>_<group>_damping_", {"alpha", "beta", "ratio"}, names,
+                          remedy);
     }
   }
   for (const char* option :
@@ -63,8 +58,8 @@ void read_model(OptionReader& options, Structure& structure) {
   const Names names{structure.name};
   const std::string kind = options.choice(model, names);
   if (kind == "full") {
-    options.forbid(switched_part, names, goes_with(model, names, "switched"));
-    options.forbid_all<ModalModel>(names, goes_with(model, names, "modal"));
+    options.forbid(switched_part, names, goes_with(model, "switched"));
+    options.forbid_all<ModalModel>(names, goes_with(model, "modal"));
     return;
   }
   refuse_couplings(options, structure, kind);
@@ -72,35 +67,27 @@ void read_model(OptionReader& options, Structure& structure) {
   modal.switched_part = kind == "switched" ? 1 : 0;
   modal.attachment = kind == "modal";
   options.read(modal, names);
-  if (modal.candidates > 0 && modal.candidates < modal.modes) {
-    options.refuse(candidates, names,
-                   "at least as many as -" + option_name(vectors, names) + " " +
-                       std::to_string(modal.modes) + ", which are chosen from them");
-  }
-  if (kind == "modal" && modal.modes == 0 && modal.cutoff == 0) {
-    throw UserError("option -" + option_name(model, names) + " modal: give -" +
-                    option_name(vectors, names) + " (number of lowest modes) or -" +
-                    option_name(cutoff, names) + " (every mode below it, in Hz)");
-  }
+  options.refuse_if(modal.candidates > 0 && modal.candidates < modal.modes, candidates, names,
+                    "at least as many as -<structure>_modal_vectors " +
+                        std::to_string(modal.modes) + ", which are chosen from them");
+  refuse_if(kind == "modal" && modal.modes == 0 && modal.cutoff == 0,
+            "option -" + structure.name + "_model modal: give -" + structure.name +
+                "_modal_vectors (number of lowest modes) or -" + structure.name +
+                "_modal_cutoff (every mode below it, in Hz)");
   if (options.given(damping, names)) {
     if (structure.uniform_damping) {
-      options.forbid(damping, names, "not with -" + structure.name + "_damping_uniform");
+      options.forbid(damping, names, "not with -<structure>_damping_uniform");
     }
     const double factor = read_damping_factor(options, structure.name);
     for (double& ratio : modal.damping_ratios) {
       ratio *= factor;
-      if (!option_row(damping).range.contains(ratio)) {
-        options.refuse(damping, names,
-                       "times -" + structure.name + "_damping_factor it is too large");
-      }
+      options.refuse_if(!option_row(damping).range.contains(ratio), damping, names,
+                        "times -<structure>_damping_factor it is too large");
     }
   }
-  if (modal.ranks > 1 && modal.basis_file.empty()) {
-    options.refuse(
-        ranks, names,
-        "several ranks do not find the same bits twice: give a file that keeps the basis (-" +
-            option_name(basis, names) + ")");
-  }
+  options.refuse_if(modal.ranks > 1 && modal.basis_file.empty(), ranks, names,
+                    "several ranks do not find the same bits twice: give a file that keeps the "
+                    "basis (-<structure>_modal_basis)");
   if (kind == "modal") {
     structure.modal = std::move(modal);
     return;

@@ -27,23 +27,18 @@ class AxisReader {
     MotionComponent component;
     component.pga = options_.real(pattern("pga"), names_);
     component.scale = options_.real(pattern("scale"), names_);
-    if (component.pga > 0 && component.scale != 1) {
-      options_.refuse(pattern("scale"), names_,
-                      "no effect beside -" + option_name(pattern("pga"), names_) +
-                          ", which is above 0; leave one of them out");
-    }
+    options_.refuse_if(
+        component.pga > 0 && component.scale != 1, pattern("scale"), names_,
+        "no effect beside -" + pattern("pga") + ", which is above 0; leave one of them out");
     if (recorded) {
       const RecordedMotion record = read_record();
-      if (record.is_of_displacement() && component.pga > 0) {
-        options_.refuse(pattern("pga"), names_, "a record of displacement takes a scale");
-      }
+      options_.refuse_if(record.is_of_displacement() && component.pga > 0, pattern("pga"), names_,
+                         "a record of displacement takes a scale");
       component.source = record;
     } else {
       component.source = read_synthetic();
-      if (component.pga == 0) {
-        options_.refuse(pattern("pga"), names_,
-                        "a synthetic motion needs a peak ground acceleration above 0");
-      }
+      options_.refuse_if(component.pga == 0, pattern("pga"), names_,
+                         "a synthetic motion needs a peak ground acceleration above 0");
     }
     return component;
   }
@@ -55,8 +50,7 @@ class AxisReader {
   /// Options that would have no effect are mistakes.
   void forbid_details() const {
     const std::string why = "there is no motion along " + direction_ + "; give -" +
-                            option_name(pattern("record"), names_) + " or -" +
-                            option_name(pattern("target"), names_);
+                            pattern("record") + " or -" + pattern("target");
     if (prefix_.empty()) {
       options_.forbid_all<MotionComponent>(names_, why);
     } else {
@@ -71,25 +65,21 @@ class AxisReader {
     motion.unit = unit == "auto" ? "" : unit;
     options_.read(motion, names_, pattern(""));
     if (!given("target")) {
-      options_.forbid_all<SyntheticMotion>(names_, goes_with(pattern("target"), names_), "",
-                                           pattern(""));
+      options_.forbid_all<SyntheticMotion>(names_, goes_with(pattern("target")), "", pattern(""));
     }
     return motion;
   }
 
   SyntheticMotion read_synthetic() {
-    const std::string why = goes_with(pattern("record"), names_);
+    const std::string why = goes_with(pattern("record"));
     options_.forbid(pattern("unit"), names_, why);
     options_.forbid_all<RecordedMotion>(names_, why, "", pattern(""));
     SyntheticMotion motion;
     options_.read(motion, names_, pattern(""));
-    if (motion.envelope[0] > motion.envelope[1]) {
-      options_.refuse(pattern("envelope"), names_, "t1 is above t2");
-    }
-    if (motion.envelope[1] > motion.duration) {
-      options_.refuse(pattern("envelope"), names_,
-                      "t2 is above -" + option_name(pattern("duration"), names_));
-    }
+    options_.refuse_if(motion.envelope[0] > motion.envelope[1], pattern("envelope"), names_,
+                       "t1 is above t2");
+    options_.refuse_if(motion.envelope[1] > motion.duration, pattern("envelope"), names_,
+                       "t2 is above -" + pattern("duration"));
     return motion;
   }
 

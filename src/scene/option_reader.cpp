@@ -32,6 +32,19 @@ bool is_preset(const OptionRow& row, const std::string& value) {
   return value == row.preset.text;
 }
 
+/// Words in which placeholders of a pattern are replaced by their names.
+std::string filled(std::string text, std::string_view pattern, const OptionReader::Names& names) {
+  for (const std::string& name : names) {
+    pattern.remove_prefix(pattern.find('<'));
+    const std::string_view holder = pattern.substr(0, pattern.find('>') + 1);
+    for (std::size_t at = 0; (at = text.find(holder, at)) != std::string::npos; at += name.size()) {
+      text.replace(at, holder.size(), name);
+    }
+    pattern.remove_prefix(holder.size());
+  }
+  return text;
+}
+
 constexpr std::string_view damping_factor = "<structure>_damping_factor";
 
 }  // namespace
@@ -94,15 +107,16 @@ void OptionReader::refuse(std::string_view pattern, const Names& names,
   const std::string hint = decimal_comma_hint(shown, option_row(pattern).kind == OptionKind::real);
   throw UserError("option -" + option_name(pattern, names) + " " + shown +
                   (given(pattern, names) ? "" : " (default)") + ": " +
-                  (why.empty() ? "" : why + "; ") + (hint.empty() ? "" : hint + "; ") +
-                  "expected " + expected_text(option_row(pattern)));
+                  (why.empty() ? "" : filled(why, pattern, names) + "; ") +
+                  (hint.empty() ? "" : hint + "; ") + "expected " +
+                  expected_text(option_row(pattern)));
 }
 
 void OptionReader::forbid(std::string_view pattern, const Names& names,
                           const std::string& why) const {
   if (given(pattern, names)) {
     throw UserError("option -" + option_name(pattern, names) + " " +
-                    shown_value(value(pattern, names)) + ": " + why);
+                    shown_value(value(pattern, names)) + ": " + filled(why, pattern, names));
   }
 }
 
@@ -196,9 +210,8 @@ std::vector<double> OptionReader::reals(std::string_view pattern, const Names& n
   return *numbers;
 }
 
-std::string goes_with(std::string_view pattern, const OptionReader::Names& names,
-                      const std::string& value) {
-  return "goes with -" + option_name(pattern, names) + (value.empty() ? "" : " " + value) +
+std::string goes_with(std::string_view pattern, const std::string& value) {
+  return "goes with -" + std::string(pattern) + (value.empty() ? "" : " " + value) +
          ", which is not given";
 }
 

@@ -60,11 +60,21 @@ class OptionReader {
   /// Points "x,y,z; x,y,z".
   std::vector<Vector3> points(std::string_view pattern, const Names& names = {});
 
-  /// "option -name value: why; expected ...".
+  /// "option -name value: why; expected ...". In `why`, here and below, the names replace the
+  /// placeholders of the pattern as well.
   [[noreturn]] void refuse(std::string_view pattern, const Names& names,
                            const std::string& why = "") const;
+  void refuse_if(bool wrong, std::string_view pattern, const Names& names,
+                 const std::string& why = "") const {
+    if (wrong) refuse(pattern, names, why);
+  }
   /// Refuses the option if it is given.
   void forbid(std::string_view pattern, const Names& names, const std::string& why) const;
+  /// Refuses the options whose patterns are `head` and one of `tails`, if they are given.
+  void forbid_each(std::string_view head, std::initializer_list<std::string_view> tails,
+                   const Names& names, const std::string& why) const {
+    for (const std::string_view tail : tails) forbid(std::string(head).append(tail), names, why);
+  }
 
   const OptionsDatabase& database() const { return database_; }
   /// Options in force: owners in the order of reading, those of each in the order of the help.
@@ -94,8 +104,7 @@ class OptionReader {
 };
 
 /// Words of a refusal: "goes with -name value, which is not given"; the value only where it counts.
-std::string goes_with(std::string_view pattern, const OptionReader::Names& names,
-                      const std::string& value = "");
+std::string goes_with(std::string_view pattern, const std::string& value = "");
 
 /// Visitor of a description that reads into the members of an object.
 template <typename Object>
@@ -132,7 +141,7 @@ class MemberReader {
   }
   bool applies(std::string_view pattern, const OptionNeeds<Object>& needs) const {
     if ((object_.*needs.holds)()) return true;
-    if (!needs.why.empty()) options_.forbid(pattern, names_, option_name(needs.why, names_));
+    if (!needs.why.empty()) options_.forbid(pattern, names_, std::string(needs.why));
     return false;
   }
 

@@ -23,15 +23,12 @@ constexpr std::uintmax_t largest_file = 10'000'000;  // bytes
 std::string read_text(const std::string& option, const std::string& file) {
   const std::string what = "option -" + option + " " + file + ": ";
   std::error_code failure;
-  if (!std::filesystem::is_regular_file(file, failure)) {
-    throw UserError(
-        what +
-        "no such file (paths are relative to the folder in which the program runs, in a "
-        "file of options first to the folder of that file)");
-  }
-  if (std::filesystem::file_size(file, failure) > largest_file) {
-    throw UserError(what + "above 10 MB, that is no options file");
-  }
+  refuse_if(!std::filesystem::is_regular_file(file, failure),
+            what +
+                "no such file (paths are relative to the folder in which the program runs, in a "
+                "file of options first to the folder of that file)");
+  refuse_if(std::filesystem::file_size(file, failure) > largest_file,
+            what + "above 10 MB, that is no options file");
   std::ifstream stream(file, std::ios::binary);
   std::string text(std::istreambuf_iterator<char>(stream), {});
   if (!stream || stream.bad()) throw UserError(what + "it cannot be read; look at its permissions");
@@ -84,6 +81,11 @@ using Entries = std::map<std::string, Entry>;
 /// Marks count from 0.
 [[noreturn]] void refuse(const std::string& file, const yaml_mark_t& mark, const std::string& why) {
   refuse(file, mark.line + 1, mark.column + 1, why);
+}
+
+void refuse_mark_if(bool wrong, const std::string& file, const yaml_mark_t& mark,
+                    const std::string& why) {
+  if (wrong) refuse(file, mark, why);
 }
 
 /// Whether a tab precedes the first word of a line (counted from 0).
@@ -166,21 +168,18 @@ class OptionsReader {
 
   /// Adds the options of a mapping, its own before those that it merges.
   void read(const yaml_node_t& mapping, const std::string& prefix, int depth, Entries& entries) {
-    if (depth > deepest) {
-      refuse(file_, mapping.start_mark, "names are nested too deep (an anchor inside itself?)");
-    }
+    refuse_mark_if(depth > deepest, file_, mapping.start_mark,
+                   "names are nested too deep (an anchor inside itself?)");
     std::map<std::string, std::size_t> lines;
     Entries merged;
     const auto& pairs = mapping.data.mapping.pairs;
     for (const yaml_node_pair_t* pair = pairs.start; pair < pairs.top; ++pair) {
-      if (++visits_ > most_visits) {
-        refuse(file_, mapping.start_mark, "anchors hold anchors too many times over");
-      }
+      refuse_mark_if(++visits_ > most_visits, file_, mapping.start_mark,
+                     "anchors hold anchors too many times over");
       const yaml_node_t& key = *yaml_.node(pair->key);
       const yaml_node_t& value = *yaml_.node(pair->value);
-      if (key.type != YAML_SCALAR_NODE || text_of(key).empty()) {
-        refuse(file_, key.start_mark, "expected a name before the colon");
-      }
+      refuse_mark_if(key.type != YAML_SCALAR_NODE || text_of(key).empty(), file_, key.start_mark,
+                     "expected a name before the colon");
       const std::string name = text_of(key);
       const auto [first, fresh] = lines.try_emplace(name, key.start_mark.line + 1);
       if (!fresh) refuse_twice(key, prefix + name, first->second);
@@ -208,14 +207,12 @@ class OptionsReader {
       return;
     }
     const std::string text = value.type == YAML_SCALAR_NODE ? text_of(value) : joined(value);
-    if (text.find('\0') != std::string::npos) {
-      refuse(file_, value.start_mark, shown_value(option) + " holds a zero character");
-    }
+    refuse_mark_if(text.find('\0') != std::string::npos, file_, value.start_mark,
+                   shown_value(option) + " holds a zero character");
     const auto [entry, fresh] = entries.try_emplace(option, Entry{text, key.start_mark.line + 1});
     if (!fresh) refuse_twice(key, option, entry->second.line);
-    if (entries.size() > most_options) {
-      refuse(file_, key.start_mark, "more than " + std::to_string(most_options) + " options");
-    }
+    refuse_mark_if(entries.size() > most_options, file_, key.start_mark,
+                   "more than " + std::to_string(most_options) + " options");
   }
 
   std::string joined(const yaml_node_t& sequence) {
@@ -223,9 +220,8 @@ class OptionsReader {
     const auto& items = sequence.data.sequence.items;
     for (const yaml_node_item_t* item = items.start; item < items.top; ++item) {
       const yaml_node_t& value = *yaml_.node(*item);
-      if (value.type != YAML_SCALAR_NODE) {
-        refuse(file_, value.start_mark, "an item of a list is one plain value");
-      }
+      refuse_mark_if(value.type != YAML_SCALAR_NODE, file_, value.start_mark,
+                     "an item of a list is one plain value");
       const std::string word = text_of(value);
       text += (text.empty() || word.empty() ? "" : ",") + word;
     }
@@ -239,15 +235,13 @@ class OptionsReader {
       merged.merge(entries);
       return;
     }
-    if (value.type != YAML_SEQUENCE_NODE) {
-      refuse(file_, value.start_mark, "<< takes an anchor: <<: *name");
-    }
+    refuse_mark_if(value.type != YAML_SEQUENCE_NODE, file_, value.start_mark,
+                   "<< takes an anchor: <<: *name");
     const auto& items = value.data.sequence.items;
     for (const yaml_node_item_t* item = items.start; item < items.top; ++item) {
       const yaml_node_t& each = *yaml_.node(*item);
-      if (each.type != YAML_MAPPING_NODE) {
-        refuse(file_, each.start_mark, "<< takes anchors of mappings");
-      }
+      refuse_mark_if(each.type != YAML_MAPPING_NODE, file_, each.start_mark,
+                     "<< takes anchors of mappings");
       merge(each, prefix, depth, merged);
     }
   }
@@ -315,9 +309,8 @@ OptionsDatabase read_options_database(MPI_Comm comm, const CommandLine& line,
       text = read_text(next.option, file);
     });
     broadcast(comm, file);
-    if (!seen.insert(file).second) {
-      throw UserError("option -" + next.option + " " + file + ": this file is read already");
-    }
+    refuse_if(!seen.insert(file).second,
+              "option -" + next.option + " " + file + ": this file is read already");
     broadcast(comm, text);
     if (files != nullptr) files->push_back(file);
     OptionsDatabase read = parse_options_file(text, file);
@@ -342,13 +335,10 @@ OptionsDatabase parse_options_file(const std::string& bytes, const std::string& 
   require_shallow(text, file);
   Yaml yaml(text, file);
   const yaml_node_t* root = yaml.next();
-  if (root == nullptr || (root->type == YAML_SCALAR_NODE && text_of(*root).empty())) {
-    throw UserError(file + ": holds no options; expected YAML, lines like end_time: 25");
-  }
-  if (root->type != YAML_MAPPING_NODE) {
-    refuse(file, root->start_mark,
-           "not YAML with options; expected lines like end_time: 25 or s1: {mesh: left.geo}");
-  }
+  refuse_if(root == nullptr || (root->type == YAML_SCALAR_NODE && text_of(*root).empty()),
+            file + ": holds no options; expected YAML, lines like end_time: 25");
+  refuse_mark_if(root->type != YAML_MAPPING_NODE, file, root->start_mark,
+                 "not YAML with options; expected lines like end_time: 25 or s1: {mesh: left.geo}");
   Entries entries;
   OptionsReader(yaml, file).read(*root, "", 1, entries);
   if (const yaml_node_t* second = yaml.next()) {

@@ -108,17 +108,15 @@ void take_pools(const OptionReader& options, std::span<const Pool> pools, Struct
   for (const Pool& pool : pools) {
     if (pool.structure != structure.name) continue;
     const OptionReader::Names names{pool.name};
-    if (!structure.matrices.empty()) {
-      options.refuse("<pool>_structure", names,
-                     "not with -" + structure.name +
-                         "_matrices; write the water into the matrices and leave the pool out");
-    }
+    options.refuse_if(!structure.matrices.empty(), "<pool>_structure", names,
+                      "not with -" + structure.name +
+                          "_matrices; write the water into the matrices and leave the pool out");
     if (!pool.is_tank()) refuse_beside_cells(options, pool, structure);
-    if (pool.is_tank() && structure.uniform_damping && structure.uniform_damping->reference == 0) {
-      options.refuse("<pool>_structure", names,
-                     "the first mode is a wave now; give -" + structure.name +
-                         "_damping_reference, the frequency of one of its own");
-    }
+    options.refuse_if(
+        pool.is_tank() && structure.uniform_damping && structure.uniform_damping->reference == 0,
+        "<pool>_structure", names,
+        "the first mode is a wave now; give -" + structure.name +
+            "_damping_reference, the frequency of one of its own");
     std::vector<std::string> groups = pool.faces;
     std::ranges::sort(groups);
     const auto twice = std::ranges::adjacent_find(groups);

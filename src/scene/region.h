@@ -151,11 +151,7 @@ struct Region {
     option("<structure>_<group>_bending_skeleton_z", reals("1/m, N m", absent("left out: elastic"), "pairs k1,M1,k2,M2,...", not_negative), "likewise about local z", for_beams);
     option("<structure>_<group>_bending_rule", word(rule_words, "bending"), "its rule, see rule", for_beams);
     option("<structure>_<group>_bending_axial", reals("N, -", absent("left out: none"), "N_y or N_y,a", positive), "an axial force N leaves 1 - (|N| / N_y)^a of the strength in bending, a 1 unless given; with bending_rule kinematic", for_beams);
-    option("<structure>_<group>_cracking_force", real("N/m", absent("left out: elastic"), positive), "shell that cracks by damage: force per length in tension along one axis at which it begins", for_shells);
-    option("<structure>_<group>_cracking_moment", real("N", absent("left out: cracking_force thickness / 6"), positive), "its moment per length about one axis at which damage begins", for_shells);
-    option("<structure>_<group>_cracked_tension", real("-", absent("required with cracking_force"), below_1), "slope of its force while it cracks in tension, over that of the sound shell", for_shells);
-    option("<structure>_<group>_cracked_compression", real("-", "1", up_to_1), "likewise in compression; 1: no damage by it", for_shells);
-    option("<structure>_<group>_cracked_bending", real("-", absent("left out: cracked_tension"), below_1), "likewise in bending", for_shells);
+    option.template part<ShellCracking>();
     option("<structure>_<group>_unloading_exponent", real("-", absent("left out: 0, of bending 0.5"), up_to_1), "peak, pinching, bending: stiffness of unloading over the first one is this power of the secant over it", for_yielding);
     option("<structure>_<group>_unloading_least", real("-", "0", up_to_1), "peak, pinching, bending, origin: least stiffness of unloading over the first one", for_yielding);
     option("<structure>_<group>_pinch", reals("-", absent("required with pinching"), "two numbers force,way", up_to_1), "pinching: corner on the way to the farthest point, as parts of its force and of the way there", for_yielding);

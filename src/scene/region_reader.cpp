@@ -83,9 +83,8 @@ Section read_section(OptionReader& options, const Names& region) {
     section.shear_area_y = areas[0];
     section.shear_area_z = areas[1];
   }
-  if (section.z_axis == Vector3{0, 0, 0}) {
-    options.refuse("section_<section>_z_axis", names, "no direction");
-  }
+  options.refuse_if(section.z_axis == Vector3{0, 0, 0}, "section_<section>_z_axis", names,
+                    "no direction");
   return section;
 }
 
@@ -97,9 +96,8 @@ int read_parts(OptionReader& options, const Names& names) {
   if (word == "none") return 1;
   if (word == "auto") return 0;
   const auto count = parse_real(word);
-  if (!count || *count != std::floor(*count) || *count < 2 || *count > most) {
-    options.refuse(pattern, names);
-  }
+  options.refuse_if(!count || *count != std::floor(*count) || *count < 2 || *count > most, pattern,
+                    names);
   return static_cast<int>(*count);
 }
 
@@ -109,11 +107,9 @@ void read_solid(OptionReader& options, const Names& names, Region& region) {
   const bool dashpot_alone = is_bar(region.element) && !options.given(area, names) &&
                              options.given("<structure>_<group>_dashpot", names);
   if (dashpot_alone) {
-    for (const char* option : {"material", "tension_only", "compression_only"}) {
-      options.forbid(
-          std::string("<structure>_<group>_") + option, names,
-          "a bar of its dashpot alone has none; give -" + option_name(area, names) + " as well");
-    }
+    options.forbid_each(
+        "<structure>_<group>_", {"material", "tension_only", "compression_only"}, names,
+        "a bar of its dashpot alone has none; give -<structure>_<group>_area as well");
   } else {
     region.material = read_material(options, names);
   }
@@ -128,9 +124,8 @@ void read_solid(OptionReader& options, const Names& names, Region& region) {
     constexpr std::string_view pressed = "<structure>_<group>_compression_only";
     const bool pulled = options.boolean("<structure>_<group>_tension_only", names);
     region.compression_only = options.boolean(pressed, names);
-    if (pulled && region.compression_only) {
-      options.refuse(pressed, names, "not beside tension_only; leave one of the two out");
-    }
+    options.refuse_if(pulled && region.compression_only, pressed, names,
+                      "not beside tension_only; leave one of the two out");
     if (pulled || region.compression_only) region.element = ElementType::tension_bar;
     read_nonlinear_bar(options, names, region);
   }

@@ -110,11 +110,9 @@ class SceneReader {
   double read_gravity() {
     if (options_.given("gravity")) {
       const auto number = parse_real(options_.database().at("gravity"));
-      if (number && *number < 0) {
-        options_.refuse("gravity", {},
-                        "it acts along -z, and this is how strong it is: leave the sign out (other "
-                        "directions: -<structure>_gravity x,y,z)");
-      }
+      options_.refuse_if(number && *number < 0, "gravity", {},
+                         "it acts along -z, and this is how strong it is: leave the sign out "
+                         "(other directions: -<structure>_gravity x,y,z)");
     }
     return options_.real("gravity");
   }
@@ -124,9 +122,9 @@ class SceneReader {
     if (options_.given("fidelity_target")) {
       scene_.fidelity.target = options_.real("fidelity_target");
     }
-    if (scene_.certificate.mesh && scene_.certificate.window == 0 && scene_.fidelity.target == 0) {
-      options_.refuse("fidelity_mesh", {}, "goes with -fidelity_window, which is not given");
-    }
+    options_.refuse_if(
+        scene_.certificate.mesh && scene_.certificate.window == 0 && scene_.fidelity.target == 0,
+        "fidelity_mesh", {}, "goes with -fidelity_window, which is not given");
     gravity_ = read_gravity();
     options_.read(scene_.struck);
     for (auto* list : {&scene_.law_cycles, &scene_.struck.areas, &scene_.struck.edges}) {
@@ -145,22 +143,18 @@ class SceneReader {
       std::string lower = name;
       std::ranges::transform(lower, lower.begin(),
                              [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-      if (!used_names_.insert(lower).second) {
-        options_.refuse(pattern, {},
-                        "'" + name + "' names something else already (upper or lower case alike)");
-      }
+      options_.refuse_if(!used_names_.insert(lower).second, pattern, {},
+                         "'" + name + "' names something else already (upper or lower case alike)");
     }
     return list;
   }
 
   /// Meshes are cut into a folder, for structures at full order.
   void check_pieces() const {
-    if (scene_.write_mesh_pieces > 0 && scene_.mesh_pieces.empty()) {
-      options_.refuse("write_mesh_pieces", {}, "give the folder for them (-mesh_pieces)");
-    }
-    if (scene_.write_mesh_pieces > 0 && scene_.dry_run) {
-      options_.refuse("write_mesh_pieces", {}, "it writes; not with -dry_run");
-    }
+    options_.refuse_if(scene_.write_mesh_pieces > 0 && scene_.mesh_pieces.empty(),
+                       "write_mesh_pieces", {}, "give the folder for them (-mesh_pieces)");
+    options_.refuse_if(scene_.write_mesh_pieces > 0 && scene_.dry_run, "write_mesh_pieces", {},
+                       "it writes; not with -dry_run");
     if (!scene_.mesh_pieces.empty() &&
         std::ranges::any_of(scene_.structures,
                             [](const Structure& s) { return s.basis() != nullptr; })) {
@@ -173,9 +167,8 @@ class SceneReader {
   void require_one_start(const Structure& structure) const {
     if (!scene_.preload) return;
     const std::string why = "the run starts from the static equilibrium; not with -preload static";
-    if (structure.initial_displacement != Vector3{0, 0, 0}) {
-      options_.refuse("<structure>_initial_displacement", {structure.name}, why);
-    }
+    options_.refuse_if(structure.initial_displacement != Vector3{0, 0, 0},
+                       "<structure>_initial_displacement", {structure.name}, why);
     for (const Region& region : structure.regions) {
       options_.forbid("<structure>_<group>_initial_displacement", {structure.name, region.group},
                       why);
@@ -190,11 +183,10 @@ class SceneReader {
              (load.function.kind == LoadFunction::Kind::constant ||
               load.function.kind == LoadFunction::Kind::table);
     });
-    if (!scene_.preload || (structure.gravity == Vector3{0, 0, 0} && !loaded)) {
-      options_.refuse("<structure>_p_delta", {structure.name},
-                      "it is about the axial forces at rest: give -preload static, and -gravity or "
-                      "loads that act before the run");
-    }
+    options_.refuse_if(!scene_.preload || (structure.gravity == Vector3{0, 0, 0} && !loaded),
+                       "<structure>_p_delta", {structure.name},
+                       "it is about the axial forces at rest: give -preload static, and -gravity "
+                       "or loads that act before the run");
   }
 
   /// Matrices and shapes are written of structures at full order only.
@@ -202,30 +194,24 @@ class SceneReader {
     const std::string why =
         "structure " + structure.name + " is reduced; not with -" + structure.name + "_model modal";
     if (structure.modal && scene_.write_modes) options_.refuse("write_modes", {}, why);
-    if (structure.modal && !scene_.export_matrices.empty()) {
-      options_.refuse("export_matrices", {}, why);
-    }
-    if (structure.mass_scaling > 0 && !scene_.export_matrices.empty()) {
-      options_.refuse("export_matrices", {},
-                      "structure " + structure.name + " has scaled mass, which is not diagonal");
-    }
+    options_.refuse_if(structure.modal && !scene_.export_matrices.empty(), "export_matrices", {},
+                       why);
+    options_.refuse_if(structure.mass_scaling > 0 && !scene_.export_matrices.empty(),
+                       "export_matrices", {},
+                       "structure " + structure.name + " has scaled mass, which is not diagonal");
     for (const Pool& pool : structure.pools) {
-      if (!pool.is_tank() && !scene_.export_matrices.empty()) {
-        options_.refuse("export_matrices", {},
-                        "not with -" + pool.name + "_water, whose mass is not diagonal");
-      }
+      options_.refuse_if(!pool.is_tank() && !scene_.export_matrices.empty(), "export_matrices", {},
+                         "not with -" + pool.name + "_water, whose mass is not diagonal");
     }
   }
 
   /// Water with cells follows the ground as one.
   void refuse_beside_water(const Support& support) const {
     for (const SupportedGroup& group : support.groups) {
-      const std::string& name = group.structure;
-      for (const Pool& pool : named_structure(options_, scene_, "", {}, name).pools) {
-        if (pool.is_tank()) continue;
-        options_.refuse("<pool>_water", {pool.name},
-                        "not with -supports " + support.name + ", which moves structure " + name +
-                            " apart from its ground");
+      for (const Pool& pool : named_structure(options_, scene_, "", {}, group.structure).pools) {
+        options_.refuse_if(!pool.is_tank(), "<pool>_water", {pool.name},
+                           "not with -supports " + support.name + ", which moves structure " +
+                               group.structure + " apart from its ground");
       }
     }
   }
@@ -244,11 +230,9 @@ class SceneReader {
   void require_apart(const std::vector<std::string>& structures) const {
     for (const std::string& longer : structures) {
       for (const std::string& shorter : structures) {
-        if (longer.starts_with(shorter + "_")) {
-          options_.refuse("structures", {},
-                          "'" + longer + "' begins with '" + shorter +
-                              "_', so that their options cannot be told apart");
-        }
+        options_.refuse_if(longer.starts_with(shorter + "_"), "structures", {},
+                           "'" + longer + "' begins with '" + shorter +
+                               "_', so that their options cannot be told apart");
       }
     }
   }
@@ -256,12 +240,11 @@ class SceneReader {
   /// A file holds the basis of one structure.
   void require_own_basis(const Structure& structure) const {
     for (const Structure& other : scene_.structures) {
-      if (structure.basis() != nullptr && !structure.basis()->basis_file.empty() &&
-          other.basis() != nullptr && other.name != structure.name &&
-          other.basis()->basis_file == structure.basis()->basis_file) {
-        options_.refuse("<structure>_modal_basis", {structure.name},
-                        "that is the file of structure " + other.name);
-      }
+      options_.refuse_if(structure.basis() != nullptr && !structure.basis()->basis_file.empty() &&
+                             other.basis() != nullptr && other.name != structure.name &&
+                             other.basis()->basis_file == structure.basis()->basis_file,
+                         "<structure>_modal_basis", {structure.name},
+                         "that is the file of structure " + other.name);
     }
   }
 
@@ -271,14 +254,10 @@ class SceneReader {
     options_.read(probe, {name});
     named_structure(options_, scene_, "<probe>_structure", {name}, probe.structure);
     const bool at = !probe.points.empty();
-    if (at == !probe.group.empty()) {
-      throw UserError("probe " + name + ": give " + (at ? "only " : "") + "one of -" + name +
-                      "_at and -" + name + "_group");
-    }
-    if (probe.floor && !probe.average) {
-      options_.refuse("<probe>_floor", {name},
-                      "a floor is one record; not with -" + name + "_average false");
-    }
+    refuse_if(at == !probe.group.empty(), "probe " + name + ": give " + (at ? "only " : "") +
+                                              "one of -" + name + "_at and -" + name + "_group");
+    options_.refuse_if(probe.floor && !probe.average, "<probe>_floor", {name},
+                       "a floor is one record; not with -" + name + "_average false");
     return probe;
   }
 
@@ -293,14 +272,11 @@ class SceneReader {
         continue;
       }
       const auto contact = std::ranges::find(scene_.contacts, item, &Contact::name);
-      if (contact == scene_.contacts.end()) {
-        options_.refuse("loops", {}, "'" + item + "' is neither structure:group nor a contact");
-      }
-      if (!contact->filler && !contact->is_elastic()) {
-        options_.refuse("loops", {},
-                        "contact " + item +
-                            " has no filler, nothing to crush, and is no stop with a stiffness");
-      }
+      options_.refuse_if(contact == scene_.contacts.end(), "loops", {},
+                         "'" + item + "' is neither structure:group nor a contact");
+      options_.refuse_if(
+          !contact->filler && !contact->is_elastic(), "loops", {},
+          "contact " + item + " has no filler, nothing to crush, and is no stop with a stiffness");
       scene_.loops.push_back({item, "", "", item, points});
     }
   }
@@ -317,20 +293,18 @@ class SceneReader {
   void read_spectra() {
     options_.read(scene_.spectra);
     const auto frequencies = parse_increasing(options_.text("spectra_frequencies"));
-    if (!frequencies || !option_row("spectra_frequencies").range.contains(frequencies->front())) {
-      options_.refuse("spectra_frequencies", {});
-    }
-    if (!are_of_oscillators(*frequencies)) {
-      options_.refuse("spectra_frequencies", {}, "not between 1e-6 and 1e6 Hz");
-    }
+    options_.refuse_if(
+        !frequencies || !option_row("spectra_frequencies").range.contains(frequencies->front()),
+        "spectra_frequencies", {});
+    options_.refuse_if(!are_of_oscillators(*frequencies), "spectra_frequencies", {},
+                       "not between 1e-6 and 1e6 Hz");
     scene_.spectra.frequencies = *frequencies;
     resolve_frequency(frequencies->back());
     if (scene_.spectra.peak_frequency == 0) scene_.spectra.peak_frequency = frequencies->back();
     const double last_start =
         scene_.end_time - 2 * std::max(scene_.output_interval, scene_.time_step);
-    if (scene_.spectra.start > 0 && !(scene_.spectra.start <= last_start)) {
-      options_.refuse("spectra_start", {}, "the run ends before two samples are left");
-    }
+    options_.refuse_if(scene_.spectra.start > 0 && !(scene_.spectra.start <= last_start),
+                       "spectra_start", {}, "the run ends before two samples are left");
   }
 
   OptionReader options_;

@@ -62,6 +62,10 @@ class Reader {
     throw UserError(option_ + (line > 0 ? ", line " + std::to_string(line) : "") + ": " + why);
   }
 
+  void refuse_if(bool wrong, long line, const std::string& why) const {
+    if (wrong) refuse(line, why);
+  }
+
   void read_rows() {
     require_finite_file(path_, option_ + ": ", most_bytes);
     std::ifstream file(path_);
@@ -77,32 +81,25 @@ class Reader {
 
   void read_head() {
     const Row& head = rows_.front();
-    if (std::ranges::find(head.words, "frequency") != head.words.end()) {
-      refuse(head.line, "a table of impedances, which is fitted first: run/soil " + path_ +
-                            " OUT writes the file for this option");
-    }
-    if (head.words.front() != first_word) {
-      refuse(head.line, "'" + head.words.front() + "' where '" + first_word +
-                            ",1' belongs; run/soil writes such files");
-    }
-    if (head.words != std::vector<std::string>{first_word, "1"}) {
-      refuse(head.line,
-             "another version of the file than 1, which is read here; write it anew by "
-             "run/soil");
-    }
+    refuse_if(std::ranges::find(head.words, "frequency") != head.words.end(), head.line,
+              "a table of impedances, which is fitted first: run/soil " + path_ +
+                  " OUT writes the file for this option");
+    refuse_if(head.words.front() != first_word, head.line,
+              "'" + head.words.front() + "' where '" + first_word +
+                  ",1' belongs; run/soil writes such files");
+    refuse_if(head.words != std::vector<std::string>{first_word, "1"}, head.line,
+              "another version of the file than 1, which is read here; write it anew by "
+              "run/soil");
     ++next_;
     const std::vector<std::string>& mats = words();
-    if (mats.front() != "mats" || mats.size() != 2) {
-      refuse(line(), "'" + mats.front() + "' where 'mats,1' belongs");
-    }
+    refuse_if(mats.front() != "mats" || mats.size() != 2, line(),
+              "'" + mats.front() + "' where 'mats,1' belongs");
     const auto count = parse_integer(mats[1]);
-    if (!count || *count < 1 || *count > most_mats) {
-      refuse(line(), "soil of " + mats[1] + " mats; give 1 to " + std::to_string(most_mats));
-    }
-    if (mat_ > *count) {
-      refuse(line(), "it is soil of " + mats[1] + " mats, and -" + structure_ + "_soil_table_mat " +
-                         std::to_string(mat_) + " is none of them");
-    }
+    refuse_if(!count || *count < 1 || *count > most_mats, line(),
+              "soil of " + mats[1] + " mats; give 1 to " + std::to_string(most_mats));
+    refuse_if(mat_ > *count, line(),
+              "it is soil of " + mats[1] + " mats, and -" + structure_ + "_soil_table_mat " +
+                  std::to_string(mat_) + " is none of them");
     size_ = 6 * static_cast<std::size_t>(*count);
     ++next_;
   }
@@ -115,25 +112,22 @@ class Reader {
   }
 
   void expect(const std::string& section) {
-    if (words() != std::vector{section}) {
-      refuse(line(), "'" + words().front() + "' where '" + section + "' belongs");
-    }
+    refuse_if(words() != std::vector{section}, line(),
+              "'" + words().front() + "' where '" + section + "' belongs");
     ++next_;
   }
 
   double number(const std::string& word) const {
     const auto value = parse_real(word);
-    if (!value || std::abs(*value) > largest_value) {
-      refuse(line(), "'" + word + "' is no number of use");
-    }
+    refuse_if(!value || std::abs(*value) > largest_value, line(),
+              "'" + word + "' is no number of use");
     return *value;
   }
 
   std::vector<double> numbers(std::size_t count) const {
-    if (words().size() != count) {
-      refuse(line(),
-             std::to_string(words().size()) + " values where " + std::to_string(count) + " belong");
-    }
+    refuse_if(
+        words().size() != count, line(),
+        std::to_string(words().size()) + " values where " + std::to_string(count) + " belong");
     std::vector<double> values;
     for (const std::string& word : words()) values.push_back(number(word));
     return values;
@@ -146,10 +140,9 @@ class Reader {
     for (const std::string& name : split(row[1], ' ')) {
       std::size_t at = 0;
       while (at < size_ && name != name_of(at)) ++at;
-      if (at == size_) {
-        refuse(line(), "'" + name + "' is none of " +
-                           (size_ == 6 ? "x, y, z, rx, ry, rz" : "x1, y1, z1, rx1 and so on"));
-      }
+      refuse_if(at == size_, line(),
+                "'" + name + "' is none of " +
+                    (size_ == 6 ? "x, y, z, rx, ry, rz" : "x1, y1, z1, rx1 and so on"));
       misfit.motions += (misfit.motions.empty() ? "" : ", ") + name;
     }
     misfit.largest = number(row[2]);
@@ -178,12 +171,10 @@ class Reader {
     const double found = symmetric_eigenvalues(scaled).front();
     if (found >= least) return matrix;
     const std::string value = text_of(found);
-    if (found >= -round_off) {
-      refuse(head,
-             "the soil has no stiffness against some motion: the least eigenvalue of the "
-             "stiffness over its diagonals is " +
-                 value);
-    }
+    refuse_if(found >= -round_off, head,
+              "the soil has no stiffness against some motion: the least eigenvalue of the "
+              "stiffness over its diagonals is " +
+                  value);
     refuse(head, "the soil would give energy: the least eigenvalue of the " + section +
                      " over the diagonals is " + value);
   }

@@ -15,10 +15,8 @@ std::optional<std::array<double, 2>> read_sides(OptionReader& options, const Nam
   constexpr std::string_view pattern = "<structure>_soil_size";
   if (!options.given(pattern, names)) return std::nullopt;
   const std::vector<double> values = options.reals(pattern, names);
-  if (values.size() != (disk ? 1 : 2)) {
-    options.refuse(pattern, names,
-                   disk ? "a disk has one diameter" : "a rectangle has two sides, along x and y");
-  }
+  options.refuse_if(values.size() != (disk ? 1 : 2), pattern, names,
+                    disk ? "a disk has one diameter" : "a rectangle has two sides, along x and y");
   return std::array{values.front(), values.back()};
 }
 
@@ -28,27 +26,23 @@ std::optional<Soil> read_soil(OptionReader& options, const Structure& structure)
   const Names names{structure.name};
   constexpr std::string_view mat = "<structure>_soil_mat";
   if (!options.given(mat, names) || options.text(mat, names) == "none") {
-    options.forbid_all<Soil>(names, goes_with(mat, names), mat);
+    options.forbid_all<Soil>(names, goes_with(mat), mat);
     return std::nullopt;
   }
-  if (!structure.matrices.empty()) {
-    options.refuse(mat, names,
-                   "not with -" + structure.name +
-                       "_matrices; write its springs into the matrices and leave it out");
-  }
+  options.refuse_if(
+      !structure.matrices.empty(), mat, names,
+      "not with -<structure>_matrices; write its springs into the matrices and leave it out");
   Soil soil;
   options.read(soil, names);
   soil.ground.shear_velocity *= std::sqrt(soil.factor);
   if (!soil.is_half_space()) {
-    options.forbid("<structure>_soil_size", names, option_name(Soil::no_half_space, names));
+    options.forbid("<structure>_soil_size", names, std::string(Soil::no_half_space));
     return soil;
   }
   soil.sides = read_sides(options, names, soil.disk);
-  if (soil.disk && soil.embedment > 0) {
-    options.refuse("<structure>_soil_embedment", names,
-                   "only rectangles have factors of embedment; give 0, or a rectangle of the same "
-                   "area");
-  }
+  options.refuse_if(
+      soil.disk && soil.embedment > 0, "<structure>_soil_embedment", names,
+      "only rectangles have factors of embedment; give 0, or a rectangle of the same area");
   return soil;
 }
 

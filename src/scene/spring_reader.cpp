@@ -33,57 +33,42 @@ std::array<int, 3> circle_of(const std::string& word) {
 
 void check_sliding(const OptionReader& options, const Names& names, const Region& region) {
   const NonlinearSpring& spring = region.nonlinear;
-  if (!spring.has_circle()) {
-    options.refuse(sliding_friction, names,
-                   "give -" + option_name(yield_circle, names) + ", the plane in which it slides");
-  }
+  options.refuse_if(!spring.has_circle(), sliding_friction, names,
+                    "give -<structure>_<group>_yield_circle, the plane in which it slides");
   const auto [a, b, across] = spring.circle;
-  if (spring.yield_force[a] > 0 || spring.yield_force[b] > 0) {
-    options.refuse(sliding_friction, names,
-                   "not beside -" + option_name(yield_force, names) +
-                       " in the same plane: the compression across it decides");
-  }
-  if (!(region.stiffness[across] > 0)) {
-    options.refuse(sliding_friction, names,
-                   "its stiffness across the plane is 0, so nothing presses on it");
-  }
+  options.refuse_if(spring.yield_force[a] > 0 || spring.yield_force[b] > 0, sliding_friction, names,
+                    "not beside -<structure>_<group>_yield_force in the same plane: the "
+                    "compression across it decides");
+  options.refuse_if(!(region.stiffness[across] > 0), sliding_friction, names,
+                    "its stiffness across the plane is 0, so nothing presses on it");
 }
 
 void check_pendulum(const OptionReader& options, const Names& names,
                     const NonlinearSpring& spring) {
-  if (!(spring.friction > 0)) {
-    options.refuse(radius, names,
-                   "give -" + option_name(sliding_friction, names) + ", and the plane of its dish");
-  }
-  if (!(spring.hardening > 0)) {
-    options.refuse(radius, names,
-                   "give -" + option_name(hardening, names) +
-                       ", the largest pressure on it over radius, as a part of stiffness");
-  }
+  options.refuse_if(!(spring.friction > 0), radius, names,
+                    "give -<structure>_<group>_sliding_friction, and the plane of its dish");
+  options.refuse_if(!(spring.hardening > 0), radius, names,
+                    "give -<structure>_<group>_hardening, the largest pressure on it over radius, "
+                    "as a part of stiffness");
 }
 
 void check_circle(const OptionReader& options, const Names& names, const Region& region) {
   const NonlinearSpring& spring = region.nonlinear;
   const auto [a, b, across] = spring.circle;
-  if (spring.friction == 0 && !(spring.yield_force[a] > 0)) {
-    options.refuse(yield_circle, names,
-                   "give -" + option_name(yield_force, names) + " or -" +
-                       option_name(sliding_friction, names));
-  }
-  if (spring.yield_force[a] != spring.yield_force[b] ||
-      region.stiffness[a] != region.stiffness[b]) {
-    options.refuse(yield_circle, names,
-                   "stiffness and yield force must be the same in both directions");
-  }
+  options.refuse_if(
+      spring.friction == 0 && !(spring.yield_force[a] > 0), yield_circle, names,
+      "give -<structure>_<group>_yield_force or -<structure>_<group>_sliding_friction");
+  options.refuse_if(
+      spring.yield_force[a] != spring.yield_force[b] || region.stiffness[a] != region.stiffness[b],
+      yield_circle, names, "stiffness and yield force must be the same in both directions");
 }
 
 /// Three numbers along x, y, z, or six, also about them.
 std::array<double, 6> read_six(OptionReader& options, std::string_view pattern,
                                const Names& names) {
   const std::vector<double> values = options.reals(pattern, names);
-  if (values.size() != 3 && values.size() != 6) {
-    options.refuse(pattern, names, "wrong count of numbers");
-  }
+  options.refuse_if(values.size() != 3 && values.size() != 6, pattern, names,
+                    "wrong count of numbers");
   std::array<double, 6> result{};
   std::ranges::copy(values, result.begin());
   return result;
@@ -92,9 +77,8 @@ std::array<double, 6> read_six(OptionReader& options, std::string_view pattern,
 /// The one number of a bar, of an option that has six of a spring.
 double read_one(OptionReader& options, std::string_view pattern, const Names& names) {
   const std::vector<double> values = options.reals(pattern, names);
-  if (std::count(values.begin() + 1, values.end(), 0) + 1 != std::ssize(values)) {
-    options.refuse(pattern, names, "a bar takes one number");
-  }
+  options.refuse_if(std::count(values.begin() + 1, values.end(), 0) + 1 != std::ssize(values),
+                    pattern, names, "a bar takes one number");
   return values.front();
 }
 
@@ -104,10 +88,9 @@ Spread spread_of(const OptionReader& options, const Names& names) {
     return options.given("<structure>_<group>_stiffness" + per_extent(spread), names) ||
            options.given(std::string(dashpot) + per_extent(spread), names);
   };
-  if (has(Spread::area) && has(Spread::length)) {
-    options.refuse("<structure>_<group>_stiffness_per_length", names,
-                   "not beside those per area; a group is of lines or of surfaces");
-  }
+  options.refuse_if(has(Spread::area) && has(Spread::length),
+                    "<structure>_<group>_stiffness_per_length", names,
+                    "not beside those per area; a group is of lines or of surfaces");
   if (has(Spread::area)) return Spread::area;
   return has(Spread::length) ? Spread::length : Spread::none;
 }
@@ -116,19 +99,17 @@ Spread spread_of(const OptionReader& options, const Names& names) {
 void read_spread(OptionReader& options, const Names& names, Region& region) {
   const std::string per = per_extent(region.spread);
   const std::string stiffness = "<structure>_<group>_stiffness" + per;
-  for (const std::string_view other :
-       {std::string_view("<structure>_<group>_stiffness"), dashpot, yield_force, hardening,
-        yield_circle, sliding_friction, radius, exponent, dashpot_stiffness, series_stiffness,
-        law_rule, law_skeleton}) {
-    options.forbid(other, names, "not beside -" + option_name(stiffness, names));
-  }
+  options.forbid_each("",
+                      {"<structure>_<group>_stiffness", dashpot, yield_force, hardening,
+                       yield_circle, sliding_friction, radius, exponent, dashpot_stiffness,
+                       series_stiffness, law_rule, law_skeleton},
+                      names, "not beside -" + stiffness);
   std::ranges::copy(options.reals(stiffness, names, 3), region.stiffness.begin());
   std::ranges::copy(options.reals(std::string(dashpot) + per, names, 3), region.dashpot.begin());
   const auto is_zero = [](double value) { return value == 0; };
-  if (std::ranges::all_of(region.stiffness, is_zero) &&
-      std::ranges::all_of(region.dashpot, is_zero)) {
-    options.refuse(stiffness, names, "all zero, and no dashpots; leave the group out");
-  }
+  options.refuse_if(std::ranges::all_of(region.stiffness, is_zero) &&
+                        std::ranges::all_of(region.dashpot, is_zero),
+                    stiffness, names, "all zero, and no dashpots; leave the group out");
 }
 
 std::string axis_of(std::size_t component) {
@@ -157,15 +138,11 @@ void read_series(OptionReader& options, const Names& names, Region& region) {
   for (std::size_t c = 0; c < inner.size(); ++c) {
     if (inner[c] == 0 && outer[c] == 0) continue;
     const std::string_view option = inner[c] > 0 ? dashpot_stiffness : series_stiffness;
-    if (!(region.dashpot[c] > 0)) {
-      options.refuse(option, names,
-                     "there is no dashpot " + axis_of(c) + " for it to be in series with");
-    }
-    if (outer[c] > 0 && spring.yields(c)) {
-      options.refuse(series_stiffness, names,
-                     "not in series with a spring that yields " + axis_of(c) +
-                         "; give that one a group of its own");
-    }
+    options.refuse_if(!(region.dashpot[c] > 0), option, names,
+                      "there is no dashpot " + axis_of(c) + " for it to be in series with");
+    options.refuse_if(outer[c] > 0 && spring.yields(c), series_stiffness, names,
+                      "not in series with a spring that yields " + axis_of(c) +
+                          "; give that one a group of its own");
     put_in_series(outer[c], inner[c], spring.dashpot_exponent, region.stiffness[c],
                   region.dashpot[c], spring.dashpot_stiffness[c]);
   }
@@ -187,10 +164,9 @@ void read_nonlinear_spring(OptionReader& options, const Names& names, Region& re
   if (spring.friction > 0) check_sliding(options, names, region);
   if (spring.has_circle()) check_circle(options, names, region);
   for (std::size_t c = 0; c < region.stiffness.size(); ++c) {
-    if (spring.yields(c) && !(region.stiffness[c] > 0)) {
-      options.refuse(spring.friction > 0 ? sliding_friction : yield_force, names,
-                     "its stiffness " + axis_of(c) + " is 0; give the one before it yields");
-    }
+    options.refuse_if(spring.yields(c) && !(region.stiffness[c] > 0),
+                      spring.friction > 0 ? sliding_friction : yield_force, names,
+                      "its stiffness " + axis_of(c) + " is 0; give the one before it yields");
   }
   read_series(options, names, region);
 }
@@ -209,31 +185,25 @@ void read_spring(OptionReader& options, const Names& names, Region& region) {
   if (is_grounded(region.element)) {
     region.compression_only = options.boolean("<structure>_<group>_compression_only", names);
   }
-  if (region.compression_only && !(region.stiffness[2] > 0)) {
-    options.refuse("<structure>_<group>_compression_only", names,
-                   "its stiffness along z is 0; give one, or leave this out");
-  }
-  if (region.compression_only && region.nonlinear.yields(2)) {
-    options.refuse("<structure>_<group>_compression_only", names,
-                   "a spring that yields along z cannot press only; leave one of the two out");
-  }
-  if (region.compression_only && region.dashpot[2] > 0 && region.nonlinear.dashpot_exponent != 1) {
-    options.refuse(exponent, names,
-                   "beside -" + option_name("<structure>_<group>_compression_only", names) +
-                       " the dashpot along z goes by the rate itself; leave one of the two out, or "
-                       "give the dashpot to a group of its own");
-  }
-  if (region.compression_only && region.nonlinear.dashpot_stiffness[2] > 0) {
-    options.refuse(dashpot_stiffness, names,
-                   "not along z beside -" +
-                       option_name("<structure>_<group>_compression_only", names) +
-                       "; give the dashpot to a group of its own");
-  }
-  bool rotations = false;
-  for (std::size_t c = 3; c < 6; ++c) {
-    rotations = rotations || region.stiffness[c] > 0 || region.dashpot[c] > 0;
-  }
-  if (rotations) {
+  options.refuse_if(region.compression_only && !(region.stiffness[2] > 0),
+                    "<structure>_<group>_compression_only", names,
+                    "its stiffness along z is 0; give one, or leave this out");
+  options.refuse_if(region.compression_only && region.nonlinear.yields(2),
+                    "<structure>_<group>_compression_only", names,
+                    "a spring that yields along z cannot press only; leave one of the two out");
+  options.refuse_if(
+      region.compression_only && region.dashpot[2] > 0 && region.nonlinear.dashpot_exponent != 1,
+      exponent, names,
+      "beside -<structure>_<group>_compression_only the dashpot along z goes by the rate itself; "
+      "leave one of the two out, or give the dashpot to a group of its own");
+  options.refuse_if(region.compression_only && region.nonlinear.dashpot_stiffness[2] > 0,
+                    dashpot_stiffness, names,
+                    "not along z beside -<structure>_<group>_compression_only; give the dashpot to "
+                    "a group of its own");
+  const auto turns = [](const std::array<double, 6>& values) {
+    return std::any_of(values.begin() + 3, values.end(), [](double value) { return value > 0; });
+  };
+  if (turns(region.stiffness) || turns(region.dashpot)) {
     region.element = region.element == ElementType::spring ? ElementType::spring6
                                                            : ElementType::grounded_spring6;
   }
@@ -248,21 +218,18 @@ void read_nonlinear_bar(OptionReader& options, const Names& names, Region& regio
   }
   if (!(region.area > 0)) {
     if (!(region.dashpot[0] > 0)) options.refuse(dashpot, names, "0, and the bar has no area");
-    for (const std::string_view other : {yield_force, hardening, law_rule, law_skeleton, slack}) {
-      options.forbid(other, names, "a bar of its dashpot alone has none; give it an area");
-    }
+    options.forbid_each("", {yield_force, hardening, law_rule, law_skeleton, slack}, names,
+                        "a bar of its dashpot alone has none; give it an area");
   }
   bar.yield_force[0] = read_one(options, yield_force, names);
   bar.hardening = options.real(hardening, names);
   bar.slack = options.real(slack, names);
   read_hysteresis(options, names, {region.material.young * region.area}, bar);
-  if (bar.slack > 0 && region.element != ElementType::tension_bar) {
-    options.refuse(slack, names, "for a bar that is tension_only or compression_only");
-  }
-  if (bar.yields() && region.element == ElementType::tension_bar) {
-    options.refuse(bar.has_skeleton() ? law_skeleton : yield_force, names,
-                   "not for a bar that is tension_only or compression_only");
-  }
+  options.refuse_if(bar.slack > 0 && region.element != ElementType::tension_bar, slack, names,
+                    "for a bar that is tension_only or compression_only");
+  options.refuse_if(bar.yields() && region.element == ElementType::tension_bar,
+                    bar.has_skeleton() ? law_skeleton : yield_force, names,
+                    "not for a bar that is tension_only or compression_only");
   if (bar.yields()) region.element = ElementType::yielding_bar;
 }
 

@@ -203,9 +203,7 @@ std::optional<SectionNumbers> standard_section(std::string_view name) {
 }
 
 std::vector<std::string> standard_section_names() {
-  std::vector<std::string> names;
-  for (const Row& row : rows()) names.push_back(row.name);
-  return names;
+  return names_of(rows());
 }
 
 SectionNumbers i_section(const RolledShape& s) {

@@ -25,10 +25,8 @@ double read_stiffness_factor(OptionReader& options, Structure& structure) {
   constexpr std::string_view pattern = "<structure>_stiffness_factor";
   const double factor = options.real(pattern, {structure.name});
   if (factor == 1) return factor;
-  if (!structure.matrices.empty() && !structure.modal) {
-    options.refuse(pattern, {structure.name},
-                   "not with -" + structure.name + "_matrices at full order; scale stiffness.mtx");
-  }
+  options.refuse_if(!structure.matrices.empty() && !structure.modal, pattern, {structure.name},
+                    "not with -<structure>_matrices at full order; scale stiffness.mtx");
   if (structure.modal && structure.scales_as_a_whole()) return factor;
   scale_stiffness(factor, structure);
   return 1;

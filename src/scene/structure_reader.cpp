@@ -65,24 +65,19 @@ std::vector<std::pair<std::string, std::string>> read_mesh_set(OptionReader& opt
   std::vector<std::pair<std::string, std::string>> pairs;
   for (const std::string& item : options.list("<structure>_mesh_set", {structure})) {
     const std::vector<std::string> sides = split(item, '=');
-    if (sides.size() != 2 || sides[0].empty() || sides[1].empty()) {
-      options.refuse("<structure>_mesh_set", {structure}, "'" + item + "' is not name=value");
-    }
-    if (!is_parameter(sides[0]) || !is_plain(sides[1])) {
-      options.refuse("<structure>_mesh_set", {structure},
-                     "a name takes letters, digits and _, a value no quotes and no control "
-                     "characters");
-    }
+    options.refuse_if(sides.size() != 2 || sides[0].empty() || sides[1].empty(),
+                      "<structure>_mesh_set", {structure}, "'" + item + "' is not name=value");
+    options.refuse_if(
+        !is_parameter(sides[0]) || !is_plain(sides[1]), "<structure>_mesh_set", {structure},
+        "a name takes letters, digits and _, a value no quotes and no control characters");
     char* end = nullptr;
     const double number = std::strtod(sides[1].c_str(), &end);
-    if (*end == '\0' && !(std::abs(number) <= largest_parameter)) {
-      options.refuse("<structure>_mesh_set", {structure},
-                     sides[0] + "=" + sides[1] + " is beyond every mesh; give a number below 1e12");
-    }
+    options.refuse_if(
+        *end == '\0' && !(std::abs(number) <= largest_parameter), "<structure>_mesh_set",
+        {structure}, sides[0] + "=" + sides[1] + " is beyond every mesh; give a number below 1e12");
     for (const auto& [name, value] : pairs) {
-      if (name == sides[0]) {
-        options.refuse("<structure>_mesh_set", {structure}, name + " is set twice");
-      }
+      options.refuse_if(name == sides[0], "<structure>_mesh_set", {structure},
+                        name + " is set twice");
     }
     pairs.emplace_back(sides[0], sides[1]);
   }
@@ -98,25 +93,14 @@ void require_elements(const OptionReader& options, const std::string& structure,
     return options.given(pattern, {structure, group});
   });
   for (const std::string& group : groups) {
-    if (!options.given(pattern, {structure, group})) {
-      throw UserError("missing option -" + option_name(pattern, {structure, group}) + ": group " +
-                      group + " of structure " + structure + " has other options; expected " +
-                      expected_text(option_row(pattern)) + suggestion(group, complete));
-    }
+    refuse_if(!options.given(pattern, {structure, group}),
+              "missing option -" + option_name(pattern, {structure, group}) + ": group " + group +
+                  " of structure " + structure + " has other options; expected " +
+                  expected_text(option_row(pattern)) + suggestion(group, complete));
   }
-  if (groups.empty()) {
-    throw UserError("structure " + structure + " has no elements: give -" +
-                    option_name(pattern, {structure, "GROUP"}) +
-                    " for at least one physical group of its mesh");
-  }
-}
-
-/// Elements and generalised coordinates can be given mass, whole matrices can not.
-void forbid_mass_scaling(const OptionReader& options, const Structure& structure) {
-  if (structure.mass_scaling > 0 && !structure.matrices.empty() && !structure.modal) {
-    options.refuse("<structure>_mass_scaling", {structure.name},
-                   "not with -" + structure.name + "_matrices");
-  }
+  refuse_if(groups.empty(), "structure " + structure + " has no elements: give -" +
+                                option_name(pattern, {structure, "GROUP"}) +
+                                " for at least one physical group of its mesh");
 }
 
 /// The target of the time step is the wish of mass scaling as well.
@@ -127,14 +111,12 @@ void read_step_target(OptionReader& options, Structure& structure) {
   options.read(wish, names);
   if (!wish.is_wanted()) return;
   const auto refuse_beside = [&](bool given, const std::string& option) {
-    if (given) {
-      options.refuse(target, names, "not with -" + structure.name + "_" + option);
-    }
+    options.refuse_if(given, target, names, "not with -<structure>_" + option);
   };
   refuse_beside(structure.mass_scaling > 0, "mass_scaling, which it chooses");
   refuse_beside(!structure.matrices.empty(), "matrices");
   refuse_beside(structure.modal.has_value(),
-                "model modal, whose coordinates -" + structure.name + "_mass_scaling slows down");
+                "model modal, whose coordinates -<structure>_mass_scaling slows down");
   structure.mass_scaling = wish.time_step;
   structure.step_target = wish;
 }
@@ -143,95 +125,60 @@ void read_step_target(OptionReader& options, Structure& structure) {
 void check_p_delta(const OptionReader& options, const Structure& structure) {
   constexpr std::string_view pattern = "<structure>_p_delta";
   if (!structure.p_delta) return;
-  const std::string option = "not with -" + structure.name;
-  if (!structure.matrices.empty()) {
-    options.refuse(pattern, {structure.name}, option + "_matrices, which hold it or not");
-  }
-  if (structure.mass_scaling > 0) {
-    options.refuse(pattern, {structure.name}, option + "_mass_scaling or _time_step_target");
-  }
+  options.refuse_if(!structure.matrices.empty(), pattern, {structure.name},
+                    "not with -<structure>_matrices, which hold it or not");
+  options.refuse_if(structure.mass_scaling > 0, pattern, {structure.name},
+                    "not with -<structure>_mass_scaling or _time_step_target");
   const bool has_any = std::ranges::any_of(structure.regions, [](const Region& region) {
     return is_beam(region.element) || region.element == ElementType::bar;
   });
-  if (!has_any) {
-    options.refuse(pattern, {structure.name},
-                   "the structure has no beams or bars, whose axial forces it is about");
-  }
+  options.refuse_if(!has_any, pattern, {structure.name},
+                    "the structure has no beams or bars, whose axial forces it is about");
 }
 
 /// Hexahedra alone have so many numbers that it pays.
 void check_numbers(const OptionReader& options, const Structure& structure) {
   constexpr std::string_view pattern = "<structure>_numbers";
   if (structure.numbers == Numbers::in_double) return;
-  if (!structure.matrices.empty()) {
-    options.refuse(pattern, {structure.name}, "not with -" + structure.name + "_matrices");
-  }
+  options.refuse_if(!structure.matrices.empty(), pattern, {structure.name},
+                    "not with -<structure>_matrices");
   const bool has_any = std::ranges::any_of(structure.regions, [](const Region& region) {
     return traits_of(region.element).kernel == ElementKernel::brick;
   });
-  if (!has_any) {
-    options.refuse(pattern, {structure.name},
-                   "the structure has no hexahedra, whose numbers it is about");
-  }
+  options.refuse_if(!has_any, pattern, {structure.name},
+                    "the structure has no hexahedra, whose numbers it is about");
 }
 
-/// Matrices do not know the nodes that move together.
-void forbid_rigid_groups(const OptionReader& options, const Structure& structure) {
-  for (const RigidGroup& rigid : structure.rigid_groups) {
-    if (!structure.matrices.empty()) {
-      options.refuse(rigid_option(rigid.kind), {structure.name},
-                     "not with -" + structure.name + "_matrices");
-    }
-  }
-}
-
-/// Matrices do not know which of their rows buckle, lift off or yield, nor which are of a group.
-void forbid_laws(const OptionReader& options, const Structure& structure) {
-  for (const Region& region : structure.regions) {
-    if (!structure.matrices.empty() && region.stiffness_factor != 1) {
-      options.refuse("<structure>_<group>_stiffness_factor", {structure.name, region.group},
-                     "not with -" + structure.name + "_matrices");
-    }
-    if (!structure.matrices.empty() && is_nonlinear(region)) {
-      options.refuse(is_nonlinear.of(region)->option, {structure.name, region.group},
-                     "not with -" + structure.name + "_matrices");
-    }
-  }
-}
-
-/// The filters follow the forces of all elements together.
-void forbid_damping_beside_uniform(const OptionReader& options, const Structure& structure) {
+/// Matrices do not know which of their rows buckle, lift off or yield, which are of a group, nor
+/// which nodes move together.
+void check_matrices(const OptionReader& options, const Structure& structure) {
+  if (structure.matrices.empty()) return;
+  const std::string why = "not with -<structure>_matrices";
   for (const Region& region : structure.regions) {
     const Names names{structure.name, region.group};
-    const std::string why = "not in a structure with -" + structure.name +
-                            "_damping_uniform, whose ratio is that of all its elements";
-    for (const char* option : {"alpha", "beta", "ratio", "frequencies"}) {
-      options.forbid(std::string("<structure>_<group>_damping_") + option, names, why);
-    }
-    if (region.damping_factor != 1) options.refuse(region_damping_factor, names, why);
+    options.refuse_if(region.stiffness_factor != 1, "<structure>_<group>_stiffness_factor", names,
+                      why);
+    if (const LawKind* law = is_nonlinear.of(region)) options.refuse(law->option, names, why);
+  }
+  for (const RigidGroup& rigid : structure.rigid_groups) {
+    options.refuse(rigid_option(rigid.kind), {structure.name}, why);
   }
 }
 
 /// Beside matrices no element makes damping: it has to be in the files.
 void forbid_damping_of_regions(const OptionReader& options, const Structure& structure) {
-  const std::string remedy = "would be lost beside -" + structure.name +
-                             "_matrices, which holds the damping of regions and dashpots in " +
-                             "damping.mtx only; write it there and ";
+  const std::string remedy =
+      "would be lost beside -<structure>_matrices, which holds the damping of regions and dashpots "
+      "in damping.mtx only; write it there and ";
   for (const Region& region : structure.regions) {
     const OptionReader::Names names{structure.name, region.group};
-    const bool rates = std::ranges::any_of(region.dashpot, [](double rate) { return rate > 0; });
-    for (const char* option : {"dashpot", "dashpot_per_area", "dashpot_per_length"}) {
-      if (!rates) break;
-      options.forbid(std::string("<structure>_<group>_") + option, names,
-                     remedy + "give 0 or nothing here");
+    if (std::ranges::any_of(region.dashpot, [](double rate) { return rate > 0; })) {
+      options.forbid_each("<structure>_<group>_dashpot", {"", "_per_area", "_per_length"}, names,
+                          remedy + "give 0 or nothing here");
     }
     const Rayleigh own = structure.damping_of(region);
     if (own.alpha != structure.damping.alpha || own.beta != structure.damping.beta) {
-      const std::string here = remedy + "give the structure's own here, or nothing";
-      for (const char* option : {"alpha", "beta", "ratio"}) {
-        options.forbid(std::string("<structure>_<group>_damping_") + option, names, here);
-      }
-      if (region.damping_factor != 1) options.refuse(region_damping_factor, names, here);
+      forbid_damping(options, names, region, remedy + "give the structure's own here, or nothing");
     }
   }
 }
@@ -253,18 +200,19 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   for (const std::string& group : groups) {
     structure.regions.push_back(read_region(options, {name, group}, structure.damping));
   }
-  forbid_laws(options, structure);
-  forbid_rigid_groups(options, structure);
-  if (structure.uniform_damping) {
-    forbid_damping_beside_uniform(options, structure);
+  check_matrices(options, structure);
+  for (const Region& region : structure.regions) {  // filters follow the forces of all together
+    if (!structure.uniform_damping) break;
+    forbid_damping(options, {name, region.group}, region,
+                   "not in a structure with -<structure>_damping_uniform, whose ratio is that of "
+                   "all its elements");
   }
   read_model(options, structure);
   structure.absorbing = read_absorbing(options, structure);
-  forbid_mass_scaling(options, structure);
+  options.refuse_if(structure.mass_scaling > 0 && !structure.matrices.empty() && !structure.modal,
+                    "<structure>_mass_scaling", {name}, "not with -<structure>_matrices");
   read_step_target(options, structure);
-  if (!structure.matrices.empty()) {
-    forbid_damping_of_regions(options, structure);
-  }
+  if (!structure.matrices.empty()) forbid_damping_of_regions(options, structure);
   check_p_delta(options, structure);
   check_numbers(options, structure);
   structure.soil = read_soil(options, structure);
@@ -275,13 +223,11 @@ Structure read_structure(OptionReader& options, const std::string& name) {
 
 const Structure& named_structure(const OptionReader& options, const Scene& scene,
                                  std::string_view pattern, const Names& names,
-                                 const std::string& structure) {
+                                 const std::string& structure, const std::string& hint) {
   const auto found = std::ranges::find(scene.structures, structure, &Structure::name);
   if (found != scene.structures.end()) return *found;
-  std::vector<std::string> known;
-  for (const Structure& other : scene.structures) known.push_back(other.name);
   options.refuse(pattern, names,
-                 "there is no structure '" + structure + "'" + suggestion(structure, known));
+                 "there is no structure '" + structure + "'" + suggestion(structure, names_of(scene.structures)) + hint);
 }
 
 void group_points(Scene& scene, const std::string& option, const std::string& structure,

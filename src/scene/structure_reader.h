@@ -12,10 +12,11 @@ namespace pounding {
 /// Throws UserError.
 Structure read_structure(OptionReader& options, const std::string& name);
 
-/// The structure of the scene that an option names. Throws UserError naming the nearest one.
+/// The structure of the scene that an option names. Throws UserError naming the nearest one, with a
+/// `hint` behind it.
 const Structure& named_structure(const OptionReader& options, const Scene& scene,
                                  std::string_view pattern, const OptionReader::Names& names,
-                                 const std::string& structure);
+                                 const std::string& structure, const std::string& hint = "");
 
 /// Makes points "x,y,z; ..." in place of a group, of a side of a stop or of a load, a group of that
 /// name; does nothing about the name of a group.

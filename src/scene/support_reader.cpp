@@ -6,6 +6,7 @@
 
 #include "scene/motion_reader.h"
 #include "scene/option_values.h"
+#include "scene/structure_reader.h"
 
 namespace pounding {
 namespace {
@@ -25,10 +26,9 @@ std::vector<SupportedGroup> read_groups(OptionReader& options, const std::string
   std::vector<SupportedGroup> groups;
   for (const std::string& item : split(options.text(groups_option, {name}), ',')) {
     const std::vector<std::string> words = split(item, ':');
-    if (words.empty() || words.size() > 2 || words.front().empty() || words.back().empty()) {
-      options.refuse(groups_option, {name},
-                     "'" + item + "' is neither structure:group nor a structure");
-    }
+    options.refuse_if(
+        words.empty() || words.size() > 2 || words.front().empty() || words.back().empty(),
+        groups_option, {name}, "'" + item + "' is neither structure:group nor a structure");
     groups.push_back({words[0], words.size() == 2 ? words[1] : ""});
   }
   return groups;
@@ -39,8 +39,8 @@ std::optional<MotionComponent> read_rotation(OptionReader& options, const std::s
                                              const std::string& axis) {
   const OptionReader::Names names{name, axis};
   if (!options.given("<support>_rotation_<x|y|z>_record", names)) {
-    options.forbid_all<SupportRotationOptions>(
-        names, goes_with("<support>_rotation_<x|y|z>_record", names));
+    options.forbid_all<SupportRotationOptions>(names,
+                                               goes_with("<support>_rotation_<x|y|z>_record"));
     return std::nullopt;
   }
   RecordedMotion record;
@@ -57,90 +57,65 @@ std::optional<Embedment> read_embedment(OptionReader& options, const Support& su
   Embedment embedment;
   options.read(embedment, {support.name});
   if (!embedment.is_deep()) return std::nullopt;
-  if (!(embedment.travel() <= longest_travel)) {
-    options.refuse("<support>_vs", {support.name},
-                   "a wave would take more than a second from the foundation to the surface; is it "
-                   "in m/s, and -" +
-                       support.name + "_embedment in m?");
-  }
+  options.refuse_if(!(embedment.travel() <= longest_travel), "<support>_vs", {support.name},
+                    "a wave would take more than a second from the foundation to the surface; is "
+                    "it in m/s, and -<support>_embedment in m?");
   for (std::size_t c = 0; c < support.motion.size(); ++c) {
     if (c == 2 || !support.motion[c]) continue;
     options.refuse("<support>_embedment", {support.name},
                    "its motion follows from that of the surface; not with a " +
                        std::string(c < 3 ? "motion along x or y" : "rotation") + " of its own");
   }
-  for (const char* what : {"<support>_delay", "<support>_factor"}) {
-    options.forbid(what, {support.name},
-                   "not with -" + support.name +
-                       "_embedment: its motion follows from that of the "
-                       "surface, as it is");
-  }
+  options.forbid_each(
+      "<support>_", {"delay", "factor"}, {support.name},
+      "not with -<support>_embedment: its motion follows from that of the surface, as it is");
   return embedment;
-}
-
-void refuse_groups(const OptionReader& options, const Support& support, const std::string& why) {
-  options.refuse(groups_option, {support.name}, why);
 }
 
 /// Delay and factor act on the motion of the ground, along axes without a record; an embedment on
 /// that along x and y.
 void require_effect(const OptionReader& options, const Scene& scene, const Support& support) {
-  if (support.embedment && !scene.motion[0] && !scene.motion[1]) {
-    options.refuse("<support>_embedment", {support.name},
-                   "no effect: there is no -motion_x or -motion_y");
-  }
+  options.refuse_if(support.embedment && !scene.motion[0] && !scene.motion[1],
+                    "<support>_embedment", {support.name},
+                    "no effect: there is no -motion_x or -motion_y");
   bool acts = false;
   for (std::size_t d = 0; d < 3; ++d) acts = acts || (scene.motion[d] && !support.motion[d]);
   if (acts) return;
-  for (const char* what : {"<support>_delay", "<support>_factor"}) {
-    options.forbid(what, {support.name},
-                   "no effect: along no axis the support goes by -motion_x, _y or _z");
-  }
+  options.forbid_each("<support>_", {"delay", "factor"}, {support.name},
+                      "no effect: along no axis the support goes by -motion_x, _y or _z");
 }
 
 /// Refuses options that are not worked out, or tested, for a structure on supports that move on
 /// their own; `all_ground`: with all its ground on one of them.
 void require_plain(const OptionReader& options, const Scene& scene, const Support& support,
                    const Structure& structure, bool all_ground) {
-  const auto refuse_with = [&](const std::string& option) {
-    refuse_groups(options, support,
-                  "structure " + structure.name + ": not with -" + structure.name + option);
+  const auto refuse_if = [&](bool wrong, const std::string& why) {
+    options.refuse_if(wrong, groups_option, {support.name}, why);
   };
-  if (!structure.matrices.empty()) {
-    refuse_groups(options, support,
-                  "structure " + structure.name + ": -" + structure.name +
-                      "_matrices do not hold the forces of its clamped dofs on the others");
-  }
-  if (!structure.absorbing.empty()) refuse_with("_absorbing");
-  if (all_ground && turns(support) && structure.p_delta) {
-    refuse_groups(options, support,
-                  "structure " + structure.name +
-                      ": its weight would not turn with its ground; not with -" + structure.name +
-                      "_p_delta");
-  }
-  if (!scene.export_matrices.empty()) {
-    refuse_groups(options, support,
-                  "not with -export_matrices: no matrix holds the motion of supports");
-  }
+  const std::string own = "structure " + structure.name;
+  const std::string option = "-" + structure.name;
+  refuse_if(
+      !structure.matrices.empty(),
+      own + ": " + option + "_matrices do not hold the forces of its clamped dofs on the others");
+  refuse_if(!structure.absorbing.empty(), own + ": not with " + option + "_absorbing");
+  refuse_if(all_ground && turns(support) && structure.p_delta,
+            own + ": its weight would not turn with its ground; not with " + option + "_p_delta");
+  refuse_if(!scene.export_matrices.empty(),
+            "not with -export_matrices: no matrix holds the motion of supports");
+  const bool braked = std::ranges::any_of(structure.regions, [&](const Region& region) {
+    return structure.damping_of(region).alpha > 0;
+  });
   for (const Region& region : structure.regions) {
-    if (!region.nonlinear.yields() || all_ground) continue;
-    if (std::ranges::any_of(structure.regions, [&](const Region& other) {
-          return structure.damping_of(other).alpha > 0;
-        })) {
-      refuse_groups(options, support,
-                    "structure " + structure.name +
-                        ": damping alpha brakes against the motion of linear elements " +
-                        "alone, not of yielding ones as " + region.group +
-                        "; give beta or damping_uniform");
-    }
-  }
-  if (!structure.modal) return;
-  for (const Region& region : structure.regions) {
-    if (is_nonlinear(region)) {
-      refuse_groups(
-          options, support,
-          "structure " + structure.name + " is reduced: not with -" +
-              option_name(is_nonlinear.of(region)->option, {structure.name, region.group}));
+    refuse_if(region.nonlinear.yields() && !all_ground && braked,
+              own +
+                  ": damping alpha brakes against the motion of linear elements alone, not of "
+                  "yielding ones as " +
+                  region.group + "; give beta or damping_uniform");
+    const LawKind* const law = is_nonlinear.of(region);
+    if (structure.modal && law != nullptr) {
+      options.refuse(groups_option, {support.name},
+                     own + " is reduced: not with -" +
+                         option_name(law->option, {structure.name, region.group}));
     }
   }
 }
@@ -172,37 +147,27 @@ Support read_support(OptionReader& options, const std::string& name) {
 
 void check_supports(const OptionReader& options, const Scene& scene) {
   std::set<std::pair<std::string, std::string>> seen;
-  std::vector<std::string> known;
-  for (const Structure& structure : scene.structures) known.push_back(structure.name);
   for (const Support& support : scene.supports) {
+    const auto refuse_if = [&](bool wrong, const std::string& why) {
+      options.refuse_if(wrong, groups_option, {support.name}, why);
+    };
     for (const SupportedGroup& item : support.groups) {
       const auto& [name, group] = item;
-      const auto structure = std::ranges::find(scene.structures, name, &Structure::name);
-      if (structure == scene.structures.end()) {
-        refuse_groups(
-            options, support,
-            "there is no structure '" + name + "'" + suggestion(name, known) +
-                (item.is_all_ground() ? "; a group is named with its structure before it" : ""));
-      }
-      if (seen.contains({name, group})) {
-        refuse_groups(
-            options, support,
-            "'" + name + (group.empty() ? "" : ":" + group) + "' is on a support already");
-      }
+      const Structure& structure = named_structure(
+          options, scene, groups_option, {support.name}, name,
+          item.is_all_ground() ? "; a group is named with its structure before it" : "");
+      refuse_if(seen.contains({name, group}),
+                "'" + name + (group.empty() ? "" : ":" + group) + "' is on a support already");
       const auto first = seen.lower_bound({name, ""});  // all ground comes before groups
-      if (first != seen.end() && first->first == name &&
-          (first->second.empty() || item.is_all_ground())) {
-        refuse_groups(options, support,
-                      "'" + name +
-                          "' means all ground of the structure, and another support, or another " +
-                          "name here, has a group of it");
-      }
+      refuse_if(first != seen.end() && first->first == name &&
+                    (first->second.empty() || item.is_all_ground()),
+                "'" + name +
+                    "' means all ground of the structure, and another support, or another name "
+                    "here, has a group of it");
       seen.emplace(name, group);
-      require_plain(options, scene, support, *structure, item.is_all_ground());
+      require_plain(options, scene, support, structure, item.is_all_ground());
     }
-    if (scene.motion_from_below) {
-      refuse_groups(options, support, "not with -motion_input below");
-    }
+    refuse_if(scene.motion_from_below, "not with -motion_input below");
     require_effect(options, scene, support);
   }
 }

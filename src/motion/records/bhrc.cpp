@@ -80,12 +80,9 @@ bool is_bhrc(std::span<const TextLine> lines) {
 
 FormatRecord read_bhrc(const RecordedMotion& motion, std::span<const TextLine> lines) {
   const std::vector<BhrcComponent> components = bhrc_components(lines);
-  std::vector<std::string> names;
-  for (const BhrcComponent& one : components) names.push_back(one.name);
-  const BhrcComponent& one = components[choose_component(motion, names)];
-  if (!one.count || !one.duration) {
-    throw UserError(motion.file + ": no number of points and duration of component " + one.name);
-  }
+  const BhrcComponent& one = components[choose_component(motion, names_of(components))];
+  refuse_if(!one.count || !one.duration,
+            motion.file + ": no number of points and duration of component " + one.name);
   const std::size_t count = count_of(motion.file, one.line, *one.count);
   const std::size_t begin = behind_group(lines, behind_group(lines, one.begin, one.end), one.end);
   std::size_t numbers = 0;

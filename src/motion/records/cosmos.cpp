@@ -72,18 +72,15 @@ std::vector<CosmosChannel> cosmos_channels(std::span<const TextLine> lines) {
 double step_of(const std::string& file, std::span<const TextLine> lines,
                const CosmosChannel& channel) {
   constexpr std::size_t most = 100, milliseconds = 61, seconds = 33;
-  if (channel.real_numbers == 0) {
-    throw UserError(at_line(file, channel.line) + "no real numbers of a header above");
-  }
+  refuse_if(channel.real_numbers == 0,
+            at_line(file, channel.line) + "no real numbers of a header above");
   const std::vector<double> header = read_block(file, lines, channel.real_numbers, most).values;
   const double step =
       header[milliseconds] != unknown ? header[milliseconds] / 1000 : header[seconds];
   const double duration = step * channel.count;
-  if (!(std::abs(duration - channel.seconds) <= 1 + 0.02 * duration)) {
-    throw UserError(at_line(file, channel.line) + text_of(channel.count) + " values every " +
-                    text_of(step) + " s are no " + text_of(channel.seconds) +
-                    " s; correct the file");
-  }
+  refuse_if(!(std::abs(duration - channel.seconds) <= 1 + 0.02 * duration),
+            at_line(file, channel.line) + text_of(channel.count) + " values every " +
+                text_of(step) + " s are no " + text_of(channel.seconds) + " s; correct the file");
   return step;
 }
 
@@ -171,27 +168,18 @@ bool is_cosmos(std::span<const TextLine> lines) {
 
 FormatRecord read_cosmos(const RecordedMotion& motion, std::span<const TextLine> lines) {
   const std::vector<CosmosChannel> channels = cosmos_channels(lines);
-  if (channels.empty()) {
-    throw UserError(motion.file + ": COSMOS without a block of acceleration; give a volume 1 or 2");
-  }
-  std::vector<std::string> names;
-  for (const CosmosChannel& one : channels) names.push_back(one.name);
-  const CosmosChannel& one = channels[choose_component(motion, names)];
+  refuse_if(channels.empty(),
+            motion.file + ": COSMOS without a block of acceleration; give a volume 1 or 2");
+  const CosmosChannel& one = channels[choose_component(motion, names_of(channels))];
   const auto units = units_in("(" + stripped(one.unit.substr(0, one.unit.find('('))) + ")");
-  if (units.size() != 1) {
-    throw UserError(at_line(motion.file, one.line) + "values in '" + one.unit +
-                    "' (counts are those of a volume 0); give a volume 1 or 2 in g or cm/s2");
-  }
-  FormatRecord record;
+  refuse_if(units.size() != 1,
+            at_line(motion.file, one.line) + "values in '" + one.unit +
+                "' (counts are those of a volume 0); give a volume 1 or 2 in g or cm/s2");
   const std::size_t count = count_of(motion.file, one.line, one.count);
-  record.time_step = agreed_step(motion, one.line, step_of(motion.file, lines, one));
+  const double step = agreed_step(motion, one.line, step_of(motion.file, lines, one));
   NumberBlock block = read_block(motion.file, lines, one.begin, count);
   require_end(motion.file, lines, block, one.line);
-  record.values = std::move(block.values);
-  record.unit = *units.begin();
-  record.component = one.name;
-  record.layout = "COSMOS, block of acceleration";
-  return record;
+  return {std::move(block.values), step, *units.begin(), one.name, "COSMOS, block of acceleration"};
 }
 
 bool is_csmip(std::span<const TextLine> lines) {
@@ -202,25 +190,17 @@ bool is_csmip(std::span<const TextLine> lines) {
 
 FormatRecord read_csmip(const RecordedMotion& motion, std::span<const TextLine> lines) {
   const std::vector<CsmipChannel> channels = csmip_channels(lines, lines.size());
-  std::vector<std::string> names;
-  for (const CsmipChannel& one : channels) names.push_back(one.name);
-  const CsmipChannel& one = channels[choose_component(motion, names)];
-  if (one.unit.empty()) {
-    throw UserError(at_line(motion.file, one.line) + "no unit, or several, behind the time step");
-  }
-  FormatRecord record;
+  const CsmipChannel& one = channels[choose_component(motion, names_of(channels))];
+  refuse_if(one.unit.empty(),
+            at_line(motion.file, one.line) + "no unit, or several, behind the time step");
   const std::size_t count = count_of(motion.file, one.line, one.count.value_or(0));
-  record.time_step = agreed_step(motion, one.line, one.step.value_or(0));
+  const double step = agreed_step(motion, one.line, one.step.value_or(0));
   NumberBlock block = read_block(motion.file, lines, one.begin, count);
   require_end(motion.file, lines, block, one.line);
-  record.values = std::move(block.values);
   if (one.peak && one.unit == "cm/s2") {
-    require_peak(motion.file, one.peak_line, *one.peak, record.values);
+    require_peak(motion.file, one.peak_line, *one.peak, block.values);
   }
-  record.unit = one.unit;
-  record.component = one.name;
-  record.layout = "CSMIP, block of acceleration";
-  return record;
+  return {std::move(block.values), step, one.unit, one.name, "CSMIP, block of acceleration"};
 }
 
 bool is_smc(std::span<const TextLine> lines) {
@@ -229,42 +209,35 @@ bool is_smc(std::span<const TextLine> lines) {
 
 FormatRecord read_smc(const RecordedMotion& motion, std::span<const TextLine> lines) {
   const std::string title = stripped(lines[0].text);
-  if (title.find("ACCELEROGRAM") == std::string::npos) {
-    throw UserError(at_line(motion.file, 1) + "SMC of kind '" + title +
-                    "'; give one of acceleration (1 or 2)");
-  }
+  refuse_if(
+      title.find("ACCELEROGRAM") == std::string::npos,
+      at_line(motion.file, 1) + "SMC of kind '" + title + "'; give one of acceleration (1 or 2)");
   const std::vector<double> whole = read_block(motion.file, lines, texts, 8 * whole_lines).values;
   const std::vector<double> real =
       read_block(motion.file, lines, texts + whole_lines, 5 * real_lines).values;
   constexpr std::size_t comments = 15, count_at = 16, rate = 1, largest = 29, smallest = 31;
   const auto line_of = [&](std::size_t at) { return lines[std::min(at, lines.size() - 1)].number; };
-  if (!(real[rate] > 0 && real[rate] < largest_real)) {
-    throw UserError(at_line(motion.file, line_of(texts + whole_lines)) +
-                    "SMC without a sampling rate: pairs of time and value at no uniform step; "
-                    "resample them");
-  }
+  refuse_if(!(real[rate] > 0 && real[rate] < largest_real),
+            at_line(motion.file, line_of(texts + whole_lines)) +
+                "SMC without a sampling rate: pairs of time and value at no uniform step; "
+                "resample them");
   choose_component(motion, {component_of(lines, whole)});
   const std::size_t count = count_of(motion.file, line_of(texts), whole[count_at]);
   std::size_t begin = texts + whole_lines + real_lines;
   while (begin < lines.size() && lines[begin].text.starts_with("|")) ++begin;
   const auto told = static_cast<double>(begin - texts - whole_lines - real_lines);
-  if (whole[comments] != no_whole && whole[comments] != told) {
-    throw UserError(at_line(motion.file, line_of(begin)) + text_of(told) +
-                    " lines of comments where the header announces " + text_of(whole[comments]) +
-                    "; correct the file");
-  }
-  FormatRecord record;
-  record.time_step = agreed_step(motion, line_of(texts + whole_lines), 1 / real[rate]);
+  refuse_if(whole[comments] != no_whole && whole[comments] != told,
+            at_line(motion.file, line_of(begin)) + text_of(told) +
+                " lines of comments where the header announces " + text_of(whole[comments]) +
+                "; correct the file");
+  const double step = agreed_step(motion, line_of(texts + whole_lines), 1 / real[rate]);
   NumberBlock block = read_block(motion.file, lines, begin, count);
-  record.values = std::move(block.values);
   if (std::abs(real[largest]) < largest_real && std::abs(real[smallest]) < largest_real) {
     require_peak(motion.file, line_of(texts + whole_lines),
-                 std::max(std::abs(real[largest]), std::abs(real[smallest])), record.values);
+                 std::max(std::abs(real[largest]), std::abs(real[smallest])), block.values);
   }
-  record.unit = "cm/s2";
-  record.component = component_of(lines, whole);
-  record.layout = "SMC, " + lower(title.substr(2));
-  return record;
+  return {std::move(block.values), step, "cm/s2", component_of(lines, whole),
+          "SMC, " + lower(title.substr(2))};
 }
 
 }  // namespace pounding

@@ -82,13 +82,11 @@ Stated read_numbers(const std::string& file, std::span<const TextLine> lines,
                 real.values[one.corrected ? step : raw_step]};
   const bool other_count = one.count && *one.count != stated.count;
   const bool other_step = one.step && !(std::abs(*one.step - stated.step) < 0.01 * stated.step);
-  if (other_count || other_step) {
-    throw UserError(at_line(file, one.title_line) + "the words of the header say " +
-                    text_of(one.count.value_or(stated.count)) + " points every " +
-                    text_of(one.step.value_or(stated.step)) + " s, its numbers " +
-                    text_of(stated.count) + " every " + text_of(stated.step) +
-                    " s; correct the file");
-  }
+  refuse_if(other_count || other_step,
+            at_line(file, one.title_line) + "the words of the header say " +
+                text_of(one.count.value_or(stated.count)) + " points every " +
+                text_of(one.step.value_or(stated.step)) + " s, its numbers " +
+                text_of(stated.count) + " every " + text_of(stated.step) + " s; correct the file");
   return stated;
 }
 
@@ -117,26 +115,19 @@ bool is_geonet(std::span<const TextLine> lines) {
 
 FormatRecord read_geonet(const RecordedMotion& motion, std::span<const TextLine> lines) {
   const std::vector<GeonetComponent> components = geonet_components(lines);
-  std::vector<std::string> names;
-  for (const GeonetComponent& one : components) names.push_back(one.name);
-  const GeonetComponent& one = components[choose_component(motion, names)];
-  if (!one.count || one.begin == lines.size()) {
-    throw UserError(at_line(motion.file, one.title_line) +
-                    "no number of points, or no rows of numbers, below this title");
-  }
+  const GeonetComponent& one = components[choose_component(motion, names_of(components))];
+  refuse_if(!one.count || one.begin == lines.size(),
+            at_line(motion.file, one.title_line) +
+                "no number of points, or no rows of numbers, below this title");
   const Stated stated = read_numbers(motion.file, lines, one);
-  FormatRecord record;
   const std::size_t count = count_of(motion.file, one.count_line, stated.count);
-  record.time_step = agreed_step(motion, one.title_line, stated.step);
+  const double step = agreed_step(motion, one.title_line, stated.step);
   const std::size_t begin = one.begin + whole_rows + real_rows;
   NumberBlock block = read_block(motion.file, lines, begin, count);
   require_rest(motion.file, lines, block.end, block.end - begin);
-  record.values = std::move(block.values);
-  if (one.peak) require_peak(motion.file, one.peak_line, *one.peak, record.values);
-  record.unit = "mm/s2";
-  record.component = one.name;
-  record.layout = one.corrected ? "GeoNet, corrected" : "GeoNet, uncorrected";
-  return record;
+  if (one.peak) require_peak(motion.file, one.peak_line, *one.peak, block.values);
+  return {std::move(block.values), step, "mm/s2", one.name,
+          one.corrected ? "GeoNet, corrected" : "GeoNet, uncorrected"};
 }
 
 }  // namespace pounding

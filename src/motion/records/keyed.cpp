@@ -64,9 +64,8 @@ FormatRecord read_keyed(const RecordedMotion& motion, std::span<const TextLine> 
   }
   const auto units = units_in(text_of_key(header, "UNITS"));
   const std::string in_header = text_of_key(header, "UNITS");
-  if (units.size() != 1 && in_header != "g") {
-    throw UserError(motion.file + ": UNITS: '" + in_header + "' is no unit of acceleration");
-  }
+  refuse_if(units.size() != 1 && in_header != "g",
+            motion.file + ": UNITS: '" + in_header + "' is no unit of acceleration");
   FormatRecord record;
   record.unit = units.empty() ? "g" : *units.begin();
   record.component = text_of_key(header, "STREAM");

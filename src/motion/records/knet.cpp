@@ -94,13 +94,11 @@ bool is_knet(std::span<const TextLine> lines) {
 
 FormatRecord read_knet(const RecordedMotion& motion, std::span<const TextLine> lines) {
   const KnetHeader header = read_knet_header(lines);
-  if (!header.rate || !(*header.rate > 0)) {
-    throw UserError(at_line(motion.file, header.rate_line) + "no sampling frequency");
-  }
+  refuse_if(!header.rate || !(*header.rate > 0),
+            at_line(motion.file, header.rate_line) + "no sampling frequency");
   const double scale = header.numerator.value_or(0) / header.denominator.value_or(0);
-  if (!(scale > 0) || !std::isfinite(scale)) {
-    throw UserError(at_line(motion.file, header.scale_line) + "a scale factor that cannot be");
-  }
+  refuse_if(!(scale > 0) || !std::isfinite(scale),
+            at_line(motion.file, header.scale_line) + "a scale factor that cannot be");
   choose_component(motion, {header.component});
   FormatRecord record;
   record.values = read_counts(motion.file, lines.subspan(header.end));

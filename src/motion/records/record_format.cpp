@@ -91,23 +91,20 @@ void require_end(const std::string& file, std::span<const TextLine> lines, const
 }
 
 std::size_t count_of(const std::string& file, int line, double announced) {
-  if (!(announced >= 2 && announced <= 1e9) || announced != std::floor(announced)) {
-    throw UserError(at_line(file, line) + "the header announces " + text_of(announced) +
-                    " values, which cannot be; correct the file");
-  }
+  refuse_if(!(announced >= 2 && announced <= 1e9) || announced != std::floor(announced),
+            at_line(file, line) + "the header announces " + text_of(announced) +
+                " values, which cannot be; correct the file");
   return static_cast<std::size_t>(announced);
 }
 
 double agreed_step(const RecordedMotion& motion, int line, double time_step) {
-  if (!(time_step >= 1e-5 && time_step <= 1)) {
-    throw UserError(at_line(motion.file, line) + "time step " + text_of(time_step) +
-                    " s, which cannot be; correct the file");
-  }
-  if (motion.time_step != 0 && !(std::abs(motion.time_step / time_step - 1) < 1e-3)) {
-    throw UserError(at_line(motion.file, line) + "time step " + text_of(time_step) +
-                    " s of the header and " + text_of(motion.time_step) +
-                    " s contradict one another (option time_step); leave time_step out");
-  }
+  refuse_if(!(time_step >= 1e-5 && time_step <= 1), at_line(motion.file, line) + "time step " +
+                                                        text_of(time_step) +
+                                                        " s, which cannot be; correct the file");
+  refuse_if(motion.time_step != 0 && !(std::abs(motion.time_step / time_step - 1) < 1e-3),
+            at_line(motion.file, line) + "time step " + text_of(time_step) +
+                " s of the header and " + text_of(motion.time_step) +
+                " s contradict one another (option time_step); leave time_step out");
   return time_step;
 }
 

@@ -187,11 +187,10 @@ void RecordHeader::contradiction(int line, const char* what, const std::string& 
 
 void RecordHeader::declare_count(double number_of_values, int line) {
   constexpr double most = 1e9;
-  if (!(number_of_values >= 2 && number_of_values <= most) ||
-      number_of_values != std::floor(number_of_values)) {
-    throw UserError(at_line(file_, line) + "the header announces " + text_of(number_of_values) +
-                    " values, which cannot be; correct the file");
-  }
+  refuse_if(!(number_of_values >= 2 && number_of_values <= most) ||
+                number_of_values != std::floor(number_of_values),
+            at_line(file_, line) + "the header announces " + text_of(number_of_values) +
+                " values, which cannot be; correct the file");
   const auto count = static_cast<long long>(number_of_values);
   if (number_of_values_.value_or(count) != count) {
     contradiction(line, "number of values", std::to_string(count),
@@ -201,10 +200,8 @@ void RecordHeader::declare_count(double number_of_values, int line) {
 }
 
 void RecordHeader::declare_time_step(double time_step, int line) {
-  if (!(time_step > 0)) {
-    throw UserError(at_line(file_, line) + "time step " + text_of(time_step) +
-                    " is not positive; correct the file");
-  }
+  refuse_if(!(time_step > 0), at_line(file_, line) + "time step " + text_of(time_step) +
+                                  " is not positive; correct the file");
   if (std::abs(time_step_.value_or(time_step) / time_step - 1) > 1e-3) {
     contradiction(line, "time step", std::to_string(time_step), std::to_string(*time_step_));
   }
@@ -218,17 +215,14 @@ std::optional<double> RecordHeader::time_step() const {
 
 void RecordHeader::take_sampling(const std::string& text, int line) {
   const std::string name = name_without_number(text);
-  if (!name.empty()) {
-    throw UserError(at_line(file_, line) + "no number behind " + name + "; correct the file");
-  }
+  refuse_if(!name.empty(),
+            at_line(file_, line) + "no number behind " + name + "; correct the file");
   const StatedSampling stated = read_sampling(text);
   if (stated.count) declare_count(*stated.count, line);
   if (stated.time_step) declare_time_step(*stated.time_step, line);
   if (!stated.rate) return;
-  if (!(*stated.rate > 0)) {
-    throw UserError(at_line(file_, line) + "sampling rate " + text_of(*stated.rate) +
-                    " is not positive; correct the file");
-  }
+  refuse_if(!(*stated.rate > 0), at_line(file_, line) + "sampling rate " + text_of(*stated.rate) +
+                                     " is not positive; correct the file");
   const double step = 1 / *stated.rate;
   rates_differ_ = rates_differ_ || std::abs(step_of_rate_.value_or(step) / step - 1) > 1e-3;
   step_of_rate_ = step;
@@ -257,15 +251,13 @@ void RecordHeader::read(const TextLine& line) {
 }
 
 void RecordHeader::require_acceleration(bool displacement) const {
-  if (spectrum_line_ > 0) {
-    throw UserError(at_line(file_, spectrum_line_) +
-                    "the first column is not a time but that of a spectrum; give an accelerogram");
-  }
-  if (counts_line_ > 0) {
-    throw UserError(at_line(file_, counts_line_) +
-                    "the values are counts of a recorder, or want a factor; multiply them and take "
-                    "this line out, or give a format that docs/reference/records.md lists");
-  }
+  refuse_if(spectrum_line_ > 0,
+            at_line(file_, spectrum_line_) +
+                "the first column is not a time but that of a spectrum; give an accelerogram");
+  refuse_if(counts_line_ > 0,
+            at_line(file_, counts_line_) +
+                "the values are counts of a recorder, or want a factor; multiply them and take "
+                "this line out, or give a format that docs/reference/records.md lists");
   if (displacement) {
     if (!velocity_unit_ && (other_quantity_ || !acceleration_)) return;
     throw UserError(file_ +
@@ -286,9 +278,7 @@ RecordUnit RecordHeader::unit(const std::string& asked) const {
     throw UserError(file_ + ": the header names several units (" + *stated.begin() + ", " +
                     *stated.rbegin() + "); give unit: " + units_to_ask);
   }
-  if (asked.empty()) {
-    throw UserError(file_ + ": the unit is not in the header; give unit: " + units_to_ask);
-  }
+  refuse_if(asked.empty(), file_ + ": the unit is not in the header; give unit: " + units_to_ask);
   return agreed_unit(file_, asked, asked);
 }
 
@@ -299,9 +289,8 @@ RecordContent read_record_content(const std::string& file, const std::vector<Tex
   for (std::size_t i = 0; i < begin; ++i) content.header.read(lines[i]);
   content.header.require_acceleration(of_displacement);
   read_rows(file, lines, begin, content);
-  if (content.rows.empty()) {
-    throw UserError(file + ": holds no line of numbers; give a file of acceleration values");
-  }
+  refuse_if(content.rows.empty(),
+            file + ": holds no line of numbers; give a file of acceleration values");
   const std::size_t columns = content.rows.back().values.size();
   for (std::size_t i = begin; i-- > 0;) {
     if (lines[i].text.find_first_not_of(" \t-+=_|*") == std::string::npos) continue;  // a rule

@@ -184,15 +184,12 @@ RecordValues read_table(const RecordedMotion& motion, const RecordContent& conte
                     "; which one holds the acceleration? " + range);
   }
   const int column = motion.column > 0 ? motion.column : width;
-  if (column > width) {
-    throw UserError(at_line(motion.file, rows[0].line) + "column " + std::to_string(column) +
-                    " is asked but there are " + std::to_string(width) + "; " + range);
-  }
-  if (time == column) {
-    throw UserError(motion.file + ": column " + std::to_string(column) +
-                    " is the time; give column: the number of another one, up to " +
-                    std::to_string(width));
-  }
+  refuse_if(column > width, at_line(motion.file, rows[0].line) + "column " +
+                                std::to_string(column) + " is asked but there are " +
+                                std::to_string(width) + "; " + range);
+  refuse_if(time == column, motion.file + ": column " + std::to_string(column) +
+                                " is the time; give column: the number of another one, up to " +
+                                std::to_string(width));
   const std::size_t index = column - 1;
   if (!content.names.empty()) {
     RecordHeader name(motion.file);

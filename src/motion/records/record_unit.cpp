@@ -28,10 +28,9 @@ std::optional<RecordUnit> record_unit(std::string_view name) {
 RecordUnit agreed_unit(const std::string& file, const std::string& asked,
                        const std::string& stated) {
   const bool in_metres = asked == "m/s2" && stated == "mm/s2";
-  if (!asked.empty() && asked != stated && !in_metres) {
-    throw UserError(file + ": unit " + asked + " is asked but the header says " + stated +
-                    "; leave unit out or correct the file");
-  }
+  refuse_if(!asked.empty() && asked != stated && !in_metres,
+            file + ": unit " + asked + " is asked but the header says " + stated +
+                "; leave unit out or correct the file");
   const auto unit = record_unit(in_metres ? asked : stated);
   if (!unit) throw UserError(file + ": unknown unit " + stated + "; give " + units_to_ask);
   return *unit;
