@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -28,7 +29,7 @@ concept ListsMembers = requires(Value& value, Stream& stream) {
 };
 
 /// Writes values one after the other, for the same machine to read: plain ones as bytes, texts,
-/// vectors and structs that list their members.
+/// vectors, maps and structs that list their members.
 class ByteWriter {
  public:
   explicit ByteWriter(const WriteBytes& write) : write_(write) {}
@@ -64,6 +65,11 @@ class ByteWriter {
     } else {
       for (const Value& value : values) put(value);
     }
+  }
+  template <typename Key, typename Value>
+  void put(const std::map<Key, Value>& entries) {
+    put(static_cast<std::uint64_t>(entries.size()));
+    for (const auto& entry : entries) put(entry);
   }
 
   void pass_on(const void* data, std::size_t count) {
@@ -112,6 +118,12 @@ class ByteReader {
       values.clear();
       for (std::size_t left = count(1); left > 0; --left) get(values.emplace_back());
     }
+  }
+  template <typename Key, typename Value>
+  void get(std::map<Key, Value>& entries) {
+    std::vector<std::pair<Key, Value>> list;
+    get(list);
+    entries = {list.begin(), list.end()};
   }
   /// A number of items of a size that the rest can hold.
   std::size_t count(std::size_t size) {

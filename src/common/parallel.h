@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <numeric>
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <mpi.h>
@@ -72,24 +74,51 @@ void broadcast_array(MPI_Comm comm, std::vector<Value, Allocator>& values, int r
   }
 }
 
-/// Values of rank `root`, which a byte stream takes, on every rank; where no rank is the root, each
-/// keeps those that it has. Collective.
+/// Values as bytes, see byte_stream.h, and back.
 template <typename... Values>
-void broadcast_values(MPI_Comm comm, int root, Values&... values) {
-  if (root < 0 || root >= size_of(comm)) return;
+std::vector<char> bytes_of(const Values&... values) {
   std::vector<char> bytes;
   const WriteBytes take = [&](std::span<const char> next) {
     bytes.insert(bytes.end(), next.begin(), next.end());
   };
-  const bool writes = rank_of(comm) == root;
-  if (writes) ByteWriter{take}(values...);
-  broadcast_array(comm, bytes, root);
+  ByteWriter{take}(values...);
+  return bytes;
+}
+
+template <typename... Values>
+void from_bytes(const std::vector<char>& bytes, Values&... values) {
   std::size_t place = 0;
   const ReadBytes give = [&](std::span<char> next) {
     std::copy_n(bytes.data() + place, next.size(), next.data());
     place += next.size();
   };
-  if (!writes) ByteReader{give, bytes.size()}(values...);
+  ByteReader{give, bytes.size()}(values...);
+}
+
+/// Values of rank `root`, which a byte stream takes, on every rank; where no rank is the root, each
+/// keeps those that it has. Collective.
+template <typename... Values>
+void broadcast_values(MPI_Comm comm, int root, Values&... values) {
+  if (root < 0 || root >= size_of(comm)) return;
+  const bool writes = rank_of(comm) == root;
+  std::vector<char> bytes;
+  if (writes) bytes = bytes_of(values...);
+  broadcast_array(comm, bytes, root);
+  if (!writes) from_bytes(bytes, values...);
+}
+
+/// Calls `use` on rank 0 with every rank and its value, which a byte stream takes, in the order of
+/// the ranks. Collective.
+template <typename Value, typename Use>
+void for_each_rank(MPI_Comm comm, Value mine, const Use& use) {
+  if (rank_of(comm) != 0) return send_array(comm, 0, bytes_of(mine));
+  use(0, mine);
+  for (int rank = 1; rank < size_of(comm); ++rank) {
+    std::vector<char> bytes;
+    receive_array(comm, rank, bytes);
+    from_bytes(bytes, mine);
+    use(rank, mine);
+  }
 }
 
 /// MPI's type of a number.
@@ -136,19 +165,29 @@ void share_extreme(MPI_Comm comm, MPI_Op extreme, double& value, std::string& na
 /// Values of all ranks on rank 0, in the order of the ranks; nothing elsewhere. Collective.
 template <typename Value>
 std::vector<Value> gathered(MPI_Comm comm, std::vector<Value> mine) {
-  if (rank_of(comm) != 0) {
-    send_array(comm, 0, mine);
-    return {};
-  }
-  for (int rank = 1; rank < size_of(comm); ++rank) {
-    std::vector<Value> others;
-    receive_array(comm, rank, others);
-    mine.insert(mine.end(), others.begin(), others.end());
-  }
-  return mine;
+  std::vector<Value> all;
+  for_each_rank(comm, std::move(mine), [&](int /*rank*/, const std::vector<Value>& values) {
+    all.insert(all.end(), values.begin(), values.end());
+  });
+  return all;
 }
 
-/// Rows of all ranks, one after the other, on all of them. Collective.
-std::vector<double> gather_rows(MPI_Comm comm, const std::vector<double>& rows);
+/// Plain values of all ranks, one after the other, on all of them. Collective.
+template <typename Value>
+std::vector<Value> gather_rows(MPI_Comm comm, const std::vector<Value>& rows) {
+  const auto ranks = static_cast<std::size_t>(size_of(comm));
+  const int count = static_cast<int>(rows.size());
+  std::vector<int> counts(ranks);
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+  std::vector<int> begins(ranks);
+  std::exclusive_scan(counts.begin(), counts.end(), begins.begin(), 0);
+  std::vector<Value> all(static_cast<std::size_t>(begins.back() + counts.back()));
+  MPI_Datatype value = MPI_DATATYPE_NULL;
+  MPI_Type_contiguous(sizeof(Value), MPI_BYTE, &value);
+  MPI_Type_commit(&value);
+  MPI_Allgatherv(rows.data(), count, value, all.data(), counts.data(), begins.data(), value, comm);
+  MPI_Type_free(&value);
+  return all;
+}
 
 }  // namespace pounding

@@ -27,6 +27,8 @@ class SavedState {
   struct Table {
     std::size_t columns = 0;
     std::vector<double> values;
+
+    static void members(auto& self, auto& stream) { stream(self.columns, self.values); }
   };
   using DofKey = std::pair<int, std::string>;  ///< structure and name
 

@@ -75,10 +75,8 @@ class Export {
       std::error_code failure;
       require_no_link(scene_.export_matrices + "/" + system.name);
       std::filesystem::create_directories(folder, failure);
-      if (failure) {
-        throw UserError("option -export_matrices " + scene_.export_matrices +
-                        ": the folder cannot be created or written");
-      }
+      refuse_if(failure.value() != 0, "option -export_matrices " + scene_.export_matrices +
+                                          ": the folder cannot be created or written");
       write_dofs(folder);
       write_influence(folder);
       write_loads(folder);
@@ -101,14 +99,7 @@ class Export {
   /// Labels of the nodes: those of imported matrices, in the order of the ranks, else the numbers
   /// in the mesh file; none where the mesh came in pieces. Collective.
   void gather_labels() {
-    std::vector<char> mine;
-    for (const std::string& label : model_.systems[structure_].node_labels) {
-      mine.insert(mine.end(), label.c_str(), label.c_str() + label.size() + 1);
-    }
-    const std::vector<char> all = gathered(comm_, std::move(mine));
-    for (std::size_t at = 0; at < all.size(); at += labels_.back().size() + 1) {
-      labels_.emplace_back(&all[at]);
-    }
+    labels_ = gathered(comm_, model_.systems[structure_].node_labels);
     if (!labels_.empty() || model_.node_tags.empty()) return;
     for (const Dof& dof : dofs_) {
       labels_.push_back(std::to_string(model_.node_tags[structure_][dof.node]));
@@ -257,12 +248,11 @@ void refuse_dashpots(const Structure& structure) {
 
 void export_matrices(MPI_Comm comm, const Scene& scene, const Model& model) {
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    if (std::ranges::any_of(scene.structures[s].regions, is_nonlinear)) {
-      throw UserError(
-          "option -export_matrices: structure " + model.systems[s].name +
-          " has tension-only bars, compression-only springs or elements that yield, which no "
-          "matrix holds");
-    }
+    refuse_if(
+        std::ranges::any_of(scene.structures[s].regions, is_nonlinear),
+        "option -export_matrices: structure " + model.systems[s].name +
+            " has tension-only bars, compression-only springs or elements that yield, which no "
+            "matrix holds");
     refuse_dashpots(scene.structures[s]);
     Export(comm, scene, model, s).write();
   }

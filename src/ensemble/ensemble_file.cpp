@@ -209,9 +209,7 @@ void EnsembleFile::refuse_another(const std::string& path, const EnsembleLayout&
   } catch (const std::runtime_error& error) {
     throw UserError(std::string(error.what()) + remedy);
   }
-  if (!found.empty()) {
-    throw UserError(path + " holds another ensemble (" + found + ")" + remedy);
-  }
+  refuse_if(!found.empty(), path + " holds another ensemble (" + found + ")" + remedy);
 }
 
 void EnsembleFile::prepare(const std::string& path, const EnsembleLayout& layout) {
@@ -373,20 +371,14 @@ std::vector<std::string> identity_of_files(MPI_Comm comm, const std::string& res
     }
   }
   std::vector<std::string> lines;
-  std::string digests;
   on_rank0(comm, [&] {
     for (const std::string& file : files) {
       std::error_code failure;
       if (!std::filesystem::is_regular_file(file, failure)) continue;
-      digests += "file " + file + " " + digest_of_file(file).sha256 + "\n";
+      lines.push_back("file " + file + " " + digest_of_file(file).sha256);
     }
   });
-  broadcast(comm, digests);
-  for (std::size_t begin = 0; begin < digests.size();) {
-    const std::size_t end = digests.find('\n', begin);
-    lines.push_back(digests.substr(begin, end - begin));
-    begin = end + 1;
-  }
+  broadcast_values(comm, 0, lines);
   return lines;
 }
 

@@ -30,29 +30,13 @@ void MemberDoubts::add(std::size_t member, std::span<const std::string> lines) {
 }
 
 void MemberDoubts::gather(MPI_Comm comm) {
-  std::vector<char> texts;
-  std::vector<std::size_t> numbers;
-  for (const auto& [line, members] : members_) {
-    for (const std::size_t member : members) {
-      texts.insert(texts.end(), line.c_str(), line.c_str() + line.size() + 1);
-      numbers.push_back(member);
+  for_each_rank(comm, members_, [&](int rank, const auto& of_rank) {
+    for (const auto& [line, members] : of_rank) {
+      for (const std::size_t member : members) {
+        if (rank > 0) add(member, {&line, 1});
+      }
     }
-  }
-  if (rank_of(comm) != 0) {
-    send_array(comm, 0, texts);
-    send_array(comm, 0, numbers);
-    return;
-  }
-  for (int rank = 1; rank < size_of(comm); ++rank) {
-    receive_array(comm, rank, texts);
-    receive_array(comm, rank, numbers);
-    const char* text = texts.data();
-    for (const std::size_t member : numbers) {
-      const std::string line = text;
-      add(member, {&line, 1});
-      text += line.size() + 1;
-    }
-  }
+  });
   for (auto& [line, members] : members_) std::ranges::sort(members);
 }
 

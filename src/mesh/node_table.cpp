@@ -34,6 +34,8 @@ void for_each_owned_dof(const Mesh& mesh, std::size_t columns, Function&& functi
 struct CellList {
   std::vector<std::int64_t> heads;  ///< shape (cells, 3)
   std::vector<GlobalIndex> nodes;
+
+  static void members(auto& self, auto& stream) { stream(self.heads, self.nodes); }
 };
 
 CellList own_cells(const Mesh& mesh) {
@@ -66,23 +68,16 @@ struct TaggedCell {
 
 std::vector<double> gather_node_rows(const Mesh& mesh, std::vector<double> rows,
                                      std::size_t columns) {
-  std::vector<GlobalIndex> nodes = owned_file_nodes(mesh);
-  if (rank_of(mesh.comm) != 0) {
-    send_array(mesh.comm, 0, nodes);
-    send_array(mesh.comm, 0, rows);
-    return {};
-  }
-  std::vector<double> table(static_cast<std::size_t>(mesh.global_nodes) * columns, 0.0);
-  for (int rank = 0; rank < size_of(mesh.comm); ++rank) {
-    if (rank > 0) {
-      receive_array(mesh.comm, rank, nodes);
-      receive_array(mesh.comm, rank, rows);
-    }
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      std::copy_n(&rows[i * columns], columns,
-                  &table[static_cast<std::size_t>(nodes[i]) * columns]);
-    }
-  }
+  const bool root = rank_of(mesh.comm) == 0;
+  std::vector<double> table(root ? static_cast<std::size_t>(mesh.global_nodes) * columns : 0);
+  for_each_rank(mesh.comm, std::pair(owned_file_nodes(mesh), std::move(rows)),
+                [&](int /*rank*/, const auto& own) {
+                  const auto& [nodes, values] = own;
+                  for (std::size_t i = 0; i < nodes.size(); ++i) {
+                    std::copy_n(&values[i * columns], columns,
+                                &table[static_cast<std::size_t>(nodes[i]) * columns]);
+                  }
+                });
   return table;
 }
 
@@ -146,19 +141,9 @@ void add_cell(std::span<const GlobalIndex> nodes, bool solid, std::vector<std::i
 }
 
 CellTable gather_cells(const Mesh& mesh) {
-  CellList list = own_cells(mesh);
-  if (rank_of(mesh.comm) != 0) {
-    send_array(mesh.comm, 0, list.heads);
-    send_array(mesh.comm, 0, list.nodes);
-    return {};
-  }
   std::vector<GlobalIndex> nodes;
   std::vector<TaggedCell> places;
-  for (int rank = 0; rank < size_of(mesh.comm); ++rank) {
-    if (rank > 0) {
-      receive_array(mesh.comm, rank, list.heads);
-      receive_array(mesh.comm, rank, list.nodes);
-    }
+  for_each_rank(mesh.comm, own_cells(mesh), [&](int rank, const CellList& list) {
     std::size_t first = nodes.size();
     for (std::size_t i = 0; i < list.heads.size(); i += 3) {
       const auto width = static_cast<std::size_t>(list.heads[i + 2]);
@@ -166,7 +151,7 @@ CellTable gather_cells(const Mesh& mesh) {
       first += width;
     }
     nodes.insert(nodes.end(), list.nodes.begin(), list.nodes.end());
-  }
+  });
   std::ranges::stable_sort(
       places, {}, [](const TaggedCell& place) { return std::tuple(place.set, place.tag); });
   CellTable table;

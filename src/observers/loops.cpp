@@ -133,18 +133,7 @@ std::vector<Source> find_sources(const ObservedRun& run) {
 
 /// Candidates of all ranks, on all of them, in an order that does not depend on them.
 std::vector<Candidate> of_all_ranks(MPI_Comm comm, const std::vector<Candidate>& mine) {
-  const int bytes = static_cast<int>(mine.size() * sizeof(Candidate));
-  std::vector<int> counts(size_of(comm));
-  MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
-  std::vector<int> offsets;
-  int total = 0;
-  for (const int count : counts) {
-    offsets.push_back(total);
-    total += count;
-  }
-  std::vector<Candidate> all(static_cast<std::size_t>(total) / sizeof(Candidate));
-  MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), counts.data(), offsets.data(), MPI_BYTE,
-                 comm);
+  std::vector<Candidate> all = gather_rows(comm, mine);
   std::ranges::sort(all, {}, &Candidate::key);
   return all;
 }
@@ -162,11 +151,11 @@ void keep_nearest(const Loop& loop, int item, std::vector<Candidate>& all) {
       least = away;
       nearest = link.number;
     }
-    if (least > far_point) {
-      throw UserError(sentence(
-          "option -loops_at: the nearest element of {} is {:.4g} m from ({:.6g}, {:.6g}, {:.6g})",
-          {loop.name, least, point[0], point[1], point[2]}));
-    }
+    refuse_if(
+        least > far_point,
+        sentence(
+            "option -loops_at: the nearest element of {} is {:.4g} m from ({:.6g}, {:.6g}, {:.6g})",
+            {loop.name, least, point[0], point[1], point[2]}));
     kept.insert(nearest);
   }
   std::erase_if(
@@ -232,11 +221,9 @@ Loops::Loops(const ObservedRun& run) : run_(run) {
   all = of_all_ranks(run.comm, all);
   for (std::size_t i = 0; i < items.size(); ++i) {
     const int item = static_cast<int>(i);
-    if (std::ranges::find(all, item, &Candidate::item) == all.end()) {
-      throw UserError(
-          "option -loops: nothing in " + items[i].name +
-          " yields, slides, damps or acts in one direction only; name a group that does");
-    }
+    refuse_if(std::ranges::find(all, item, &Candidate::item) == all.end(),
+              "option -loops: nothing in " + items[i].name +
+                  " yields, slides, damps or acts in one direction only; name a group that does");
     keep_nearest(items[i], item, all);
   }
   for (const Candidate& law : all) {

@@ -69,21 +69,15 @@ Recorder::Recorder(const ObservedRun& run, Observers& before)
   width_ = values_per_node * nodes_ + places.size() / 2;
   buffer_.resize(buffer_records * width_);
   ground_.resize(3 * buffer_records);
-  if (rank_of(run_.comm) != 0) {
-    send_array(run_.comm, 0, mine);
-    send_array(run_.comm, 0, places);
-  }
-  for (int rank = 0; rank_of(run_.comm) == 0 && rank < size_of(run_.comm); ++rank) {
-    if (rank > 0) {
-      receive_array(run_.comm, rank, mine);
-      receive_array(run_.comm, rank, places);
+  for_each_rank(run_.comm, std::pair(mine, places), [&](int /*rank*/, const auto& own) {
+    const auto& [nodes, others] = own;
+    widths_.push_back(static_cast<int>(values_per_node * (nodes.size() / 2) + others.size() / 2));
+    rank_places_.push_back(others);
+    for (std::size_t i = 0; i < nodes.size(); i += 2) {
+      order_.push_back(
+          {static_cast<std::size_t>(nodes[i]), static_cast<std::size_t>(nodes[i + 1])});
     }
-    widths_.push_back(static_cast<int>(values_per_node * (mine.size() / 2) + places.size() / 2));
-    rank_places_.push_back(places);
-    for (std::size_t i = 0; i < mine.size(); i += 2) {
-      order_.push_back({static_cast<std::size_t>(mine[i]), static_cast<std::size_t>(mine[i + 1])});
-    }
-  }
+  });
   if (rank_of(run_.comm) == 0) name_channels();
   if (continued_.empty()) on_rank0(run_.comm, [&] { create_file(run_.path(history_file)); });
 }

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
+#include "common/facts.h"
 #include "common/parallel.h"
 #include "io/hdf5_reader.h"
 #include "io/schema.h"
@@ -44,15 +44,13 @@ class CheckpointReader {
       for (const auto& [name, value] : options) {
         const auto before = written.find(name);
         if (before == written.end()) refuse("written without the option -" + name + " " + value);
-        if (before->second != value) {
-          refuse("written with -" + name + " " + before->second + ", now it is " + value +
-                 "; give the same or start anew");
-        }
+        refuse_if(before->second != value, "written with -" + name + " " + before->second +
+                                               ", now it is " + value +
+                                               "; give the same or start anew");
       }
       for (const auto& [name, value] : written) {
-        if (!options.contains(name)) {
-          refuse("written with -" + name + " " + value + ", now it is not there");
-        }
+        refuse_if(!options.contains(name),
+                  "written with -" + name + " " + value + ", now it is not there");
       }
     });
   }
@@ -60,24 +58,17 @@ class CheckpointReader {
   void check_motion(const RunIdentity& identity) {
     on_root([&] {
       const double before = file_->number("/", "time_step");
-      if (before != identity.time_step) {
-        std::ostringstream text;
-        text.precision(17);
-        text << "written with the time step " << before << " s, now it is " << identity.time_step
-             << " s; give -time_step " << before;
-        refuse(text.str());
-      }
-      if (file_->text("/", "ground_motion") != identity.ground_motion) {
-        refuse("written under another ground motion or other loads; give the same or start anew");
-      }
+      refuse_if(before != identity.time_step,
+                sentence("written with the time step {:.17g} s, now it is {:.17g} s; give "
+                         "-time_step {:.17g}",
+                         {before, identity.time_step, before}));
+      refuse_if(file_->text("/", "ground_motion") != identity.ground_motion,
+                "written under another ground motion or other loads; give the same or start anew");
       const double frequency = file_->number("/", "beam_frequency");
-      if (frequency != identity.beam_frequency) {
-        std::ostringstream text;
-        text << "its beams were made for spectra up to " << frequency
-             << " Hz, now they would be for " << identity.beam_frequency
-             << " Hz; give -spectra_frequencies that end there";
-        refuse(text.str());
-      }
+      refuse_if(frequency != identity.beam_frequency,
+                sentence("its beams were made for spectra up to {} Hz, now they would be for {} "
+                         "Hz; give -spectra_frequencies that end there",
+                         {frequency, identity.beam_frequency}));
     });
   }
 
@@ -113,10 +104,10 @@ class CheckpointReader {
         largest = std::max(largest, std::abs(now[i]));
         difference = std::max(difference, std::abs(now[i] - written[i]));
       }
-      if (!(difference <= format::basis_tolerance * largest)) {
-        refuse("structure " + system.name + " was in it with another modal basis; keep the basis " +
-               "in a file, -" + system.name + "_modal_basis");
-      }
+      refuse_if(!(difference <= format::basis_tolerance * largest),
+                "structure " + system.name +
+                    " was in it with another modal basis; keep the basis " + "in a file, -" +
+                    system.name + "_modal_basis");
     });
   }
 
@@ -150,6 +141,10 @@ class CheckpointReader {
   void on_every_rank(const std::function<void()>& work) {
     format::on_every_rank_for_user(comm_, option, work);
   }
+  void refuse_if(bool wrong, const std::string& why) const {
+    if (wrong) refuse(why);
+  }
+
   [[noreturn]] void refuse(const std::string& why) const {
     throw std::runtime_error(path_ + ": " + why);
   }
@@ -199,9 +194,8 @@ class CheckpointReader {
     blocks.to_file(format::owned_coordinates(mesh), 3, now);
     const std::vector<double> written = read_block(place, blocks);
     on_every_rank([&] {
-      if (written != now) {
-        refuse("structure " + mesh.structure + " has its nodes elsewhere: another mesh");
-      }
+      refuse_if(written != now,
+                "structure " + mesh.structure + " has its nodes elsewhere: another mesh");
     });
   }
 
@@ -224,9 +218,8 @@ class CheckpointReader {
   void check_rows(const std::string& place, std::size_t columns, GlobalIndex rows, const char* of) {
     on_root([&] {
       const Hdf5Reader::Shape shape = file_->shape(place);
-      if (shape.columns != columns || static_cast<GlobalIndex>(shape.rows) != rows) {
-        refuse("'" + place + "' does not have one row per " + of);
-      }
+      refuse_if(shape.columns != columns || static_cast<GlobalIndex>(shape.rows) != rows,
+                "'" + place + "' does not have one row per " + of);
     });
   }
 
@@ -240,22 +233,17 @@ class CheckpointReader {
 
   template <typename Found>
   void check_count(const Mesh& mesh, const char* what, Found found, GlobalIndex now) const {
-    if (static_cast<GlobalIndex>(found) != now) {
-      refuse("structure " + mesh.structure + " has " +
-             std::to_string(static_cast<GlobalIndex>(found)) + " " + what + " in it, now " +
-             std::to_string(now) + ": another mesh");
-    }
+    refuse_if(static_cast<GlobalIndex>(found) != now,
+              "structure " + mesh.structure + " has " +
+                  std::to_string(static_cast<GlobalIndex>(found)) + " " + what + " in it, now " +
+                  std::to_string(now) + ": another mesh");
   }
 
   /// Names of a group, on every rank.
   std::vector<std::string> names(const std::string& group) {
-    SavedTables tables;
-    on_root([&] {
-      for (const std::string& name : file_->names(group)) tables[name] = {};
-    });
-    broadcast_tables(comm_, tables);
     std::vector<std::string> result;
-    for (const auto& entry : tables) result.push_back(entry.first);
+    on_root([&] { result = file_->names(group); });
+    broadcast_values(comm_, 0, result);
     return result;
   }
 

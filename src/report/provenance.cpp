@@ -10,7 +10,6 @@
 #include <fstream>
 #include <map>
 #include <numbers>
-#include <sstream>
 #include <string_view>
 #include <unistd.h>
 
@@ -52,15 +51,10 @@ std::vector<std::string> machine_names(MPI_Comm comm) {
   std::array<char, MPI_MAX_PROCESSOR_NAME> own{};
   int length = 0;
   MPI_Get_processor_name(own.data(), &length);
-  const auto size = static_cast<std::size_t>(rank_of(comm) == 0 ? size_of(comm) : 0);
-  std::vector<char> all(size * own.size());
-  MPI_Gather(own.data(), static_cast<int>(own.size()), MPI_CHAR, all.data(),
-             static_cast<int>(own.size()), MPI_CHAR, 0, comm);
   std::vector<std::string> names;
-  for (std::size_t rank = 0; rank < size; ++rank) {
-    const std::string name(&all[rank * own.size()]);
+  for_each_rank(comm, std::string(own.data()), [&](int /*rank*/, const std::string& name) {
     if (std::ranges::find(names, name) == names.end()) names.push_back(name);
-  }
+  });
   return names;
 }
 
@@ -298,9 +292,7 @@ std::vector<std::string> replaced_results(const Scene& scene, const std::string&
   require_finite_file(scene.output + "/resolved.yaml");
   std::ifstream file(scene.output + "/resolved.yaml");
   if (!file || !scene.restart.empty()) return {};
-  std::ostringstream text;
-  text << file.rdbuf();
-  const auto before = scene_options(text.str());
+  const auto before = scene_options({std::istreambuf_iterator<char>(file), {}});
   const auto now = scene_options(resolved);
   if (before.empty() || before == now) return {};
   const auto other = std::ranges::find_if(now, [&before](const auto& option) {
