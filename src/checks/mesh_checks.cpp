@@ -85,18 +85,14 @@ bool is_region(const Structure& structure, const std::string& group) {
                             (unused.left_out == 1 ? "" : "s") + " (" + unused.kind + ")";
   const std::string place = ", the first at " + place_text(unused.place);
   const std::string option = "-" + structure.name + "_";
-  if (is_region(structure, unused.group)) {
-    throw UserError("structure " + structure.name + ": group '" + unused.group + "' of " +
-                    structure.mesh + " has " + count + place + ", beside those that become " +
-                    "elements by " + option + unused.group +
-                    "_element: they would be left out; give them a name of their own");
-  }
-  if (unused.group.empty()) {
-    throw UserError("structure " + structure.name + ": " + structure.mesh + " has " + count +
-                    " in no physical group" + place +
-                    ": they would be left out; put them into a group, or give " + option +
-                    "ignore " + ungrouped);
-  }
+  refuse_if(is_region(structure, unused.group),
+            "structure " + structure.name + ": group '" + unused.group + "' of " + structure.mesh +
+                " has " + count + place + ", beside those that become " + "elements by " + option +
+                unused.group + "_element: they would be left out; give them a name of their own");
+  refuse_if(unused.group.empty(), "structure " + structure.name + ": " + structure.mesh + " has " +
+                                      count + " in no physical group" + place +
+                                      ": they would be left out; put them into a group, or give " +
+                                      option + "ignore " + ungrouped);
   throw UserError("structure " + structure.name + ": group '" + unused.group + "' of " +
                   structure.mesh + " has " + count + " that no option uses" + place +
                   ": they would be left out; give " + option + unused.group + "_element, or name " +
@@ -143,8 +139,7 @@ void doubt_long_joins(const Structure& structure, const GlobalMesh& mesh, Doubts
     if (body.kind != RigidKind::join) continue;
     const Vector3 x = mesh.position(body.nodes.front());
     for (const GlobalIndex node : body.nodes) {
-      const Vector3 y = mesh.position(node);
-      const double apart = std::hypot(y[0] - x[0], y[1] - x[1], y[2] - x[2]);
+      const double apart = distance(x, mesh.position(node));
       if (apart > longest) {
         longest = apart;
         found = &body;
@@ -259,10 +254,9 @@ void check_export(const Scene& scene, const Structure& structure, const GlobalMe
 std::vector<UnusedElements> check_unused(const Scene& scene, const Structure& structure,
                                          const GlobalMesh& mesh) {
   for (const std::string& name : structure.ignored_groups) {
-    if (name != ungrouped && !mesh.groups.contains(name)) {
-      throw UserError("option -" + structure.name + "_ignore: group '" + name + "' is not in " +
-                      structure.mesh);
-    }
+    refuse_if(
+        name != ungrouped && !mesh.groups.contains(name),
+        "option -" + structure.name + "_ignore: group '" + name + "' is not in " + structure.mesh);
   }
   const std::set<std::string> named = named_groups(scene, structure);
   std::vector<UnusedElements> places;

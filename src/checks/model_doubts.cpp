@@ -27,10 +27,7 @@ constexpr double light = 2;            ///< mass over the volume of the box arou
 
 void doubt_mat(const Structure& structure, const GlobalMesh& mesh, Doubts doubts) {
   if (!structure.soil) return;
-  BoundingBox box;
-  for (const GlobalIndex node : mesh.groups.at(structure.soil->mat).nodes) {
-    box.include(mesh.position(node));
-  }
+  const BoundingBox box = bounding_box(mesh, mesh.groups.at(structure.soil->mat).nodes);
   const double height = box.high[2] - box.low[2];
   const double side = std::max(box.high[0] - box.low[0], box.high[1] - box.low[1]);
   if (!(height > std::max(level_mat, level_part * side))) return;

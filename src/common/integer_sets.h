@@ -11,6 +11,13 @@
 
 namespace pounding {
 
+/// Leaves each value once, in increasing order.
+void keep_once(auto& values) {
+  std::ranges::sort(values);
+  const auto rest = std::ranges::unique(values);
+  values.erase(rest.begin(), rest.end());
+}
+
 /// A set of whole numbers that mostly follow each other, as the tags of a mesh do: one bit each,
 /// and at most some hundred bytes where they do not.
 class NumberSet {

@@ -65,7 +65,7 @@ class Examination {
 
   Connectivity run() {
     for (const ElementSet& set : mesh_.regions) {
-      for (std::size_t e = 0; e < set.tags.size(); ++e) join(set, nodes_of(set, e));
+      for (std::size_t e = 0; e < set.tags.size(); ++e) join(set, set.nodes_of(e));
     }
     join_rigid_bodies();
     find_pieces();
@@ -77,11 +77,6 @@ class Examination {
 
  private:
   std::size_t size_of_mesh() const { return mesh_.node_tags.size(); }
-
-  static std::span<const GlobalIndex> nodes_of(const ElementSet& set, std::size_t element) {
-    const std::size_t width = element_layout(set.type).nodes;
-    return {&set.connectivity[element * width], width};
-  }
 
   std::size_t piece_of(GlobalIndex node) { return pieces_.root(static_cast<std::size_t>(node)); }
 
@@ -117,13 +112,6 @@ class Examination {
     return !rigid_of_.empty() && rigid_of_[a] >= 0 && rigid_of_[a] == rigid_of_[b];
   }
 
-  std::uint8_t clamped(GlobalIndex node) const {
-    const std::size_t i = node;
-    return mesh_.components[i] & static_cast<std::uint8_t>(~mesh_.free_components[i]);
-  }
-
-  bool clamped_anyhow(GlobalIndex node) const { return clamped(node) != 0; }
-
   void find_pieces() {
     const double size = std::max(bounding_box({&mesh_, 1}).diagonal(), 1e-300);
     std::vector<std::ptrdiff_t> number(size_of_mesh(), -1);
@@ -140,7 +128,7 @@ class Examination {
       const std::size_t piece = number[root];
       ++found_.pieces[piece].nodes;
       add_components(node, mesh_.components[node], possible[piece]);
-      add_components(node, clamped(node), prevented[piece]);
+      add_components(node, mesh_.clamped(node), prevented[piece]);
     }
     for (const ElementSet& set : mesh_.regions) {
       for (std::size_t i = 0; is_grounded(set.type) && i < set.connectivity.size(); ++i) {
@@ -187,7 +175,7 @@ class Examination {
     for (const ElementSet& set : mesh_.regions) {
       for (std::size_t e = 0; !pairs.empty() && joins_two_nodes(set.type) && e < set.tags.size();
            ++e) {
-        const auto nodes = nodes_of(set, e);
+        const auto nodes = set.nodes_of(e);
         joined.insert(std::minmax(nodes[0], nodes[1]));
       }
     }
@@ -206,7 +194,7 @@ class Examination {
     for (GlobalIndex node = 0; node < mesh_.node_count(); ++node) {
       const Meeting& meeting = meeting_[node];
       if (meeting.lines == 1 && meeting.shells == 0 && meeting.solids == 0 &&
-          !clamped_anyhow(node)) {
+          mesh_.clamped(node) == 0) {
         ends.push_back(node);
       }
     }
@@ -220,7 +208,7 @@ class Examination {
     for (const ElementSet& set : mesh_.regions) {
       const bool solid = carries_faces(set.type) || joins_two_nodes(set.type);
       for (std::size_t e = 0; solid && !ends.empty() && e < set.tags.size(); ++e) {
-        find_ends_in(set, nodes_of(set, e), ends, inside);
+        find_ends_in(set, set.nodes_of(e), ends, inside);
       }
     }
     for (const GlobalIndex node : inside) found_.ends_inside.add(mesh_.position(node));
@@ -230,14 +218,8 @@ class Examination {
                     const std::vector<GlobalIndex>& ends, std::set<GlobalIndex>& inside) const {
     constexpr double tolerance = 1e-4;  // of the element
     std::array<Vector3, max_element_nodes> corners;
-    BoundingBox box;
-    for (std::size_t a = 0; a < nodes.size(); ++a) {
-      corners[a] = mesh_.position(nodes[a]);
-      for (std::size_t d = 0; d < 3; ++d) {
-        box.low[d] = std::min(box.low[d], corners[a][d]);
-        box.high[d] = std::max(box.high[d], corners[a][d]);
-      }
-    }
+    for (std::size_t a = 0; a < nodes.size(); ++a) corners[a] = mesh_.position(nodes[a]);
+    const BoundingBox box = bounding_box(mesh_, nodes);
     const double thickness = is_shell(set.type) ? structure_.regions[set.region].thickness : 0;
     const double reach = tolerance * box.diagonal() + thickness / 2;
     const auto x_of = [this](GlobalIndex node) { return mesh_.position(node)[0]; };
@@ -258,7 +240,7 @@ class Examination {
   bool shares_line(GlobalIndex end, std::span<const GlobalIndex> nodes) const {
     for (const ElementSet& set : mesh_.regions) {
       for (std::size_t e = 0; joins_two_nodes(set.type) && e < set.tags.size(); ++e) {
-        const auto line = nodes_of(set, e);
+        const auto line = set.nodes_of(e);
         if (line[0] == end || line[1] == end) {
           const GlobalIndex other = line[0] == end ? line[1] : line[0];
           return std::ranges::find(nodes, other) != nodes.end();
@@ -352,8 +334,7 @@ std::vector<std::pair<GlobalIndex, GlobalIndex>> near_nodes(const GlobalMesh& me
       }
     }
   }
-  std::ranges::sort(pairs);
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  keep_once(pairs);
   return pairs;
 }
 

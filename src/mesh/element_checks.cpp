@@ -7,10 +7,10 @@
 #include <map>
 #include <numeric>
 #include <span>
-#include <sstream>
 #include <utility>
 
 #include "common/error.h"
+#include "common/facts.h"
 #include "elements/element_traits.h"
 
 namespace pounding {
@@ -23,9 +23,8 @@ struct HashedElement {
 };
 
 std::vector<GlobalIndex> sorted_nodes(const ElementSet& set, std::size_t element) {
-  const std::size_t width = element_layout(set.type).nodes;
-  const auto first = set.connectivity.begin() + static_cast<std::ptrdiff_t>(element * width);
-  std::vector<GlobalIndex> nodes(first, first + static_cast<std::ptrdiff_t>(width));
+  const auto found = set.nodes_of(element);
+  std::vector<GlobalIndex> nodes(found.begin(), found.end());
   std::ranges::sort(nodes);
   return nodes;
 }
@@ -70,9 +69,9 @@ constexpr double smallest_edge = 1e-12;
 constexpr double shortest_line = 1e-8;
 
 /// The smallest distance between two nodes of an element [m].
-double smallest_distance(const GlobalMesh& mesh, const GlobalIndex* corner, std::size_t nodes) {
+double smallest_distance(const GlobalMesh& mesh, std::span<const GlobalIndex> corner) {
   double smallest = INFINITY;
-  for (std::size_t a = 1; a < nodes; ++a) {
+  for (std::size_t a = 1; a < corner.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
       smallest = std::min(smallest, distance(mesh.position(corner[a]), mesh.position(corner[b])));
     }
@@ -167,9 +166,8 @@ void check_repeated_elements(const std::string& structure, const GlobalMesh& mes
 std::vector<std::span<const GlobalIndex>> elements_at(const GlobalMesh& mesh, GlobalIndex node) {
   std::vector<std::span<const GlobalIndex>> found;
   for (const ElementSet& set : mesh.regions) {
-    const std::size_t nodes = element_layout(set.type).nodes;
     for (std::size_t e = 0; e < set.tags.size(); ++e) {
-      const std::span<const GlobalIndex> corners(&set.connectivity[e * nodes], nodes);
+      const std::span<const GlobalIndex> corners = set.nodes_of(e);
       if (std::ranges::find(corners, node) != corners.end()) found.push_back(corners);
     }
   }
@@ -191,16 +189,14 @@ double element_size_at(const GlobalMesh& mesh, GlobalIndex node) {
 void check_element_sizes(const std::string& structure, const GlobalMesh& mesh) {
   const double size = bounding_box({&mesh, 1}).diagonal();
   for (const ElementSet& set : mesh.regions) {
-    const std::size_t nodes = element_layout(set.type).nodes;
     const double least = size * (joins_two_nodes(set.type) ? shortest_line : smallest_edge);
     for (std::size_t e = 0; has_extent(set.type) && e < set.tags.size(); ++e) {
-      const double found = smallest_distance(mesh, &set.connectivity[e * nodes], nodes);
+      const double found = smallest_distance(mesh, set.nodes_of(e));
       if (!(found > least)) {
-        std::ostringstream text;
-        text << "structure " << structure << ": element " << set.tags[e] << " of group '"
-             << set.group << "': two of its nodes are " << found
-             << " m apart, nothing beside the size of the mesh; mend the mesh";
-        throw UserError(text.str());
+        throw UserError(
+            sentence("structure {}: element {} of group '{}': two of its nodes are {} m apart, "
+                     "nothing beside the size of the mesh; mend the mesh",
+                     {structure, set.tags[e], set.group, found}));
       }
     }
   }

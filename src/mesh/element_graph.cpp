@@ -48,11 +48,8 @@ ElementList list_elements(std::span<const GlobalMesh> meshes, std::span<const in
     list.element_offset.push_back(list.cost.size());
     for (const ElementSet& set : mesh.regions) {
       if (whole_part(whole, s) >= 0) break;
-      const std::size_t width = element_layout(set.type).nodes;
       for (std::size_t e = 0; e < set.tags.size(); ++e) {
-        for (std::size_t a = 0; a < width; ++a) {
-          list.nodes.push_back(list.node_count + set.connectivity[e * width + a]);
-        }
+        for (const GlobalIndex node : set.nodes_of(e)) list.nodes.push_back(list.node_count + node);
         list.first.push_back(static_cast<idx_t>(list.nodes.size()));
         list.entry.push_back(list.count());
         list.cost.push_back(set.cost());

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "common/integer_sets.h"
 #include "elements/measured_costs.h"
 
 namespace pounding {
@@ -156,8 +157,7 @@ ElementList merge_groups(const ElementList& all, const ElementGroups& groups) {
       nodes.insert(nodes.end(), all.nodes_of(e).begin(), all.nodes_of(e).end());
       cost += all.cost[e];
     }
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    keep_once(nodes);
     const std::size_t first = members[g].front();
     const bool is_cluster = static_cast<int>(g) >= groups.first_cluster;
     const idx_t solution =

@@ -10,10 +10,6 @@
 namespace pounding {
 namespace {
 
-int clamped(const GlobalMesh& mesh, GlobalIndex node) {
-  return mesh.components[node] & ~mesh.free_components[node];
-}
-
 [[noreturn]] void refuse_clamped(const Support& support, const SupportedGroup& group,
                                  const std::string& why) {
   throw UserError("option -" + support.name + "_groups " + group.structure + ":" + group.group +
@@ -23,8 +19,8 @@ int clamped(const GlobalMesh& mesh, GlobalIndex node) {
 void refuse_ties(const Structure& structure, const GlobalMesh& mesh) {
   for (const RigidNodes& part : mesh.rigid) {
     for (const TiedNode& tied : part.tied) {
-      bool held = clamped(mesh, tied.node) != 0;
-      for (const Carrier& carrier : tied.carriers) held = held || clamped(mesh, carrier.node) != 0;
+      bool held = mesh.clamped(tied.node) != 0;
+      for (const Carrier& carrier : tied.carriers) held = held || mesh.clamped(carrier.node) != 0;
       if (held) {
         throw UserError("option -" + structure.name + "_tie " + part.group + ": the node at " +
                         place_text(mesh.position(tied.node)) +
@@ -40,7 +36,7 @@ std::map<GlobalIndex, int> support_of_nodes(const Scene& scene, const Structure&
                                             const GlobalMesh& mesh, int all_ground) {
   std::map<GlobalIndex, int> found;
   for (GlobalIndex node = 0; all_ground >= 0 && node < mesh.node_count(); ++node) {
-    if (clamped(mesh, node) != 0) found.emplace(node, all_ground);
+    if (mesh.clamped(node) != 0) found.emplace(node, all_ground);
   }
   if (all_ground >= 0) return found;
   for (std::size_t s = 0; s < scene.supports.size(); ++s) {
@@ -54,7 +50,7 @@ std::map<GlobalIndex, int> support_of_nodes(const Scene& scene, const Structure&
       }
       bool any = false;
       for (const GlobalIndex node : nodes->second.nodes) {
-        if (clamped(mesh, node) == 0) continue;
+        if (mesh.clamped(node) == 0) continue;
         any = true;
         const auto [at, is_new] = found.try_emplace(node, static_cast<int>(s));
         if (!is_new && at->second != static_cast<int>(s)) {
@@ -79,7 +75,7 @@ void find_supported_nodes(const Scene& scene, const Structure& structure, Global
   const std::map<GlobalIndex, int> found = support_of_nodes(scene, structure, mesh, all_ground);
   std::vector<SupportedNode> nodes;
   for (GlobalIndex node = 0; !found.empty() && node < mesh.node_count(); ++node) {
-    if (clamped(mesh, node) == 0) continue;
+    if (mesh.clamped(node) == 0) continue;
     const auto at = found.find(node);
     if (at == found.end()) {
       throw UserError("structure " + structure.name + ": its clamped node at " +
@@ -87,7 +83,7 @@ void find_supported_nodes(const Scene& scene, const Structure& structure, Global
                       " is on none of -supports, and others of it do; name its group in the "
                       "_groups of one, which may move with the ground");
     }
-    nodes.push_back({node, at->second, clamped(mesh, node)});
+    nodes.push_back({node, at->second, mesh.clamped(node)});
   }
   if (!stands_on_moving_support(scene, structure)) return;
   refuse_ties(structure, mesh);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 #include <set>
-#include <sstream>
 
 #include "common/error.h"
+#include "common/facts.h"
 #include "common/matrix3.h"
 
 namespace pounding {
@@ -16,10 +16,7 @@ struct ElementPlace {
   const ElementSet* set = nullptr;
   std::size_t element = 0;
 
-  std::span<const GlobalIndex> nodes() const {
-    const std::size_t count = set->connectivity.size() / set->tags.size();
-    return {&set->connectivity[element * count], count};
-  }
+  std::span<const GlobalIndex> nodes() const { return set->nodes_of(element); }
 };
 
 std::vector<ElementPlace> places_of(const GlobalMesh& mesh) {
@@ -47,13 +44,10 @@ ElementPlace nearest(const ForceItem& force, const GlobalMesh& mesh,
   for (const GlobalIndex node : best.nodes()) {
     size = std::max(size, distance(mesh.position(node), centroid(mesh, best.nodes())));
   }
-  if (least > size + far * bounding_box({&mesh, 1}).diagonal()) {
-    std::ostringstream text;
-    text << "option -" << force.name << "_at: the point (" << point[0] << ", " << point[1] << ", "
-         << point[2] << ") is " << least << " m away from the middle of the nearest element of "
-         << force.group << "; give a point on one";
-    throw UserError(text.str());
-  }
+  refuse_if(least > size + far * bounding_box({&mesh, 1}).diagonal(),
+            sentence("option -{}_at: the point {} is {} m away from the middle of the nearest "
+                     "element of {}; give a point on one",
+                     {force.name, place_text(point), least, force.group}));
   return best;
 }
 
@@ -90,11 +84,10 @@ std::vector<ElementPlace> chosen_elements(const ForceItem& force, const GlobalMe
       most = std::max(most, along);
     }
   }
-  std::ostringstream text;
-  text << "option -" << force.name << "_level: no element of " << force.group
-       << " crosses the level " << force.level << "; along the normal the group reaches from "
-       << least << " to " << most << " m, and nodes on the level count as below";
-  throw UserError(text.str());
+  throw UserError(sentence(
+      "option -{}_level: no element of {} crosses the level {}; along the normal the group "
+      "reaches from {} to {} m, and nodes on the level count as below",
+      {force.name, force.group, force.level, least, most}));
 }
 
 /// Elements of which a total counts some force but not all: their own sum is zero.
@@ -133,11 +126,9 @@ namespace {
 void require_storey(const ForceItem& force, const GlobalMesh& mesh) {
   if (force.kind != ForceKind::storey) return;
   const BoundingBox box = bounding_box({&mesh, 1});
-  if (force.level < box.high[2]) return;
-  std::ostringstream text;
-  text << "option -" << force.name << "_level: no node of " << force.structure << " lies above "
-       << force.level << " m; it reaches from " << box.low[2] << " to " << box.high[2] << " m";
-  throw UserError(text.str());
+  refuse_if(!(force.level < box.high[2]),
+            sentence("option -{}_level: no node of {} lies above {} m; it reaches from {} to {} m",
+                     {force.name, force.structure, force.level, box.low[2], box.high[2]}));
 }
 
 }  // namespace

@@ -33,6 +33,12 @@ double BoundingBox::longest_side() const {
   return std::ranges::max(sides());
 }
 
+BoundingBox bounding_box(const GlobalMesh& mesh, std::span<const GlobalIndex> nodes) {
+  BoundingBox box;
+  for (const GlobalIndex node : nodes) box.include(mesh.position(node));
+  return box;
+}
+
 BoundingBox bounding_box(std::span<const GlobalMesh> meshes) {
   BoundingBox box;
   for (const GlobalMesh& mesh : meshes) {

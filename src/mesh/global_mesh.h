@@ -90,6 +90,11 @@ struct ElementSet {
   /// nodes have the tags of these then.
   std::vector<double> share;
   bool inelastic = false;  ///< an element law adds to their forces
+  /// Nodes of an element in the order of its type.
+  std::span<const GlobalIndex> nodes_of(std::size_t element) const {
+    const auto width = static_cast<std::size_t>(element_layout(type).nodes);
+    return {&connectivity[element * width], width};
+  }
   double share_of(std::size_t element) const { return share.empty() ? 1 : share[element]; }
   /// Cost of a step of one of these elements, see measured_costs.h.
   int cost() const { return traits_of(type).cost + (inelastic ? measured_costs::inelastic : 0); }
@@ -171,6 +176,10 @@ struct GlobalMesh : NodeMarks {
   /// Components of each node before clamping, a bit each.
   std::vector<std::uint8_t> components;
 
+  /// Components that a node has and that are clamped, a bit each.
+  std::uint8_t clamped(GlobalIndex node) const {
+    return components[node] & static_cast<std::uint8_t>(~free_components[node]);
+  }
   GlobalIndex node_count() const { return static_cast<GlobalIndex>(node_tags.size()); }
   Vector3 position(GlobalIndex node) const {
     const double* x = &coordinates[3 * node];
@@ -223,6 +232,9 @@ struct BoundingBox {
   Vector3 sides() const;  ///< [m]
   double longest_side() const;
 };
+
+/// Bounding box of some nodes.
+BoundingBox bounding_box(const GlobalMesh& mesh, std::span<const GlobalIndex> nodes);
 
 /// Bounding box of every node of some meshes, which have at least one. Serial.
 BoundingBox bounding_box(std::span<const GlobalMesh> meshes);

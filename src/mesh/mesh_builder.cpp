@@ -127,10 +127,8 @@ class MeshBuilder {
         }
       }
     }
-    if (mesh_.regions.size() == before) {
-      throw UserError("option " + option + ": group '" + region.group + "' of " + structure_.mesh +
-                      " holds no elements");
-    }
+    refuse_if(mesh_.regions.size() == before, "option " + option + ": group '" + region.group +
+                                                  "' of " + structure_.mesh + " holds no elements");
   }
 
   const std::vector<RawElements>& elements_on(int dimension, int entity) const {
@@ -148,15 +146,13 @@ class MeshBuilder {
                    const std::vector<RawElements>& parts) {
     for (const RawElements& part : parts) {
       const auto kind = kind_in_region(region.element, part.type);
-      if (!kind) {
-        throw UserError("option " + option + ": group '" + region.group + "' of " +
-                        structure_.mesh + " holds " + kind_of(part.type) +
-                        " elements, which do not become " + element_name(region.element) +
-                        (is_grounded(region.element)
-                             ? "; spread it, -" + structure_.name + "_" + region.group +
-                                   "_stiffness_per_area or _per_length"
-                             : ""));
-      }
+      refuse_if(!kind, "option " + option + ": group '" + region.group + "' of " + structure_.mesh +
+                           " holds " + kind_of(part.type) + " elements, which do not become " +
+                           element_name(region.element) +
+                           (is_grounded(region.element)
+                                ? "; spread it, -" + structure_.name + "_" + region.group +
+                                      "_stiffness_per_area or _per_length"
+                                : ""));
       ElementSet& set = set_of(region, *kind);
       for (const std::int64_t tag : part.tags) {
         // Springs may share lines and points with another region (a mass on a spring).
@@ -178,12 +174,10 @@ class MeshBuilder {
     const std::string option =
         "-" + structure_.name + "_" + region.group + "_stiffness" + per_extent(region.spread);
     for (const RawElements& part : parts) {
-      if (area ? part.type != 2 && part.type != 3 : part.type != 1) {
-        throw UserError(
-            "option " + option + ": group '" + region.group + "' of " + structure_.mesh +
-            " holds " + kind_of(part.type) + " elements; " +
-            (area ? "it takes triangles and quadrangles" : "it takes lines of two nodes"));
-      }
+      refuse_if(area ? part.type != 2 && part.type != 3 : part.type != 1,
+                "option " + option + ": group '" + region.group + "' of " + structure_.mesh +
+                    " holds " + kind_of(part.type) + " elements; " +
+                    (area ? "it takes triangles and quadrangles" : "it takes lines of two nodes"));
       ElementSet& set = set_of(region, region.element);
       SpreadFacets& spread = spread_[&set - mesh_.regions.data()];
       const std::size_t width = part.nodes.size() / std::max<std::size_t>(1, part.tags.size());
@@ -201,9 +195,7 @@ class MeshBuilder {
         spread.push_back(facet);
       }
       set.tags.insert(set.tags.end(), part.nodes.begin(), part.nodes.end());
-      std::ranges::sort(set.tags);
-      const auto rest = std::ranges::unique(set.tags);
-      set.tags.erase(rest.begin(), rest.end());
+      keep_once(set.tags);
       set.connectivity.assign(set.tags.begin(), set.tags.end());
     }
   }
@@ -300,10 +292,8 @@ class MeshBuilder {
     const auto found = mesh_.groups.find(name);
     const std::string option = "-" + structure_.name + end_of_option;
     if (found == mesh_.groups.end()) unknown_group(name, option);
-    if (found->second.nodes.empty()) {
-      throw UserError("option " + option + ": no element of the scene uses a node of group '" +
-                      name + "'");
-    }
+    refuse_if(found->second.nodes.empty(),
+              "option " + option + ": no element of the scene uses a node of group '" + name + "'");
     return found->second;
   }
 

@@ -39,7 +39,7 @@ class WaveFinder {
       for (std::size_t e = 0; e < set.tags.size(); ++e) {
         std::uint64_t mixed = ++number * 0x9e3779b97f4a7c15ULL;
         mixed = (mixed ^ mixed >> 30) * 0xbf58476d1ce4e5b9ULL;
-        for (const GlobalIndex n : nodes_of(set, e)) {
+        for (const GlobalIndex n : set.nodes_of(e)) {
           Surroundings& node = around(n);
           node.region = node.region == none || node.region == set.region ? set.region : several;
           if (is_solid(set.type)) node.solids += mixed ^ mixed >> 27;
@@ -64,7 +64,7 @@ class WaveFinder {
             element_properties(structure_.regions[region], set.share_of(e));
         const double mass = mass_of(set, e, properties);
         total += mass;
-        if (!has_extent(set.type) || !(mass > 0) || is_rigid(nodes_of(set, e))) continue;
+        if (!has_extent(set.type) || !(mass > 0) || is_rigid(set.nodes_of(e))) continue;
         const MeshWaves waves = carried(set, e, properties);
         if (!(waves.frequency > 0)) continue;  // a bar of its dashpot alone
         auto& [sum, first] = by_frequency[static_cast<int>(200 * std::log(waves.frequency))];
@@ -83,14 +83,9 @@ class WaveFinder {
   Surroundings& around(GlobalIndex n) { return around_[static_cast<std::size_t>(n)]; }
   const Surroundings& around(GlobalIndex n) const { return around_[static_cast<std::size_t>(n)]; }
 
-  static std::span<const GlobalIndex> nodes_of(const ElementSet& set, std::size_t element) {
-    const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
-    return {&set.connectivity[element * width], width};
-  }
-
   double mass_of(const ElementSet& set, std::size_t element, const ElementProperties& properties) {
     coordinates_.clear();
-    for (const GlobalIndex n : nodes_of(set, element)) {
+    for (const GlobalIndex n : set.nodes_of(element)) {
       const Vector3 at = mesh_.position(n);
       coordinates_.insert(coordinates_.end(), at.begin(), at.end());
     }
@@ -109,7 +104,7 @@ class WaveFinder {
   }
 
   MeshWaves carried(const ElementSet& set, std::size_t element, const ElementProperties& p) const {
-    const std::span nodes = nodes_of(set, element);
+    const std::span nodes = set.nodes_of(element);
     auto [longest, thickness] = edges_of(set.type, nodes);
     double omega = 0;
     if (is_beam(set.type)) {

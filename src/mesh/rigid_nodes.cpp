@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <sstream>
 
 #include "common/error.h"
 #include "common/integer_sets.h"
@@ -25,10 +24,7 @@ std::string option_text(const Structure& structure, const RigidGroup& rigid) {
 
 [[noreturn]] void refuse_rigid(const Structure& structure, const RigidGroup& rigid,
                                const std::string& what, const Vector3& x) {
-  std::ostringstream text;
-  text << option_text(structure, rigid) << ": its node at (" << x[0] << ", " << x[1] << ", " << x[2]
-       << ") " << what;
-  throw UserError(text.str());
+  throw UserError(option_text(structure, rigid) + ": its node at " + place_text(x) + " " + what);
 }
 
 /// Sets of two or more nodes, each sorted, in the order of their first nodes.
@@ -39,8 +35,7 @@ std::vector<Cluster> clusters_of(DisjointSets& sets, const Cluster& nodes) {
   }
   std::vector<Cluster> clusters;
   for (auto& [root, cluster] : found) {
-    std::ranges::sort(cluster);
-    cluster.erase(std::unique(cluster.begin(), cluster.end()), cluster.end());
+    keep_once(cluster);
     if (cluster.size() > 1) clusters.push_back(std::move(cluster));
   }
   std::ranges::sort(clusters);
@@ -59,12 +54,6 @@ std::vector<Cluster> pinned(const GlobalMesh& mesh, const Cluster& nodes) {
   return clusters_of(sets, nodes);
 }
 
-double distance_between(const GlobalMesh& mesh, GlobalIndex a, GlobalIndex b) {
-  const Vector3 x = mesh.position(a);
-  const Vector3 y = mesh.position(b);
-  return std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]);
-}
-
 /// Each of `nodes` with the nearest of `others`, by their x coordinates.
 std::vector<Cluster> joined(const GlobalMesh& mesh, const Cluster& nodes, const Cluster& others) {
   const auto x_of = [&](GlobalIndex node) { return mesh.position(node)[0]; };
@@ -77,7 +66,7 @@ std::vector<Cluster> joined(const GlobalMesh& mesh, const Cluster& nodes, const 
     double nearest = std::numeric_limits<double>::infinity();
     GlobalIndex found = -1;
     const auto look = [&](GlobalIndex other) {
-      const double apart = distance_between(mesh, node, other);
+      const double apart = distance(mesh.position(node), mesh.position(other));
       if (apart < nearest || (apart == nearest && other < found)) {
         nearest = apart;
         found = other;
@@ -136,17 +125,13 @@ bool is_held(const GlobalMesh& mesh, const Cluster& cluster) {
                              [&](GlobalIndex node) { return mesh.free_components[node] == 0; });
 }
 
-unsigned clamped_components(const GlobalMesh& mesh, GlobalIndex node) {
-  return static_cast<unsigned>(mesh.components[node] & ~mesh.free_components[node]);
-}
-
 /// Components that are clamped at every node of a level, or of a floor that cannot turn about z, as
 /// that of a plane frame: nothing follows in them, and no rotation couples them to the others.
 unsigned left_out(const GlobalMesh& mesh, const RigidGroup& rigid, const Cluster& cluster) {
   constexpr unsigned about_z = 0x20;
   if (rigid.kind != RigidKind::level && rigid.kind != RigidKind::diaphragm) return 0;
   unsigned common = rigid.components();
-  for (const GlobalIndex node : cluster) common &= clamped_components(mesh, node);
+  for (const GlobalIndex node : cluster) common &= mesh.clamped(node);
   const bool turns = rigid.kind == RigidKind::diaphragm && (common & about_z) == 0;
   return turns ? 0 : common;
 }
@@ -187,8 +172,7 @@ std::vector<Cluster> clusters_of(const Structure& structure, const RigidGroup& r
       if (!rigid.other.empty()) {
         const Cluster& more = mesh.groups.at(rigid.other).nodes;
         nodes.insert(nodes.end(), more.begin(), more.end());
-        std::ranges::sort(nodes);
-        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+        keep_once(nodes);
       }
       return {nodes};
   }
@@ -202,10 +186,9 @@ std::vector<RigidNodes> find_rigid_nodes(const Structure& structure, const Globa
   for (const RigidGroup& rigid : structure.rigid_groups) {
     if (rigid.kind == RigidKind::tie) continue;
     const std::vector<Cluster> clusters = clusters_of(structure, rigid, mesh);
-    if (clusters.empty()) {
-      throw UserError(option_text(structure, rigid) + ": no two nodes of it lie " +
-                      (rigid.kind == RigidKind::pin ? "on each other" : "at one height"));
-    }
+    refuse_if(clusters.empty(),
+              option_text(structure, rigid) + ": no two nodes of it lie " +
+                  (rigid.kind == RigidKind::pin ? "on each other" : "at one height"));
     for (const Cluster& cluster : clusters) {
       if (is_held(mesh, cluster)) continue;  // clamped altogether: nothing follows anything
       if (rigid.implied && (cluster.size() == 1 || is_in_body(found, cluster))) continue;
@@ -227,7 +210,7 @@ std::vector<RigidNodes> find_rigid_nodes(const Structure& structure, const Globa
               "is in " + other->second + " as well; make them one group, or keep them apart",
               mesh.position(node));
         }
-        if ((clamped_components(mesh, node) & (rows.empty() ? following : rows[k])) != 0) {
+        if ((mesh.clamped(node) & (rows.empty() ? following : rows[k])) != 0) {
           refuse_rigid(structure, rigid,
                        "is clamped; clamp all that moves with it instead, or none of it",
                        mesh.position(node));

@@ -9,20 +9,8 @@
 namespace pounding {
 namespace {
 
-[[noreturn]] void refuse_mat(const Structure& structure, const std::string& why) {
-  throw UserError("option -" + structure.name + "_soil_mat " + structure.soil->mat + ": " + why);
-}
-
-BoundingBox box_around(const GlobalMesh& mesh, const std::vector<GlobalIndex>& nodes) {
-  BoundingBox box;
-  for (const GlobalIndex node : nodes) {
-    const Vector3 x = mesh.position(node);
-    for (std::size_t d = 0; d < 3; ++d) {
-      box.low[d] = std::min(box.low[d], x[d]);
-      box.high[d] = std::max(box.high[d], x[d]);
-    }
-  }
-  return box;
+void refuse_mat_if(bool wrong, const Structure& structure, const std::string& why) {
+  refuse_if(wrong, "option -" + structure.name + "_soil_mat " + structure.soil->mat + ": " + why);
 }
 
 const ElementSet& soil_set(const GlobalMesh& mesh) {
@@ -33,16 +21,14 @@ const ElementSet& soil_set(const GlobalMesh& mesh) {
 /// then the first.
 GlobalIndex carrying_node(const Structure& structure, const GlobalMesh& mesh,
                           const std::vector<GlobalIndex>& nodes) {
-  const BoundingBox box = box_around(mesh, nodes);
+  const BoundingBox box = bounding_box(mesh, nodes);
   const double same = 1e-9 * std::max(box.diagonal(), 1e-300);
   GlobalIndex best = -1;
   double distance = std::numeric_limits<double>::infinity();
   for (const GlobalIndex node : nodes) {
     const std::size_t n = node;
-    if (mesh.components[n] != mesh.free_components[n]) {
-      refuse_mat(structure,
-                 "the group has clamped nodes; soil holds a mat that nothing else holds");
-    }
+    refuse_mat_if(mesh.components[n] != mesh.free_components[n], structure,
+                  "the group has clamped nodes; soil holds a mat that nothing else holds");
     if ((mesh.components[n] & rotation_bits) != rotation_bits) continue;
     const Vector3 x = mesh.position(node);
     const double here =
@@ -54,12 +40,10 @@ GlobalIndex carrying_node(const Structure& structure, const GlobalMesh& mesh,
       distance = here;
     }
   }
-  if (best < 0) {
-    refuse_mat(
-        structure,
-        "no node of the group has rotations; give it a node of shells or beams, or a point mass "
-        "with rotary inertia");
-  }
+  refuse_mat_if(
+      best < 0, structure,
+      "no node of the group has rotations; give it a node of shells or beams, or a point mass "
+      "with rotary inertia");
   return best;
 }
 
@@ -68,10 +52,8 @@ GlobalIndex carrying_node(const Structure& structure, const GlobalMesh& mesh,
 void add_soil(const Structure& structure, GlobalMesh& mesh) {
   if (!structure.soil) return;
   const auto found = mesh.groups.find(structure.soil->mat);
-  if (found == mesh.groups.end() || found->second.nodes.empty()) {
-    refuse_mat(structure,
-               "no element of the scene uses a node of such a group of " + structure.mesh);
-  }
+  refuse_mat_if(found == mesh.groups.end() || found->second.nodes.empty(), structure,
+                "no element of the scene uses a node of such a group of " + structure.mesh);
   const auto region = std::ranges::find(structure.regions, ElementType::soil, &Region::element);
   ElementSet set;
   set.group = region->group;
@@ -83,14 +65,12 @@ void add_soil(const Structure& structure, GlobalMesh& mesh) {
   if (!structure.soil->table.empty()) return;
   const MatOutline outline = mat_outline(structure, mesh);
   const std::array<double, 2> sides = sides_of(*structure.soil, outline);
-  if (!(sides[0] > 0) || !(sides[1] > 0)) {
-    refuse_mat(structure,
-               "the nodes of the group span no area; give -" + structure.name + "_soil_size");
-  }
+  refuse_mat_if(!(sides[0] > 0) || !(sides[1] > 0), structure,
+                "the nodes of the group span no area; give -" + structure.name + "_soil_size");
 }
 
 MatOutline mat_outline(const Structure& structure, const GlobalMesh& mesh) {
-  const BoundingBox box = box_around(mesh, mesh.groups.at(structure.soil->mat).nodes);
+  const BoundingBox box = bounding_box(mesh, mesh.groups.at(structure.soil->mat).nodes);
   MatOutline outline;
   outline.node = mesh.position(soil_set(mesh).connectivity[0]);
   for (std::size_t d = 0; d < 2; ++d) {

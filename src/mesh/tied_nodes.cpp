@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <sstream>
 
 #include "common/error.h"
+#include "common/facts.h"
 #include "common/integer_sets.h"
 #include "common/matrix3.h"
 #include "mesh/followed_facets.h"
@@ -32,10 +32,8 @@ class Tie {
         mesh_(mesh),
         option_("option -" + structure.name + "_tie " + rigid_.name()),
         facets_(mesh, mesh.groups.at(rigid_.other).facets) {
-    if (facets_.all().empty()) {
-      throw UserError(option_ + ": group '" + rigid_.other +
-                      "' has no faces or lines of elements to follow");
-    }
+    refuse_if(facets_.all().empty(), option_ + ": group '" + rigid_.other +
+                                         "' has no faces or lines of elements to follow");
   }
 
   std::vector<TiedNode> run() {
@@ -80,7 +78,7 @@ class Tie {
   /// follow nodes on it.
   TiedNode joined(const TiedNode& place, TiedNode mean) const {
     for (std::size_t c = 0; c < 6; ++c) {
-      if ((clamped(place.node) >> c & 1) == 0) continue;
+      if ((mesh_.clamped(place.node) >> c & 1) == 0) continue;
       for (Carrier& carrier : mean.carriers) std::fill_n(&carrier.block[6 * c], 6, 0.0);
       for (const Carrier& carrier : place.carriers) {
         std::copy_n(&carrier.block[6 * c], 6,
@@ -94,12 +92,11 @@ class Tie {
     const double edge = facets_.longest_edge(*facet.facet);
     const double reach = facets_.reach(*facet.facet);
     const std::string whose = "the nearest facet of '" + rigid_.other + "'";
-    std::ostringstream text;
     if (facet.at.distance > reach) {
-      text << "lies " << facet.at.distance << " m from " << whose << ", more than "
-           << (reach > edge ? "" : "its longest edge, ") << reach
-           << " m: that is no joint; name the nodes on it, or let a mesh fill the space between";
-      refuse(node, text.str());
+      refuse(node,
+             sentence("lies {} m from {}, more than {}{} m: that is no joint; name the nodes "
+                      "on it, or let a mesh fill the space between",
+                      {facet.at.distance, whose, reach > edge ? "" : "its longest edge, ", reach}));
     }
     if (facet.facet->count > 2) {
       if (facet.at.normal == Vector3{0, 0, 0}) {
@@ -122,14 +119,10 @@ class Tie {
                        [](double value) { return value == 0; });
   }
 
-  unsigned clamped(GlobalIndex node) const {
-    return mesh_.components[node] & ~static_cast<unsigned>(mesh_.free_components[node]);
-  }
-
   /// A clamped component may follow clamped ones alone.
   void check_clamps(const TiedNode& tied) const {
     for (std::size_t c = 0; c < 6; ++c) {
-      if ((clamped(tied.node) >> c & 1) == 0) continue;
+      if ((mesh_.clamped(tied.node) >> c & 1) == 0) continue;
       for (const Carrier& carrier : tied.carriers) {
         for (std::size_t k = 0; k < 6; ++k) {
           if ((mesh_.free_components[carrier.node] >> k & 1) != 0 &&
@@ -173,11 +166,10 @@ class Tie {
       longest = std::max(longest, facets_.longest_edge(facet));
     }
     if (longest <= coarser * longest_followed_) return;
-    std::ostringstream text;
-    text << option_ << ": the facets of '" << rigid_.group << "' are up to " << longest
-         << " m long, those that they follow " << longest_followed_
-         << " m: nodes between are left alone; let the finer mesh follow the coarser one";
-    mesh_.doubts.push_back(text.str());
+    mesh_.doubts.push_back(
+        sentence("{}: the facets of '{}' are up to {} m long, those that they follow {} m: nodes "
+                 "between are left alone; let the finer mesh follow the coarser one",
+                 {option_, rigid_.group, longest, longest_followed_}));
   }
 
   const RigidGroup& rigid_;
@@ -244,8 +236,7 @@ std::vector<RigidNodes> parts_of(const Structure& structure, const GlobalMesh& m
   }
   std::vector<RigidNodes> result;
   for (auto& [root, part] : parts) {
-    std::ranges::sort(part.nodes);
-    part.nodes.erase(std::unique(part.nodes.begin(), part.nodes.end()), part.nodes.end());
+    keep_once(part.nodes);
     std::erase_if(part.nodes, [&](GlobalIndex node) { return mesh.free_components[node] == 0; });
     if (!part.nodes.empty()) result.push_back(std::move(part));
   }

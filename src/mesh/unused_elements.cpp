@@ -92,10 +92,10 @@ class Search {
 
   /// Candidates with the nodes of an element's face, edge, or of the element itself.
   void mark(const ElementSet& set, std::size_t element, std::span<const std::size_t> corners) {
-    const std::size_t width = element_layout(set.type).nodes;
+    const auto of_element = set.nodes_of(element);
     std::array<std::int64_t, 4> nodes{};
     for (std::size_t a = 0; a < corners.size(); ++a) {
-      nodes[a] = mesh_.node_tags[set.connectivity[element * width + corners[a]]];
+      nodes[a] = mesh_.node_tags[of_element[corners[a]]];
     }
     const auto [first, last] = by_key_.equal_range(key_of({nodes.data(), corners.size()}));
     for (auto it = first; it != last; ++it) candidates_[it->second].place = true;

@@ -8,6 +8,7 @@
 
 #include "common/error.h"
 #include "common/facts.h"
+#include "common/integer_sets.h"
 #include "common/matrix3.h"
 #include "common/parallel.h"
 #include "interactions/pairing/interface.h"
@@ -237,10 +238,9 @@ void write_model(MPI_Comm comm, const Scene& scene, const Model& model) {
     });
   }
   on_rank0(comm, [&] {
-    std::vector<std::string> probes;
-    for (const ResolvedProbe& probe : model.probes) probes.push_back(probe.name);
+    const std::vector<std::string> probes = names_of(model.probes);
     for (const auto& [name, list] :
-         {std::pair("contacts", &labels.contacts), std::pair("probes", &std::as_const(probes)),
+         {std::pair("contacts", &labels.contacts), std::pair("probes", &probes),
           std::pair("materials", &std::as_const(names.materials)),
           std::pair("sections", &std::as_const(names.sections))}) {
       file->write_strings(name, *list);
@@ -276,7 +276,7 @@ MeshLabels mesh_labels(const Scene& scene, const interactions::Interface& interf
       labels.groups.push_back(structure.name + ":" + region.group);
     }
   }
-  for (const Contact& contact : scene.contacts) labels.contacts.push_back(contact.name);
+  labels.contacts = names_of(scene.contacts);
   labels.contact_nodes.assign(scene.structures.size(),
                               std::vector<std::vector<GlobalIndex>>(scene.contacts.size()));
   for (const interactions::Constraint& row : interface.constraints) {
@@ -285,10 +285,7 @@ MeshLabels mesh_labels(const Scene& scene, const interactions::Interface& interf
     }
   }
   for (auto& contacts : labels.contact_nodes) {
-    for (std::vector<GlobalIndex>& nodes : contacts) {
-      std::ranges::sort(nodes);
-      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    }
+    for (std::vector<GlobalIndex>& nodes : contacts) keep_once(nodes);
   }
   return labels;
 }
