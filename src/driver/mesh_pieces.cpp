@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* common_kind = "pounding mesh pieces 7";
-constexpr const char* piece_kind = "pounding mesh piece 1";
+constexpr const char* piece_kind = "pounding mesh piece 2";
 
 std::string common_path(const Scene& scene) {
   return scene.mesh_pieces + "/common.piece";
@@ -190,11 +190,10 @@ void cut_and_write(const Scene& scene, const WholeMeshes& whole, Model& model) {
   for (const GlobalMesh& mesh : whole.meshes) {
     for (const ElementSet& set : mesh.regions) elements += set.tags.size();
   }
-  if (static_cast<std::size_t>(ranks) > elements) {
-    throw UserError("option -write_mesh_pieces " + std::to_string(ranks) +
-                    ": more than the meshes have elements, " + std::to_string(elements) +
-                    "; give fewer pieces");
-  }
+  refuse_if(static_cast<std::size_t>(ranks) > elements,
+            "option -write_mesh_pieces " + std::to_string(ranks) +
+                ": more than the meshes have elements, " + std::to_string(elements) +
+                "; give fewer pieces");
   const Partition partition = cut_meshes(scene, whole.meshes, model.interface, ranks);
   model.partition_imbalance = partition.imbalance;
   model.partition_edge_cut = partition.edge_cut;
@@ -225,9 +224,8 @@ void cut_and_write(const Scene& scene, const WholeMeshes& whole, Model& model) {
   });
   std::error_code failure;
   fs::rename(fresh, common_path(scene), failure);
-  if (failure) {
-    throw UserError(common_path(scene) + ": could not be written (" + failure.message() + ")");
-  }
+  refuse_if(failure.value() != 0,
+            common_path(scene) + ": could not be written (" + failure.message() + ")");
   print(partition_facts(model));
   std::printf("pieces: %d in %s, %.4g MB, for runs on as many ranks with -mesh_pieces %s\n", ranks,
               scene.mesh_pieces.c_str(), bytes / 1e6, scene.mesh_pieces.c_str());

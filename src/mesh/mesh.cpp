@@ -34,34 +34,7 @@ Mesh unpack(MPI_Comm comm, const std::string& name, MeshParcel&& parcel) {
   std::iota(mesh.by_file_node.begin(), mesh.by_file_node.end(), LocalIndex{0});
   std::sort(mesh.by_file_node.begin(), mesh.by_file_node.end(),
             [&](LocalIndex a, LocalIndex b) { return mesh.file_node[a] < mesh.file_node[b]; });
-  std::size_t element = 0;
-  std::size_t corner = 0;
-  std::size_t shared = 0;
-  const char* text = parcel.names.data();
-  for (std::size_t r = 0; r < parcel.region.size(); r += 5) {
-    ElementBlock block;
-    block.group = text;
-    text += block.group.size() + 1;
-    block.type = static_cast<ElementType>(parcel.region[r]);
-    block.region = static_cast<int>(parcel.region[r + 1]);
-    block.global_count = parcel.region[r + 2];
-    const std::size_t count = parcel.region[r + 3];
-    const std::size_t corners = count * static_cast<std::size_t>(element_layout(block.type).nodes);
-    const auto from = [](const auto& values, std::size_t begin, std::size_t length) {
-      return std::vector(values.begin() + static_cast<std::ptrdiff_t>(begin),
-                         values.begin() + static_cast<std::ptrdiff_t>(begin + length));
-    };
-    block.tags = from(parcel.tags, element, count);
-    block.counted = from(parcel.counted, element, count);
-    block.connectivity = from(parcel.connectivity, corner, corners);
-    if (parcel.region[r + 4] != 0) {
-      block.share = from(parcel.share, shared, count);
-      shared += count;
-    }
-    element += count;
-    corner += corners;
-    mesh.blocks.push_back(std::move(block));
-  }
+  mesh.blocks = std::move(parcel.blocks);
   return mesh;
 }
 
@@ -148,13 +121,12 @@ Mesh distribute_mesh(MPI_Comm comm, const std::string& name, const GlobalMesh& g
     const MeshCutter cutter(global, partition, structure);
     mine = cutter.parcel(0);
     for (int rank = 1; rank < size_of(comm); ++rank) {
-      const MeshParcel parcel = cutter.parcel(rank);
-      const auto send = [&](const auto&... arrays) { (send_array(comm, rank, arrays), ...); };
-      MeshParcel::members(parcel, send);
+      send_array(comm, rank, bytes_of(cutter.parcel(rank)));
     }
   } else {
-    const auto receive = [&](auto&... arrays) { (receive_array(comm, 0, arrays), ...); };
-    MeshParcel::members(mine, receive);
+    std::vector<char> bytes;
+    receive_array(comm, 0, bytes);
+    from_bytes(bytes, mine);
   }
   return join_parcel(comm, name, std::move(mine), global);
 }

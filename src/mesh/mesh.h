@@ -11,23 +11,6 @@
 
 namespace pounding {
 
-/// Elements of one kind and region on this rank: every element that touches an owned node, so that
-/// this rank can build all that its owned dofs need without asking others. Sorted as in the file.
-struct ElementBlock {
-  std::string group;
-  int region = 0;  ///< index into the structure's regions
-  ElementType type = ElementType::hex8;
-  std::vector<std::int64_t> tags;        ///< as in the file
-  std::vector<LocalIndex> connectivity;  ///< shape (n_elements, nodes of the type), local nodes
-  std::vector<std::uint8_t> counted;     ///< 1 on the one rank that counts the element
-  GlobalIndex global_count = 0;          ///< elements of the region over all ranks
-  std::vector<double> share;             ///< of each element, see ElementSet
-  /// Axial force at rest of each beam or bar, tension above 0 [N]; empty without P-Delta.
-  std::vector<double> axial_force;
-  std::size_t count() const { return tags.size(); }
-  double share_of(std::size_t element) const { return share.empty() ? 1 : share[element]; }
-};
-
 /// Nodes that move together. One rank owns them all.
 struct RigidPart {
   std::string group;  ///< as in the option; several may come of one

@@ -5,14 +5,12 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "common/integer_sets.h"
 #include "elements/element_traits.h"
 #include "mesh/element_groups.h"
 
 namespace pounding {
 namespace {
-
-/// Numbers that an array of regions has for each: type, region, global count, elements here, share.
-constexpr std::size_t region_width = 5;
 
 void require(bool fits) {
   if (!fits) throw std::runtime_error("parts of a mesh that do not belong together");
@@ -21,39 +19,23 @@ void require(bool fits) {
 }  // namespace
 
 void check_parcel(const MeshParcel& parcel, std::size_t regions) {
-  require(parcel.sizes.size() == 6);
   const std::size_t nodes = parcel.file_node.size();
   const GlobalIndex owned = parcel.sizes[0];
   require(owned >= 0 && owned <= static_cast<GlobalIndex>(nodes));
   require(parcel.coordinates.size() == 3 * nodes && parcel.free_components.size() == nodes &&
           parcel.global_dof.size() == nodes);
   require(std::ranges::all_of(parcel.free_components, [](auto bits) { return bits <= 0x3f; }));
-  const std::size_t sets = parcel.region.size() / region_width;
-  require(parcel.region.size() == region_width * sets &&
-          parcel.sizes[5] == static_cast<GlobalIndex>(sets));
-  require(std::ranges::count(parcel.names, '\0') == static_cast<std::ptrdiff_t>(sets) &&
-          (parcel.names.empty() || parcel.names.back() == '\0'));
-  GlobalIndex elements = 0;
-  GlobalIndex corners = 0;
-  GlobalIndex shared = 0;
-  for (std::size_t r = 0; r < parcel.region.size(); r += region_width) {
-    const GlobalIndex type = parcel.region[r];
-    const GlobalIndex here = parcel.region[r + 3];
-    require(type >= 0 && type < element_type_count);
-    const GlobalIndex region = parcel.region[r + 1];
-    require(region >= 0 && region < static_cast<GlobalIndex>(regions));
-    require(here >= 0 && here <= static_cast<GlobalIndex>(parcel.tags.size()));
-    elements += here;
-    corners += here * element_layout(static_cast<ElementType>(type)).nodes;
-    if (parcel.region[r + 4] != 0) shared += here;
+  for (const ElementBlock& block : parcel.blocks) {
+    require(static_cast<int>(block.type) >= 0 && static_cast<int>(block.type) < element_type_count);
+    require(block.region >= 0 && block.region < static_cast<int>(regions));
+    const std::size_t width = element_layout(block.type).nodes;
+    require(block.connectivity.size() == width * block.count() &&
+            block.counted.size() == block.count() &&
+            (block.share.empty() || block.share.size() == block.count()));
+    require(std::ranges::all_of(block.connectivity, [&](LocalIndex node) {
+      return node >= 0 && static_cast<std::size_t>(node) < nodes;
+    }));
   }
-  require(elements == static_cast<GlobalIndex>(parcel.tags.size()) &&
-          parcel.counted.size() == parcel.tags.size());
-  require(corners == static_cast<GlobalIndex>(parcel.connectivity.size()) &&
-          shared == static_cast<GlobalIndex>(parcel.share.size()));
-  require(std::ranges::all_of(parcel.connectivity, [&](LocalIndex node) {
-    return node >= 0 && static_cast<std::size_t>(node) < nodes;
-  }));
 }
 
 MeshCutter::MeshCutter(const GlobalMesh& mesh, const Partition& partition, int structure)
@@ -78,8 +60,7 @@ MeshParcel MeshCutter::parcel(int part) const {
   out.coordinates.reserve(3 * count);
   for (GlobalIndex place = begin; place < end; ++place) add_node(order_[place], out);
   for (const GlobalIndex place : ghosts) add_node(order_[place], out);
-  out.sizes = {end - begin,     mesh_.node_count(), dofs_,
-               unclamped_dofs_, part_dof_[part],    static_cast<GlobalIndex>(mesh_.regions.size())};
+  out.sizes = {end - begin, mesh_.node_count(), dofs_, unclamped_dofs_, part_dof_[part]};
   return out;
 }
 
@@ -121,18 +102,12 @@ void MeshCutter::number_dofs() {
   }
 }
 
-std::span<const GlobalIndex> MeshCutter::corners_of(const Element& element) const {
-  const ElementSet& set = mesh_.regions[element.set];
-  const std::size_t width = element_layout(set.type).nodes;
-  return {&set.connectivity[element.number * width], width};
-}
-
 /// Calls `visit(part, element)` for every part that owns a node of an element, set after set.
 template <typename Visit>
 void MeshCutter::for_each_share(const Visit& visit) const {
   for (std::uint32_t s = 0; s < mesh_.regions.size(); ++s) {
     for (std::uint32_t e = 0; e < mesh_.regions[s].tags.size(); ++e) {
-      const auto corners = corners_of({s, e});
+      const auto corners = mesh_.regions[s].nodes_of(e);
       for (std::size_t a = 0; a < corners.size(); ++a) {
         const auto same_part = [&](GlobalIndex node) {
           return node_owner_[node] == node_owner_[corners[a]];
@@ -162,13 +137,11 @@ std::vector<GlobalIndex> MeshCutter::ghost_places(int part,
                                                   std::span<const Element> elements) const {
   std::vector<GlobalIndex> ghosts;
   for (const Element& element : elements) {
-    for (const GlobalIndex node : corners_of(element)) {
+    for (const GlobalIndex node : nodes_of(element)) {
       if (node_owner_[node] != part) ghosts.push_back(place_[node]);
     }
   }
-  std::ranges::sort(ghosts);
-  const auto rest = std::ranges::unique(ghosts);
-  ghosts.erase(rest.begin(), rest.end());
+  keep_once(ghosts);
   return ghosts;
 }
 
@@ -192,29 +165,29 @@ LocalIndex MeshCutter::local(GlobalIndex node, int part,
 
 void MeshCutter::add_elements(int part, std::span<const Element> elements,
                               const std::vector<GlobalIndex>& ghosts, MeshParcel& out) const {
-  std::vector<GlobalIndex> here(mesh_.regions.size(), 0);
-  std::size_t corner_count = 0;
-  for (const Element& element : elements) corner_count += corners_of(element).size();
-  out.tags.reserve(elements.size());
-  out.counted.reserve(elements.size());
-  out.connectivity.reserve(corner_count);
-  for (const Element& element : elements) {
-    const auto corners = corners_of(element);
-    ++here[element.set];
-    const ElementSet& set = mesh_.regions[element.set];
-    out.tags.push_back(set.tags[element.number]);
-    if (!set.share.empty()) out.share.push_back(set.share[element.number]);
-    // Counted where its first node is owned: that rank surely holds the element.
-    out.counted.push_back(node_owner_[corners[0]] == part ? 1 : 0);
-    for (const GlobalIndex node : corners) out.connectivity.push_back(local(node, part, ghosts));
+  std::vector<std::size_t> here(mesh_.regions.size(), 0);
+  for (const Element& element : elements) ++here[element.set];
+  for (const ElementSet& set : mesh_.regions) {
+    ElementBlock& block = out.blocks.emplace_back();
+    block.group = set.group;
+    block.region = set.region;
+    block.type = set.type;
+    block.global_count = static_cast<GlobalIndex>(set.tags.size());
+    const std::size_t count = here[out.blocks.size() - 1];
+    block.tags.reserve(count);
+    block.counted.reserve(count);
+    block.connectivity.reserve(count * element_layout(set.type).nodes);
+    if (!set.share.empty()) block.share.reserve(count);
   }
-  for (std::size_t s = 0; s < mesh_.regions.size(); ++s) {
-    const ElementSet& set = mesh_.regions[s];
-    out.region.insert(out.region.end(), {static_cast<GlobalIndex>(set.type), set.region,
-                                         static_cast<GlobalIndex>(set.tags.size()), here[s],
-                                         static_cast<GlobalIndex>(set.share.empty() ? 0 : 1)});
-    out.names.insert(out.names.end(), set.group.begin(), set.group.end());
-    out.names.push_back('\0');
+  for (const Element& element : elements) {
+    const auto corners = nodes_of(element);
+    const ElementSet& set = mesh_.regions[element.set];
+    ElementBlock& block = out.blocks[element.set];
+    block.tags.push_back(set.tags[element.number]);
+    if (!set.share.empty()) block.share.push_back(set.share[element.number]);
+    // Counted where its first node is owned: that rank surely holds the element.
+    block.counted.push_back(node_owner_[corners[0]] == part ? 1 : 0);
+    for (const GlobalIndex node : corners) block.connectivity.push_back(local(node, part, ghosts));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "mesh/global_mesh.h"
@@ -10,25 +11,41 @@
 
 namespace pounding {
 
-/// One rank's part of a structure's mesh, as arrays that travel.
+/// Elements of one kind and region on this rank: every element that touches an owned node, so that
+/// this rank can build all that its owned dofs need without asking others. Sorted as in the file.
+struct ElementBlock {
+  std::string group;
+  int region = 0;  ///< index into the structure's regions
+  ElementType type = ElementType::hex8;
+  std::vector<std::int64_t> tags;        ///< as in the file
+  std::vector<LocalIndex> connectivity;  ///< shape (n_elements, nodes of the type), local nodes
+  std::vector<std::uint8_t> counted;     ///< 1 on the one rank that counts the element
+  GlobalIndex global_count = 0;          ///< elements of the region over all ranks
+  std::vector<double> share;             ///< of each element, see ElementSet
+  /// Axial force at rest of each beam or bar, tension above 0 [N]; empty without P-Delta.
+  std::vector<double> axial_force;
+  std::size_t count() const { return tags.size(); }
+  double share_of(std::size_t element) const { return share.empty() ? 1 : share[element]; }
+
+  static void members(auto& self, auto& stream) {
+    stream(self.group, self.region, self.type, self.tags, self.connectivity, self.counted,
+           self.global_count, self.share);
+  }
+};
+
+/// One rank's part of a structure's mesh, as it travels.
 struct MeshParcel {
-  std::vector<GlobalIndex>
-      sizes;  ///< owned nodes, global nodes, dofs, unclamped dofs, first dof, regions
+  /// Owned nodes, global nodes, dofs, unclamped dofs, first dof.
+  std::array<GlobalIndex, 5> sizes{};
   std::vector<GlobalIndex> file_node;
   std::vector<double> coordinates;
   std::vector<std::uint8_t> free_components;
   std::vector<GlobalIndex> global_dof;
-  std::vector<GlobalIndex> region;  ///< per set: type, region, global count, elements here,
-                                    ///< whether these have a share
-  std::vector<double> share;        ///< of the elements of sets that have one
-  std::vector<char> names;          ///< of the regions, zero-terminated
-  std::vector<std::int64_t> tags;
-  std::vector<LocalIndex> connectivity;
-  std::vector<std::uint8_t> counted;
+  std::vector<ElementBlock> blocks;
 
   static void members(auto& self, auto& stream) {
     stream(self.sizes, self.file_node, self.coordinates, self.free_components, self.global_dof,
-           self.region, self.share, self.names, self.tags, self.connectivity, self.counted);
+           self.blocks);
   }
 };
 
@@ -54,7 +71,9 @@ class MeshCutter {
   void sort_nodes();
   void number_dofs();
   void sort_elements();
-  std::span<const GlobalIndex> corners_of(const Element& element) const;
+  std::span<const GlobalIndex> nodes_of(const Element& element) const {
+    return mesh_.regions[element.set].nodes_of(element.number);
+  }
   template <typename Visit>
   void for_each_share(const Visit& visit) const;
   std::vector<GlobalIndex> ghost_places(int part, std::span<const Element> elements) const;
