@@ -80,7 +80,7 @@ class SwitchedRun final : public SteppedRun<double> {
   /// See rest_work; likewise.
   double about_rest() const;
 
-  /// To save before the links are saved, to bring back after they were, which is collective.
+  /// Saves before the links are saved, or brings back after they were, which is collective.
   void keep(const StateKeeper& state);
 
  private:

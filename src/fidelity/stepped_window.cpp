@@ -129,11 +129,11 @@ SteppedWindow::Motion SteppedWindow::run(int parts) const {
                  scheme, [&] { add_impulses(comm_, scheme, motion.impulse); });
   motion.seconds = MPI_Wtime() - began;
   MPI_Bcast(&motion.seconds, 1, MPI_DOUBLE, 0, comm_);
-  MPI_Allreduce(MPI_IN_PLACE, &motion.impulse, 1, MPI_DOUBLE, MPI_SUM, comm_);
+  reduce_over_ranks(comm_, MPI_SUM, motion.impulse);
   inherited.finish(window_.last);
   const std::vector<double>& carried = inherited.records();
   for (std::size_t i = 0; i < motion.velocities.size(); ++i) motion.velocities[i] += carried[i];
-  add_parts(comm_, motion.velocities);
+  reduce_over_ranks(comm_, MPI_SUM, motion.velocities);
   return motion;
 }
 
@@ -145,14 +145,6 @@ void leave_outputs(Scene& scene) {
   scene.loops.clear();
   scene.fields_interval = 0;
   scene.export_matrices.clear();
-}
-
-void add_parts(MPI_Comm comm, std::vector<double>& records) {
-  constexpr std::size_t most = std::size_t{1} << 27;
-  for (std::size_t i = 0; i < records.size(); i += most) {
-    MPI_Allreduce(MPI_IN_PLACE, records.data() + i,
-                  static_cast<int>(std::min(most, records.size() - i)), MPI_DOUBLE, MPI_SUM, comm);
-  }
 }
 
 void add_impulses(MPI_Comm comm, ModelScheme& scheme, double& sum) {

@@ -50,9 +50,6 @@ class SteppedWindow {
 /// A scene to be built anew beside its run, at a time step of its own: no outputs but probes.
 void leave_outputs(Scene& scene);
 
-/// Adds the ranks' parts of the channels' velocities up, in every record. Collective.
-void add_parts(MPI_Comm comm, std::vector<double>& records);
-
 /// Adds the impulses of the step just made to `sum`, on the root of its contacts.
 void add_impulses(MPI_Comm comm, ModelScheme& scheme, double& sum);
 

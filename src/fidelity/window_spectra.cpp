@@ -59,7 +59,7 @@ std::vector<double> run_reduced(MPI_Comm comm, const Scene& scene, const Model& 
     means.velocities(scheme.stepper().state(), now);
     records.insert(records.end(), now.begin(), now.end());
   }
-  add_parts(comm, records);
+  reduce_over_ranks(comm, MPI_SUM, records);
   return records;
 }
 

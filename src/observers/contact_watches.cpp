@@ -208,8 +208,7 @@ void UpliftWatch::observe(const CdLagrange& stepper) {
         links != nullptr ? links->bedding() : interactions::StructureLinks::Bedding{};
     sums.insert(sums.end(), {bedding.pressed, bedding.all});
   }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
-                run_.comm);
+  reduce_over_ranks(run_.comm, MPI_SUM, sums);
   for (std::size_t s = 0; s < ratios_.size(); ++s) {
     if (!(sums[2 * s + 1] > 0)) continue;
     ContactRatio& ratio = ratios_[s];

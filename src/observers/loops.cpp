@@ -260,8 +260,7 @@ void Loops::report(RunStatistics& statistics) {
     to[2] = t.work;
     to[3] = t.yielded;
   }
-  MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM,
-                run_.comm);
+  reduce_over_ranks(run_.comm, MPI_SUM, all);
   for (std::size_t item = 0; item < items_.size(); ++item) {
     std::size_t links = 0;
     std::array<double, width> most{};  // of the last two the sums

@@ -102,8 +102,7 @@ StepNeeds PoolWaves::begin(const CdLagrange& stepper) {
 }
 
 void PoolWaves::look() {
-  MPI_Allreduce(MPI_IN_PLACE, samples_.data(), static_cast<int>(samples_.size()), MPI_DOUBLE,
-                MPI_SUM, run_.comm);
+  reduce_over_ranks(run_.comm, MPI_SUM, samples_);
   for (std::size_t t = 0; t < times_.size(); ++t) {
     const double* const heights = &samples_[t * rows_.size()];
     for (std::size_t p = 0; p < rows_.size(); p += 2) {

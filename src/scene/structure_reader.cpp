@@ -227,7 +227,8 @@ const Structure& named_structure(const OptionReader& options, const Scene& scene
   const auto found = std::ranges::find(scene.structures, structure, &Structure::name);
   if (found != scene.structures.end()) return *found;
   options.refuse(pattern, names,
-                 "there is no structure '" + structure + "'" + suggestion(structure, names_of(scene.structures)) + hint);
+                 "there is no structure '" + structure + "'" +
+                     suggestion(structure, names_of(scene.structures)) + hint);
 }
 
 void group_points(Scene& scene, const std::string& option, const std::string& structure,
