@@ -156,7 +156,7 @@ void prepare_switched(const Mesh& mesh, LinearSystem& system, ModalRequest& requ
     };
     while (request.cutoff < highest_cutoff && lasts(request.cutoff)) request.cutoff *= 1.02;
   }
-  if (links > 0) system.loads = with_dashpot_loads(system, lowest.modes);
+  if (links) system.loads = with_dashpot_loads(system, lowest.modes);
 }
 
 void give_modes(MPI_Comm comm, const Scene& scene, Model& model) {

@@ -91,8 +91,10 @@ AddedMass::AddedMass(const Mesh& mesh, const WaterBody& water,
   for (std::size_t i = 0; i < n; ++i) h[i * n + i] += 1;
   from_.resize(n);
   to_.resize(n);
-  part_.resize(tile_size);
   keep_tiles(h);
+  for (const Tile& tile : tiles_) {
+    part_.resize(std::max(part_.size(), tile.full ? tile.rows : tile.rank));
+  }
   root_ = rest();
   if (!factorise_definite(root_)) refuse();
 }
