@@ -11,21 +11,6 @@
 
 namespace pounding {
 
-/// An HDF5 object of any kind that is closed at the end of its scope.
-class Hdf5Handle {
- public:
-  explicit Hdf5Handle(hid_t id) : id_(id) {}
-  Hdf5Handle(const Hdf5Handle&) = delete;
-  Hdf5Handle& operator=(const Hdf5Handle&) = delete;
-  ~Hdf5Handle() {
-    if (id_ >= 0) H5Idec_ref(id_);
-  }
-  operator hid_t() const { return id_; }
-
- private:
-  hid_t id_;
-};
-
 /// Rows of a virtual dataset that are the whole of a dataset of another file.
 struct VirtualRows {
   std::string dataset;
@@ -51,22 +36,14 @@ class Hdf5File {
   void append(const std::string& name, std::span<const double> values);
   /// A dataset of final size with a checksum, shape (rows, columns) or a plain vector if `columns`
   /// is 0; groups in its name come into being.
-  void write_array(const std::string& name, std::size_t columns, std::span<const double> values) {
-    write_values(name, columns, H5T_NATIVE_DOUBLE, values.size(), values.data());
-  }
+  void write_array(const std::string& name, std::size_t columns, std::span<const double> values);
   /// An array of whole numbers of 4 bytes each, otherwise as write_array().
   void write_integers(const std::string& name, std::size_t columns,
-                      std::span<const std::int32_t> values) {
-    write_values(name, columns, H5T_NATIVE_INT32, values.size(), values.data());
-  }
+                      std::span<const std::int32_t> values);
   /// A plain vector of whole numbers of 8 bytes each, or of 1 byte each, otherwise as
   /// write_array().
-  void write_long_integers(const std::string& name, std::span<const std::int64_t> values) {
-    write_values(name, 0, H5T_NATIVE_INT64, values.size(), values.data());
-  }
-  void write_bytes(const std::string& name, std::span<const std::uint8_t> values) {
-    write_values(name, 0, H5T_NATIVE_UINT8, values.size(), values.data());
-  }
+  void write_long_integers(const std::string& name, std::span<const std::int64_t> values);
+  void write_bytes(const std::string& name, std::span<const std::uint8_t> values);
   /// A dataset of shape (rows, columns), or a plain vector if `columns` is 0, that holds no values
   /// of its own: `parts` are read from the file `source`, in the folder of this one, and rows of
   /// no part are 0. `type`: HDF5's, of one value.
@@ -117,21 +94,10 @@ class Hdf5File {
     hsize_t rows = 0;
   };
   Dataset& find(const std::string& name);
-  /// Creates a dataset of doubles that stays open.
-  void keep_open(const std::string& name, std::size_t columns, hid_t space, hid_t properties);
   void write_values(const std::string& name, std::size_t columns, hid_t type, std::size_t count,
                     const void* values);
-  void write_padded(const std::string& name, int rank, const hsize_t* size,
-                    const std::vector<std::string>& values);
-  void write_attribute(const std::string& object, const std::string& name, hid_t type, hid_t space,
-                       const void* value);
-  /// A dataset with the groups in its name.
-  Hdf5Handle create(const std::string& name, hid_t type, hid_t space, hid_t properties) const;
-  void write_new(const std::string& name, hid_t type, hid_t space, hid_t properties,
-                 const void* values) const;
-  Hdf5Handle space_of(const std::string& name, int rank, const hsize_t* size,
-                      const hsize_t* most = nullptr) const;
-  Hdf5Handle properties_of(const std::string& name) const;
+  /// A dataset with the groups in its name; closes `space` and `properties`.
+  hid_t create(const std::string& name, hid_t type, hid_t space, hid_t properties) const;
   hid_t checked(hid_t id, const std::string& what) const;
   herr_t close_handles();
   void sync() const;
@@ -140,6 +106,17 @@ class Hdf5File {
   Kind kind_;
   hid_t file_ = -1;
   std::vector<Dataset> datasets_;
+};
+
+/// Texts of one length as HDF5 holds them, side by side and padded with zeros to the longest, at
+/// least one character. Whoever makes `type` closes it.
+struct PaddedTexts {
+  explicit PaddedTexts(const std::vector<std::string>& texts);
+
+  hid_t type() const;
+
+  std::size_t width = 1;
+  std::string block;
 };
 
 /// Prepares HDF5 before its first use: it shall report errors by the values of its functions only,

@@ -10,6 +10,21 @@
 namespace pounding {
 namespace {
 
+/// Closes a handle of any kind at the end of its scope.
+class Handle {
+ public:
+  explicit Handle(hid_t id) : id_(id) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  ~Handle() {
+    if (id_ >= 0) H5Idec_ref(id_);
+  }
+  hid_t get() const { return id_; }
+
+ private:
+  hid_t id_;
+};
+
 std::string without_padding(const std::string& text) {
   return text.substr(0, text.find('\0'));
 }
@@ -18,38 +33,38 @@ std::string without_padding(const std::string& text) {
 
 Hdf5Reader::Hdf5Reader(const std::string& path, Kind kind) : path_(path) {
   prepare_hdf5();
-  fail_if(!std::filesystem::is_regular_file(path), "no such file");
+  if (!std::filesystem::is_regular_file(path)) fail("no such file");
   bytes_ = std::filesystem::file_size(path);
   if (kind == Kind::sealed) check_seal(path);
-  fail_if(H5Fis_hdf5(path.c_str()) <= 0, "not an HDF5 file, or its beginning is damaged");
+  if (H5Fis_hdf5(path.c_str()) <= 0) fail("not an HDF5 file, or its beginning is damaged");
   file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file_ < 0 && kind == Kind::left_open) {
     file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT);
   }
-  fail_if(file_ < 0, "truncated or damaged, or in use by a program that still runs");
+  if (file_ < 0) fail("truncated or damaged, or in use by a program that still runs");
 }
 
 Hdf5Reader::~Hdf5Reader() {
   H5Fclose(file_);
 }
 
-void Hdf5Reader::fail_if(bool wrong, const std::string& what) const {
-  if (wrong) throw std::runtime_error(path_ + ": " + what);
+void Hdf5Reader::fail(const std::string& what) const {
+  throw std::runtime_error(path_ + ": " + what);
 }
 
 std::vector<std::string> Hdf5Reader::names(const std::string& group) const {
-  const Hdf5Handle object(H5Gopen2(file_, group.c_str(), H5P_DEFAULT));
-  if (object < 0) return {};
+  const Handle object(H5Gopen2(file_, group.c_str(), H5P_DEFAULT));
+  if (object.get() < 0) return {};
   H5G_info_t info{};
-  H5Gget_info(object, &info);
+  H5Gget_info(object.get(), &info);
   std::vector<std::string> names;
   for (hsize_t i = 0; i < info.nlinks; ++i) {
     const auto name = [&](char* buffer, std::size_t size) {
-      return H5Lget_name_by_idx(object, ".", H5_INDEX_NAME, H5_ITER_INC, i, buffer, size,
+      return H5Lget_name_by_idx(object.get(), ".", H5_INDEX_NAME, H5_ITER_INC, i, buffer, size,
                                 H5P_DEFAULT);
     };
     const auto length = name(nullptr, 0);
-    fail_if(length < 0, "the names in '" + group + "' cannot be read: the file is damaged");
+    if (length < 0) fail("the names in '" + group + "' cannot be read: the file is damaged");
     std::string text(static_cast<std::size_t>(length), '\0');
     name(text.data(), text.size() + 1);
     names.push_back(text);
@@ -60,55 +75,60 @@ std::vector<std::string> Hdf5Reader::names(const std::string& group) const {
 
 hid_t Hdf5Reader::open_dataset(const std::string& dataset) const {
   const hid_t id = H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT);
-  fail_if(id < 0, "there is no dataset '" + dataset + "'");
+  if (id < 0) fail("there is no dataset '" + dataset + "'");
   return id;
 }
 
 Hdf5Reader::Shape Hdf5Reader::shape(const std::string& dataset) const {
-  const Hdf5Handle data(open_dataset(dataset));
-  const Hdf5Handle space(H5Dget_space(data));
+  const Handle data(open_dataset(dataset));
+  const Handle space(H5Dget_space(data.get()));
   hsize_t size[2] = {0, 0};
-  const int rank = H5Sget_simple_extent_ndims(space);
-  fail_if(rank != 1 && rank != 2, "dataset '" + dataset + "' has not one or two dimensions");
-  H5Sget_simple_extent_dims(space, size, nullptr);
-  fail_if(size[0] > bytes_ / std::max<hsize_t>(1, size[1]),
-          "dataset '" + dataset + "' claims more values than the file has bytes: it is damaged");
+  const int rank = H5Sget_simple_extent_ndims(space.get());
+  if (rank != 1 && rank != 2) fail("dataset '" + dataset + "' has not one or two dimensions");
+  H5Sget_simple_extent_dims(space.get(), size, nullptr);
+  if (size[0] > bytes_ / std::max<hsize_t>(1, size[1])) {
+    fail("dataset '" + dataset + "' claims more values than the file has bytes: it is damaged");
+  }
   return {size[0], size[1]};
 }
 
 std::vector<std::size_t> Hdf5Reader::extent(const std::string& dataset) const {
-  const Hdf5Handle data(open_dataset(dataset));
-  const Hdf5Handle space(H5Dget_space(data));
-  std::vector<hsize_t> size(std::max(0, H5Sget_simple_extent_ndims(space)));
-  H5Sget_simple_extent_dims(space, size.data(), nullptr);
+  const Handle data(open_dataset(dataset));
+  const Handle space(H5Dget_space(data.get()));
+  std::vector<hsize_t> size(std::max(0, H5Sget_simple_extent_ndims(space.get())));
+  H5Sget_simple_extent_dims(space.get(), size.data(), nullptr);
   return {size.begin(), size.end()};
 }
 
 std::int64_t Hdf5Reader::offset(const std::string& dataset) const {
-  const Hdf5Handle data(open_dataset(dataset));
-  const Hdf5Handle type(H5Dget_type(data));
-  const haddr_t offset = H5Dget_offset(data);
-  fail_if(H5Tequal(type, H5T_NATIVE_DOUBLE) <= 0 || offset == HADDR_UNDEF,
-          "dataset '" + dataset + "' is not one piece of doubles");
+  const Handle data(open_dataset(dataset));
+  const Handle type(H5Dget_type(data.get()));
+  const haddr_t offset = H5Dget_offset(data.get());
+  if (H5Tequal(type.get(), H5T_NATIVE_DOUBLE) <= 0 || offset == HADDR_UNDEF) {
+    fail("dataset '" + dataset + "' is not one piece of doubles");
+  }
   return static_cast<std::int64_t>(offset);
 }
 
 std::vector<double> Hdf5Reader::rows(const std::string& dataset, std::size_t first,
                                      std::size_t count) const {
   const Shape whole = shape(dataset);
-  fail_if(first + count > whole.rows, "dataset '" + dataset + "' has " +
-                                          std::to_string(whole.rows) + " rows instead of " +
-                                          std::to_string(first + count) + " or more");
+  if (first + count > whole.rows) {
+    fail("dataset '" + dataset + "' has " + std::to_string(whole.rows) + " rows instead of " +
+         std::to_string(first + count) + " or more");
+  }
   std::vector<double> values(count * std::max<std::size_t>(1, whole.columns));
   if (values.empty()) return values;
-  const Hdf5Handle data(open_dataset(dataset));
-  const Hdf5Handle space(H5Dget_space(data));
+  const Handle data(open_dataset(dataset));
+  const Handle space(H5Dget_space(data.get()));
   const hsize_t start[2] = {first, 0};
   const hsize_t size[2] = {count, whole.columns};
-  H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, size, nullptr);
-  const Hdf5Handle memory(H5Screate_simple(whole.columns == 0 ? 1 : 2, size, nullptr));
-  fail_if(H5Dread(data, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) < 0,
-          "dataset '" + dataset + "' cannot be read: the file is damaged");
+  H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start, nullptr, size, nullptr);
+  const Handle memory(H5Screate_simple(whole.columns == 0 ? 1 : 2, size, nullptr));
+  if (H5Dread(data.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT,
+              values.data()) < 0) {
+    fail("dataset '" + dataset + "' cannot be read: the file is damaged");
+  }
   return values;
 }
 
@@ -118,15 +138,18 @@ std::vector<double> Hdf5Reader::array(const std::string& dataset) const {
 
 std::vector<std::string> Hdf5Reader::strings(const std::string& dataset) const {
   const std::size_t count = shape(dataset).rows;
-  const Hdf5Handle data(open_dataset(dataset));
-  const Hdf5Handle type(H5Dget_type(data));
-  fail_if(H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0,
-          "dataset '" + dataset + "' does not hold strings of fixed length");
-  const std::size_t width = H5Tget_size(type);
-  fail_if(count * width > bytes_, "dataset '" + dataset + "' claims more than the file has");
+  const Handle data(open_dataset(dataset));
+  const Handle type(H5Dget_type(data.get()));
+  if (H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) != 0) {
+    fail("dataset '" + dataset + "' does not hold strings of fixed length");
+  }
+  const std::size_t width = H5Tget_size(type.get());
+  if (count * width > bytes_) fail("dataset '" + dataset + "' claims more than the file has");
   std::string block(count * width, '\0');
-  fail_if(count > 0 && H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, block.data()) < 0,
-          "dataset '" + dataset + "' cannot be read: the file is damaged");
+  if (count > 0 &&
+      H5Dread(data.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, block.data()) < 0) {
+    fail("dataset '" + dataset + "' cannot be read: the file is damaged");
+  }
   std::vector<std::string> values;
   for (std::size_t i = 0; i < count; ++i) {
     values.push_back(without_padding(block.substr(i * width, width)));
@@ -137,29 +160,33 @@ std::vector<std::string> Hdf5Reader::strings(const std::string& dataset) const {
 hid_t Hdf5Reader::open_attribute(const std::string& object, const std::string& attribute) const {
   const hid_t id =
       H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-  fail_if(id < 0, "'" + object + "' has no attribute '" + attribute + "'");
+  if (id < 0) fail("'" + object + "' has no attribute '" + attribute + "'");
   return id;
 }
 
 double Hdf5Reader::number(const std::string& object, const std::string& attribute) const {
-  const Hdf5Handle id(open_attribute(object, attribute));
-  const Hdf5Handle space(H5Aget_space(id));
+  const Handle id(open_attribute(object, attribute));
+  const Handle space(H5Aget_space(id.get()));
   double value = 0;
-  fail_if(H5Sget_simple_extent_npoints(space) != 1 || H5Aread(id, H5T_NATIVE_DOUBLE, &value) < 0,
-          "attribute '" + attribute + "' of '" + object + "' is not a number");
+  if (H5Sget_simple_extent_npoints(space.get()) != 1 ||
+      H5Aread(id.get(), H5T_NATIVE_DOUBLE, &value) < 0) {
+    fail("attribute '" + attribute + "' of '" + object + "' is not a number");
+  }
   return value;
 }
 
 std::string Hdf5Reader::text(const std::string& object, const std::string& attribute) const {
-  const Hdf5Handle id(open_attribute(object, attribute));
-  const Hdf5Handle type(H5Aget_type(id));
-  const Hdf5Handle space(H5Aget_space(id));
-  fail_if(H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
-              H5Sget_simple_extent_npoints(space) != 1,
-          "attribute '" + attribute + "' of '" + object + "' is not a string of fixed length");
-  std::string value(H5Tget_size(type), '\0');
-  fail_if(H5Aread(id, type, value.data()) < 0,
-          "attribute '" + attribute + "' of '" + object + "' cannot be read");
+  const Handle id(open_attribute(object, attribute));
+  const Handle type(H5Aget_type(id.get()));
+  const Handle space(H5Aget_space(id.get()));
+  if (H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) != 0 ||
+      H5Sget_simple_extent_npoints(space.get()) != 1) {
+    fail("attribute '" + attribute + "' of '" + object + "' is not a string of fixed length");
+  }
+  std::string value(H5Tget_size(type.get()), '\0');
+  if (H5Aread(id.get(), type.get(), value.data()) < 0) {
+    fail("attribute '" + attribute + "' of '" + object + "' cannot be read");
+  }
   return without_padding(value);
 }
 

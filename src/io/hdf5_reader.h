@@ -46,7 +46,7 @@ class Hdf5Reader {
  private:
   hid_t open_dataset(const std::string& dataset) const;
   hid_t open_attribute(const std::string& object, const std::string& attribute) const;
-  void fail_if(bool wrong, const std::string& what) const;
+  [[noreturn]] void fail(const std::string& what) const;
 
   std::string path_;
   std::uintmax_t bytes_ = 0;  ///< of the file when it was opened
