@@ -78,9 +78,11 @@ StructureStep<Number>::StructureStep(std::span<const LinearSystem* const> system
     const auto force = [d](const auto& s) -> const auto& {
       return s.water.force[d];
     };
-    loads_.push_back({d, system_.water.dofs, constants_of<Number>(systems, force), true});
+    water_loads_.push_back({d, system_.water.dofs, constants_of<Number>(systems, force)});
   }
-  if (system_.supports || !loads_.empty()) known_step_.assign(dofs_, Number{});
+  if (system_.supports || !loads_.empty() || !water_loads_.empty()) {
+    known_step_.assign(dofs_, Number{});
+  }
   find_segments(wait);
 }
 
@@ -92,8 +94,8 @@ StructureStep<Number>::~StructureStep() = default;
 template <typename Number>
 Number StructureStep<Number>::load_power() const {
   Number power{};
-  for (const auto& [number, dofs, force, of_ground] : loads_) {
-    if (of_ground || load_values_[number] == 0) continue;
+  for (const auto& [number, dofs, force] : loads_) {
+    if (load_values_[number] == 0) continue;
     Number product{};
     for (std::size_t k = 0; k < dofs.size(); ++k) product += force[k] * state_.velocity[dofs[k]];
     power += (Number{} + load_values_[number]) * product;
@@ -195,15 +197,8 @@ void StructureStep<Number>::begin(double duration, const std::array<Number, 3>& 
     for (std::size_t i = 0; i < supports_[c].size(); ++i) known_step_[i] += step * supports_[c][i];
   }
   load_values_ = loads;
-  for (const auto& [number, dofs, force, of_ground] : loads_) {
-    const Number step = of_ground ? -ground_step_[number] : h * (Number{} + load_values_[number]);
-    for (std::size_t k = 0; k < dofs.size(); ++k) {
-      const auto i = static_cast<std::size_t>(dofs[k]);
-      const Number inverse =
-          shares_masses() ? Number{} + system_.inverse_mass[i] : inverse_mass_[i];
-      known_step_[i] = known_step_[i] - step * force[k] * inverse;
-    }
-  }
+  for (const Load& load : loads_) add_known(load, h * (Number{} + load_values_[load.number]));
+  for (const Load& load : water_loads_) add_known(load, -ground_step_[load.number]);
   load_before_ = load_power();
   water_before_ = water_momentum();
   added_kinetic_before_ = 0;

@@ -136,10 +136,9 @@ class StructureStep final : public stiffness::ReceiverOf<Number> {
   };
 
   struct Load {
-    std::size_t number = 0;  ///< in the scene; the direction of the ground's load on water
+    std::size_t number = 0;  ///< in the scene; of those on water, the direction
     std::span<const LocalIndex> dofs;
     Constants<Number> force;
-    bool of_ground = false;
   };
 
   void find_segments(bool wait);
@@ -151,6 +150,15 @@ class StructureStep final : public stiffness::ReceiverOf<Number> {
   template <bool any>
   void advance_in_order(const Segment& segment, LocalIndex begin, LocalIndex end,
                         const Number* force, const ActionParts<Number>& parts);
+  /// Takes a load's part of the step, which is known before the forces are.
+  void add_known(const Load& load, const Number& step) {
+    for (std::size_t k = 0; k < load.dofs.size(); ++k) {
+      const auto i = static_cast<std::size_t>(load.dofs[k]);
+      const Number inverse =
+          shares_masses() ? Number{} + system_.inverse_mass[i] : inverse_mass_[i];
+      known_step_[i] = known_step_[i] - step * load.force[k] * inverse;
+    }
+  }
   /// sum_l f_l p_l^T v of the velocities as they are [W].
   Number load_power() const;
   /// w_d^T v of them, of the first run: w_d the ground's load on water [kg m/s].
@@ -175,6 +183,7 @@ class StructureStep final : public stiffness::ReceiverOf<Number> {
   Filters<Number> filters_{};    ///< none without uniform damping
   std::vector<Constants<Number>> supports_;
   std::vector<Load> loads_;
+  std::vector<Load> water_loads_;  ///< w_d of the ground along each axis; empty without
   std::vector<Segment> segments_;
   std::vector<double> node_mass_;  ///< per node of translations: a third of the memory
   std::vector<double> node_inverse_mass_;

@@ -52,14 +52,9 @@ class Joiner {
     throw UserError("option -" + pool_.name + "_water " + pool_.water + ": " + why);
   }
 
-  std::span<const GlobalIndex> nodes_of(const ElementSet& set, std::size_t element) const {
-    const std::size_t width = element_layout(set.type).nodes;
-    return {&set.connectivity[element * width], width};
-  }
-
   /// Keeps the faces that one cell has alone, their corners going round the normal out of it.
   void take_faces(const ElementSet& set, std::size_t element) {
-    const std::span<const GlobalIndex> nodes = nodes_of(set, element);
+    const std::span<const GlobalIndex> nodes = set.nodes_of(element);
     for (const GlobalIndex node : nodes) {
       pieces_.join(static_cast<std::size_t>(node), static_cast<std::size_t>(nodes[0]));
     }
@@ -108,12 +103,12 @@ class Joiner {
     }
     bool wets = false;
     for (std::size_t n = 0; n < of_structure_.size(); ++n) {
-      const std::string place = place_text(cells_.position(static_cast<GlobalIndex>(n)));
+      const Vector3 x = cells_.position(static_cast<GlobalIndex>(n));
       if (!open.contains(pieces_.root(n))) {
-        refuse("the water around " + place + " has no free surface: it would be shut in");
+        refuse("the water around " + place_text(x) + " has no free surface: it would be shut in");
       }
       if (of_structure_[n] >= 0 && lined_[n] == 0 && on_surface_[n] == 0) {
-        refuse("the node of the structure at " + place +
+        refuse("the node of the structure at " + place_text(x) +
                " has water all around; give the sides of a wall nodes of their own");
       }
       wets = wets || lined_[n] != 0;
@@ -140,7 +135,7 @@ class Joiner {
   }
 
   void add_cell(const ElementSet& set, std::size_t element) {
-    const std::span<const GlobalIndex> nodes = nodes_of(set, element);
+    const std::span<const GlobalIndex> nodes = set.nodes_of(element);
     std::vector<double> coordinates;
     for (const GlobalIndex node : nodes) {
       const Vector3 x = cells_.position(node);

@@ -128,8 +128,8 @@ MatHandle mass_matrix(const LinearSystem& system) {
     }
   });
   std::vector<AddedMass::Entry> wet;
-  for (std::size_t w = 0; system.coupled_mass && w < system.coupled_mass->waters().size(); ++w) {
-    for (const auto& entry : system.coupled_mass->waters()[w].mass_entries()) {
+  for (const AddedMass& water : system.waters()) {
+    for (const auto& entry : water.mass_entries()) {
       wet.push_back(entry);
       ++entries[entry.row];
     }

@@ -295,7 +295,7 @@ std::array<double, 6> RigidMotions::participation(const double* y) const {
 
 double RigidMotions::weighted_square(const std::vector<double>& a) const {
   std::vector<double> motion = a;  // of all modes: (M + S)^-1 M a where there is water
-  if (system_.coupled_mass && !system_.coupled_mass->waters().empty()) {
+  if (!system_.waters().empty()) {
     std::vector<double> momentum = a;
     for (std::size_t i = 0; i < a.size(); ++i) momentum[i] *= system_.lumped_mass[i];
     std::vector<double> field(system_.coupled_mass->field_size());

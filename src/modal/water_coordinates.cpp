@@ -11,21 +11,19 @@ WaterCoordinates::WaterCoordinates(const LinearSystem& system) : system_(system)
   const LocalIndex n = system.owned_dofs();
   std::vector<AddedMass::Entry> entries;
   std::vector<PetscInt> counts(system.lumped_mass.size(), 1);
-  for (std::size_t w = 0; system.coupled_mass && w < system.coupled_mass->waters().size(); ++w) {
-    std::ranges::copy(system.coupled_mass->waters()[w].half_entries(), std::back_inserter(entries));
+  for (const AddedMass& water : system.waters()) {
+    std::ranges::copy(water.half_entries(), std::back_inserter(entries));
   }
   for (const AddedMass::Entry& entry : entries) ++counts[entry.row];
   for (PetscInt& count : counts) count = std::min(count, n);  // PETSc refuses more than a row has
   for (LocalIndex i = 0; i < n; ++i) entries.push_back({i, i, 1});
   POUNDING_PETSC(MatCreateAIJ(system.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 0, counts.data(),
                               0, nullptr, half_.out()));
-  PetscInt first = 0;
-  POUNDING_PETSC(MatGetOwnershipRange(half_.get(), &first, nullptr));
+  const PetscInt first = first_row(half_.get());
   for (const auto& [row, column, value] : entries) {
     POUNDING_PETSC(MatSetValue(half_.get(), first + row, first + column, value, ADD_VALUES));
   }
-  POUNDING_PETSC(MatAssemblyBegin(half_.get(), MAT_FINAL_ASSEMBLY));
-  POUNDING_PETSC(MatAssemblyEnd(half_.get(), MAT_FINAL_ASSEMBLY));
+  assemble(half_.get());
 }
 
 void WaterCoordinates::restrict_matrix(MatHandle& matrix) const {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
 #include "common/dense_matrix.h"
@@ -68,14 +67,14 @@ AddedMass::AddedMass(const Mesh& mesh, const WaterBody& water,
   const std::size_t n = nodes_.size();
   if (n == 0) return;
   require_memory(water);
-  std::vector<double> response = condensed_laplacian(water);  // rho A^-1
+  std::vector<double> response = condensed_laplacian(water);
   const auto refuse = [&] {
     throw UserError("option -" + water.pool +
                     "_water: its mass is no positive definite matrix; "
                     "look for cells with sharp angles, and for walls next to no mass");
   };
   if (!invert_definite(response)) refuse();
-  for (double& value : response) value *= water.density;
+  for (double& value : response) value *= water.density;  // rho A^-1
   find_ground_force(water, response);
   std::vector<double> h(n * n);
   for (std::size_t i = 0; i < n; ++i) {

@@ -148,6 +148,11 @@ struct LinearSystem {
     return std::ranges::find(laws, apart, &interactions::RegionLaw::apart) != laws.end();
   }
   /// Forces beside K u, alpha M v and beta K v.
+  /// Water with cells that wets nodes of this rank.
+  std::span<const AddedMass> waters() const {
+    if (!coupled_mass) return {};
+    return coupled_mass->waters();
+  }
   bool has_extra_damping() const { return extra_damping != nullptr; }
   /// iota of a direction [-].
   std::vector<double> influence(int d) const;
