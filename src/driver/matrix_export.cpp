@@ -49,15 +49,10 @@ class Export {
       : comm_(comm), scene_(scene), model_(model), structure_(structure) {
     const Mesh& mesh = model.meshes[structure];
     std::vector<Dof> mine;
-    for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-      for (int c = 0; c < 6; ++c) {
-        const LocalIndex dof = mesh.dof(node, c);
-        if (dof >= 0) {
-          mine.push_back({mesh.file_node[node], c, mesh.dof_global(node, c), mesh.position(node),
-                          model.systems[structure].lumped_mass[dof]});
-        }
-      }
-    }
+    for_each_owned_dof(mesh, [&](LocalIndex dof, LocalIndex node, int c) {
+      mine.push_back({mesh.file_node[node], c, mesh.dof_global(node, c), mesh.position(node),
+                      model.systems[structure].lumped_mass[dof]});
+    });
     dofs_ = gathered(comm, std::move(mine));
     gather_labels();
     for (std::size_t i = 0; i < dofs_.size(); ++i) dofs_[i].label = i;

@@ -81,9 +81,7 @@ void TimeLoop::write_checkpoint(const RunIdentity& identity) {
   const ScopedTimer timer(profile_, Phase::output);
   SavedState saved;
   scheme_.stepper().keep(StateKeeper::to(saved));
-  int finite = saved.dofs_are_finite() ? 1 : 0;
-  MPI_Allreduce(MPI_IN_PLACE, &finite, 1, MPI_INT, MPI_MIN, comm_);
-  if (finite == 0) {
+  if (on_any_rank(comm_, !saved.dofs_are_finite())) {
     throw DivergenceError("the run diverged: not a number at step " + std::to_string(step()) +
                           "; the checkpoint before is kept");
   }
@@ -107,7 +105,7 @@ void TimeLoop::fill(RunStatistics& statistics) const {
     statistics.coupled_rows = scheme_.contact()->coupled_rows();
     statistics.interface_ranks = scheme_.contact()->members();
     statistics.interface_looks = scheme_.looks();
-    MPI_Allreduce(MPI_IN_PLACE, &statistics.interface_looks, 1, MPI_INT64_T, MPI_MAX, comm_);
+    reduce_over_ranks(comm_, MPI_MAX, statistics.interface_looks);
     statistics.complementarity_residual = scheme_.contact()->largest_residual();
   }
   if (scheme_.fillers() != nullptr) {
@@ -116,13 +114,10 @@ void TimeLoop::fill(RunStatistics& statistics) const {
   }
   for (std::size_t s = 0; s < model_.systems.size(); ++s) {
     const interactions::StructureLinks* const links = scheme_.links(s);
-    int overpressed = links != nullptr && links->overpressed() ? 1 : 0;
-    MPI_Allreduce(MPI_IN_PLACE, &overpressed, 1, MPI_INT, MPI_MAX, comm_);
-    if (overpressed != 0) statistics.overpressed.push_back(model_.systems[s].name);
+    const bool overpressed = links != nullptr && links->overpressed();
+    if (on_any_rank(comm_, overpressed)) statistics.overpressed.push_back(model_.systems[s].name);
   }
-  double residual = statistics.complementarity_residual;
-  MPI_Allreduce(MPI_IN_PLACE, &residual, 1, MPI_DOUBLE, MPI_MAX, comm_);
-  statistics.complementarity_residual = residual;
+  reduce_over_ranks(comm_, MPI_MAX, statistics.complementarity_residual);
   profile_.note_memory(Phase::step);
   statistics.phases = report_phases(comm_, profile_, model_.dofs());
 }
@@ -159,7 +154,7 @@ CheckpointSchedule::Decision CheckpointSchedule::agree(std::int64_t n) {
     votes[3] = now - last_flush_ >= flush_interval ? 1 : 0;
     votes[2] = static_cast<std::int64_t>(std::clamp(wanted, 1.0, 2 * done));
   }
-  MPI_Allreduce(MPI_IN_PLACE, votes.data(), votes.size(), MPI_INT64_T, MPI_MAX, comm_);
+  reduce_over_ranks(comm_, MPI_MAX, votes);
   last_agreement_ = now;
   agreement_step_ = n;
   next_agreement_ = n + votes[2];

@@ -200,7 +200,7 @@ class Ensemble {
   /// Memory of eight members at full order [bytes]; collective.
   double full_order_memory() const {
     double bytes = parts_.memory();
-    MPI_Allreduce(MPI_IN_PLACE, &bytes, 1, MPI_DOUBLE, MPI_SUM, comm_);
+    reduce_over_ranks(comm_, MPI_SUM, bytes);
     return own_ ? bytes / size_of(comm_) : bytes;  // of a dry run every rank has its part alone
   }
 

@@ -171,7 +171,7 @@ Spectra joined_spectra(const Model& model, const Spectra& whole, Spectra window)
 /// Largest memory so far beyond that of ranks without a model, of all together [bytes]. Collective.
 double memory_of_model(MPI_Comm comm) {
   double peak = std::max(0.0, largest_memory() - empty_rank);
-  MPI_Allreduce(MPI_IN_PLACE, &peak, 1, MPI_DOUBLE, MPI_SUM, comm);
+  reduce_over_ranks(comm, MPI_SUM, peak);
   return peak;
 }
 

@@ -82,7 +82,7 @@ SeenWindow see_window(MPI_Comm comm, const Scene& scene, const Model& model, Win
     if (step > window.first && step <= window.last) add_impulses(comm, scheme, seen.impulse);
   };
   seen.velocities = run_reduced(comm, scene, model, *model.motion, note);
-  MPI_Allreduce(MPI_IN_PLACE, &seen.impulse, 1, MPI_DOUBLE, MPI_SUM, comm);
+  reduce_over_ranks(comm, MPI_SUM, seen.impulse);
   seen.window = std::move(window);
   return seen;
 }

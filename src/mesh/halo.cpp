@@ -59,9 +59,7 @@ Halo::Halo(MPI_Comm comm, GlobalIndex first_owned, LocalIndex owned_count,
     neighbours_.push_back({static_cast<int>(r), needed[r], receive_start[r], given[r],
                            send_start[r], their_start[r]});
   }
-  int sharing = neighbours_.empty() ? 0 : 1;
-  MPI_Allreduce(MPI_IN_PLACE, &sharing, 1, MPI_INT, MPI_MAX, comm_);
-  if (sharing != 0 && common_memory) {
+  if (on_any_rank(comm_, !neighbours_.empty()) && common_memory) {
     shared_ = std::make_unique<SharedExchange>(comm_, sent_dofs_.size());
     if (!shared_->works()) shared_.reset();
   }

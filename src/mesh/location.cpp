@@ -75,15 +75,12 @@ std::string locate_largest(const Mesh& mesh, std::span<const double> values) {
 
 RegionShare busiest_region(const Mesh& mesh, std::span<const double> values) {
   std::vector<double> square(mesh.owned_nodes);
-  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    for (int c = 0; c < 6; ++c) {
-      const LocalIndex dof = mesh.dof(node, c);
-      if (dof >= 0) square[node] += values[dof] * values[dof];
-    }
-  }
+  for_each_owned_dof(mesh, [&](LocalIndex dof, LocalIndex node, int) {
+    square[node] += values[dof] * values[dof];
+  });
   int regions = 0;
   for (const ElementBlock& block : mesh.blocks) regions = std::max(regions, block.region + 1);
-  MPI_Allreduce(MPI_IN_PLACE, &regions, 1, MPI_INT, MPI_MAX, mesh.comm);
+  reduce_over_ranks(mesh.comm, MPI_MAX, regions);
   std::vector<double> sums(regions + 1);
   sums[regions] = std::accumulate(square.begin(), square.end(), 0.0);
   std::vector<int> counted(mesh.owned_nodes, -1);  // region that had the node last
@@ -97,7 +94,7 @@ RegionShare busiest_region(const Mesh& mesh, std::span<const double> values) {
       }
     }
   }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), regions + 1, MPI_DOUBLE, MPI_SUM, mesh.comm);
+  reduce_over_ranks(mesh.comm, MPI_SUM, sums);
   RegionShare found;
   constexpr double equal = 1e-9;  // difference of two shares that is round-off
   for (int region = 0; region < regions; ++region) {

@@ -134,8 +134,8 @@ Mesh distribute_mesh(MPI_Comm comm, const std::string& name, const GlobalMesh& g
 BoundingBox bounding_box(MPI_Comm comm, const Mesh& mesh) {
   BoundingBox box;
   for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) box.include(mesh.position(node));
-  MPI_Allreduce(MPI_IN_PLACE, box.low.data(), 3, MPI_DOUBLE, MPI_MIN, comm);
-  MPI_Allreduce(MPI_IN_PLACE, box.high.data(), 3, MPI_DOUBLE, MPI_MAX, comm);
+  reduce_over_ranks(comm, MPI_MIN, box.low);
+  reduce_over_ranks(comm, MPI_MAX, box.high);
   return box;
 }
 

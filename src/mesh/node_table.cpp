@@ -18,15 +18,11 @@ std::vector<GlobalIndex> owned_file_nodes(const Mesh& mesh) {
 /// Calls `function(owned dof, place in the rows)` for every owned dof.
 template <typename Function>
 void for_each_owned_dof(const Mesh& mesh, std::size_t columns, Function&& function) {
-  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    for (std::size_t component = 0; component < columns; ++component) {
-      const LocalIndex dof = mesh.dof(node, static_cast<int>(component));
-      if (dof >= 0) {
-        function(static_cast<std::size_t>(dof),
-                 static_cast<std::size_t>(node) * columns + component);
-      }
-    }
-  }
+  pounding::for_each_owned_dof(mesh, [&](LocalIndex dof, LocalIndex node, int c) {
+    const auto component = static_cast<std::size_t>(c);
+    if (component >= columns) return;
+    function(static_cast<std::size_t>(dof), static_cast<std::size_t>(node) * columns + component);
+  });
 }
 
 /// Cells of some ranks, one after the other: set, number and number of nodes of each, and its
@@ -82,10 +78,9 @@ std::vector<double> gather_node_rows(const Mesh& mesh, std::vector<double> rows,
 }
 
 std::size_t component_columns(const Mesh& mesh) {
-  int rotates = std::any_of(mesh.free_components.begin(), mesh.free_components.end(),
-                            [](std::uint8_t mask) { return mask > 0x07; });
-  MPI_Allreduce(MPI_IN_PLACE, &rotates, 1, MPI_INT, MPI_MAX, mesh.comm);
-  return rotates != 0 ? 6 : 3;
+  const bool rotates =
+      std::ranges::any_of(mesh.free_components, [](std::uint8_t mask) { return mask > 0x07; });
+  return on_any_rank(mesh.comm, rotates) ? 6 : 3;
 }
 
 std::vector<double> node_rows(const Mesh& mesh, std::span<const double> values,

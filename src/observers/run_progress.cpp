@@ -13,6 +13,7 @@
 
 #include "common/crowded_node.h"
 #include "common/facts.h"
+#include "common/parallel.h"
 #include "common/progress.h"
 #include "observers/impact_catalogue.h"
 #include "observers/observed_run.h"
@@ -93,7 +94,7 @@ void ProgressWatch::observe(const CdLagrange& stepper) {
   if (run_.is_contact_root()) {
     now = {run_.scheme.contact()->smallest_gap(), -static_cast<double>(impacts_.episodes())};
   }
-  MPI_Allreduce(MPI_IN_PLACE, now.data(), 2, MPI_DOUBLE, MPI_MIN, run_.comm);
+  reduce_over_ranks(run_.comm, MPI_MIN, now);
   if (rank_of(run_.comm) != 0) return;
   progress_.show({stepper.time(), run_.scene.end_time, stepper.time() - begun_at_,
                   MPI_Wtime() - wall_start_, now[0], std::llround(-now[1]),

@@ -1,5 +1,7 @@
 #include "observers/run_statistics.h"
 
+#include "common/parallel.h"
+
 namespace pounding {
 
 PhaseReport report_phases(MPI_Comm comm, const Profile& profile, std::size_t dofs) {
@@ -10,14 +12,14 @@ PhaseReport report_phases(MPI_Comm comm, const Profile& profile, std::size_t dof
     const MemoryUse& memory = profile.memory(phase);
     double largest[2] = {profile.seconds(phase), memory.peak};
     double sums[2] = {memory.peak, memory.held};
-    MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, comm);
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm);
+    reduce_over_ranks(comm, MPI_MAX, largest);
+    reduce_over_ranks(comm, MPI_SUM, sums);
     report.phases.push_back({largest[0], sums[0], largest[1], sums[1]});
   }
   report.peak = largest_memory();
-  MPI_Allreduce(MPI_IN_PLACE, &report.peak, 1, MPI_DOUBLE, MPI_SUM, comm);
+  reduce_over_ranks(comm, MPI_SUM, report.peak);
   report.mesher = largest_memory_of_children();
-  MPI_Allreduce(MPI_IN_PLACE, &report.mesher, 1, MPI_DOUBLE, MPI_MAX, comm);
+  reduce_over_ranks(comm, MPI_MAX, report.mesher);
   return report;
 }
 

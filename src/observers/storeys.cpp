@@ -6,7 +6,6 @@
 #include "common/error.h"
 #include "common/facts.h"
 #include "common/parallel.h"
-#include "output/saved_state_exchange.h"
 #include "scene/support_reader.h"
 
 namespace pounding {
@@ -20,7 +19,7 @@ double base_of(MPI_Comm comm, const Mesh& mesh) {
   for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
     lowest = std::min(lowest, mesh.position(node)[2]);
   }
-  MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPI_DOUBLE, MPI_MIN, comm);
+  reduce_over_ranks(comm, MPI_MIN, lowest);
   return lowest;
 }
 
@@ -46,18 +45,15 @@ std::vector<int> floors_of(const Scene& scene, const Model& model, std::size_t s
 /// ground along x and y. Collective.
 std::vector<GlobalIndex> moving_nodes(MPI_Comm comm, const Mesh& mesh, double height,
                                       bool on_moving_support) {
-  std::vector<double> own;  // exact up to 2^53
-  int moves = on_moving_support ? 1 : 0;
+  std::vector<GlobalIndex> own;
+  bool moves = on_moving_support;
   for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
     if (mesh.position(node)[2] > height) continue;
-    own.push_back(static_cast<double>(mesh.file_node[node]));
-    if (mesh.dof(node, 0) >= 0 || mesh.dof(node, 1) >= 0) moves = 1;
+    own.push_back(mesh.file_node[node]);
+    moves = moves || mesh.dof(node, 0) >= 0 || mesh.dof(node, 1) >= 0;
   }
-  MPI_Allreduce(MPI_IN_PLACE, &moves, 1, MPI_INT, MPI_MAX, comm);
-  if (moves == 0) return {};
-  std::vector<double> all = gather_owned(comm, own);
-  broadcast_array(comm, all);
-  std::vector<GlobalIndex> nodes(all.begin(), all.end());
+  if (!on_any_rank(comm, moves)) return {};
+  std::vector<GlobalIndex> nodes = gather_rows(comm, own);
   std::ranges::sort(nodes);
   return nodes;
 }

@@ -5,6 +5,7 @@
 
 #include "common/error.h"
 #include "common/facts.h"
+#include "common/parallel.h"
 #include "mesh/location.h"
 #include "modal/reduced_system.h"
 #include "observers/energy_ledger.h"
@@ -119,7 +120,7 @@ void watch_passivity(const EnergyLine& line, double largest_term, bool leaning) 
 
 void watch_contact(MPI_Comm comm, const interactions::ContactProblem* contact, double time) {
   double residual = contact != nullptr ? contact->largest_residual() : 0;
-  MPI_Allreduce(MPI_IN_PLACE, &residual, 1, MPI_DOUBLE, MPI_MAX, comm);
+  reduce_over_ranks(comm, MPI_MAX, residual);
   if (!std::isfinite(residual)) {
     throw DivergenceError(sentence(
         "the run diverged: before t = {} s the contact problem held a number that is not finite, "
