@@ -32,9 +32,10 @@ class BatchRows {
       for (LocalIndex& column : row.columns) column = windows.place(column);
     }
   }
-  void apply(std::size_t window, const BatchValue* w, BatchValue* q) const {
+  void apply(std::size_t window, const BatchValue* w, BatchValue* q, StateAhead& ahead) const {
     for (std::size_t r = begins_[window]; r < begins_[window + 1]; ++r) {
       const Row& row = rows_[r];
+      ahead.ask();
       BatchValue sum = q[row.dof];
       for (std::size_t k = 0; k < row.columns.size(); ++k) {
         sum += w[row.columns[k]] * row.values[k];
@@ -126,8 +127,9 @@ void BatchStiffness::apply(const ArgumentOf<BatchValue>& w,
       argument_[windows.place(formed)] = w[formed];
       force_[windows.place(formed)] = BatchValue{};
     }
+    StateAhead ahead(windows, window, w.displacement, w.velocity);
     Elements::each(*elements_, [&](const auto& elements) {
-      elements.apply(window, argument_.data(), force_.data());
+      elements.apply(window, argument_.data(), force_.data(), ahead);
     });
     force_.back() = BatchValue{};
     const LocalIndex begin = static_cast<LocalIndex>(window) * BatchWindows::dofs;

@@ -129,7 +129,8 @@ void BeamShape::product(Numbers number, Value* values) {
   put(9, to_global(of_axes, moment2));
 }
 
-template void BatchElements<BeamShape>::apply(std::size_t, const BatchValue*, BatchValue*) const;
+template void BatchElements<BeamShape>::apply(std::size_t, const BatchValue*, BatchValue*,
+                                              StateAhead&) const;
 
 void BeamElements::apply(const double* w, double* q) const {
   for (const Batch& b : batches_) {

@@ -21,15 +21,18 @@ struct BatchWindows {
   static constexpr LocalIndex dofs = 256;  ///< of a window
 
   std::vector<LocalIndex> reach;  ///< per window: one beyond the last dof in use until its end
+  std::vector<LocalIndex> turns;  ///< elements and rows of each window
   LocalIndex ring = dofs;         ///< places; a power of two
 
   explicit BatchWindows(LocalIndex all) {
     for (LocalIndex end = dofs; end < all + dofs; end += dofs) reach.push_back(std::min(end, all));
+    turns.resize(reach.size());
   }
   /// An element touches the dofs from `lowest` to `highest`.
   void add(LocalIndex lowest, LocalIndex highest) {
     LocalIndex& end = reach[lowest / dofs];
     end = std::max(end, highest + 1);
+    ++turns[lowest / dofs];
   }
   /// After all elements.
   void finish() {
@@ -39,6 +42,31 @@ struct BatchWindows {
     }
   }
   std::uint32_t place(LocalIndex dof) const { return static_cast<std::uint32_t>(dof & (ring - 1)); }
+};
+
+/// Asks memory for the state that comes into use with the next window, an equal part of it at the
+/// turn of each element: memory and arithmetic work at the same time.
+class StateAhead {
+ public:
+  StateAhead(const BatchWindows& windows, std::size_t window, const BatchValue* displacement,
+             const BatchValue* velocity)
+      : displacement_(displacement),
+        velocity_(velocity),
+        next_(windows.reach[window]),
+        end_(windows.reach[std::min(window + 1, windows.reach.size() - 1)]),
+        part_((end_ - next_) / std::max(windows.turns[window], 1) + 1) {}
+
+  void ask() {
+    for (const LocalIndex end = std::min(next_ + part_, end_); next_ < end; ++next_) {
+      __builtin_prefetch(displacement_ + next_);
+      __builtin_prefetch(velocity_ + next_);
+    }
+  }
+
+ private:
+  const BatchValue* displacement_;
+  const BatchValue* velocity_;
+  LocalIndex next_, end_, part_;
 };
 
 /// Places in a list, in the order of lowest dofs, where the entries of each window begin; then its
@@ -109,7 +137,7 @@ class BatchElements {
 
   /// q += K w of the elements of a window, both in the ring. Compiled with the product of the shape
   /// (batch_product.h), of which it is the only caller.
-  void apply(std::size_t window, const BatchValue* w, BatchValue* q) const;
+  void apply(std::size_t window, const BatchValue* w, BatchValue* q, StateAhead& ahead) const;
 
  private:
   struct Placed {

@@ -8,9 +8,10 @@ namespace pounding::stiffness {
 
 template <typename Shape>
 [[gnu::flatten]] void BatchElements<Shape>::apply(std::size_t window, const BatchValue* w,
-                                                  BatchValue* q) const {
+                                                  BatchValue* q, StateAhead& ahead) const {
   for (std::size_t e = begins_[window]; e < begins_[window + 1]; ++e) {
     const Placed& element = placed_[e];
+    ahead.ask();
     const NumbersOfOne numbers{shapes_[element.shape].data()};
     for (std::size_t run = 0; run < batch_size; run += element_lane_count) {
       ElementLanes values[dof_count];

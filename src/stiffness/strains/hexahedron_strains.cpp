@@ -310,9 +310,9 @@ template void HexahedronStrains<false>::product(OfUnitShear<NumbersOfBatch<float
 template void HexahedronStrains<false>::product(OfUnitShear<NumbersOfOne<float>>, ElementLanes*);
 template void HexahedronStrains<true>::product(NumbersOfBatch<double>, ElementLanes*);
 template void BatchElements<HexahedronStrains<false>>::apply(std::size_t, const BatchValue*,
-                                                             BatchValue*) const;
+                                                             BatchValue*, StateAhead&) const;
 template void BatchElements<HexahedronStrains<true>>::apply(std::size_t, const BatchValue*,
-                                                            BatchValue*) const;
+                                                            BatchValue*, StateAhead&) const;
 
 std::optional<Extrusion> Extrusion::find(std::span<const double> coordinates) {
   double extent = 0;

@@ -287,9 +287,9 @@ std::array<double, TriangleStrains::number_count> TriangleStrains::numbers(
 
 template void QuadrangleStrains::product(NumbersOfBatch<double>, ElementLanes*);
 template void TriangleStrains::product(NumbersOfBatch<double>, ElementLanes*);
-template void BatchElements<QuadrangleStrains>::apply(std::size_t, const BatchValue*,
-                                                      BatchValue*) const;
-template void BatchElements<TriangleStrains>::apply(std::size_t, const BatchValue*,
-                                                    BatchValue*) const;
+template void BatchElements<QuadrangleStrains>::apply(std::size_t, const BatchValue*, BatchValue*,
+                                                      StateAhead&) const;
+template void BatchElements<TriangleStrains>::apply(std::size_t, const BatchValue*, BatchValue*,
+                                                    StateAhead&) const;
 
 }  // namespace pounding::stiffness

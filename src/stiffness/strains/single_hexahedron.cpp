@@ -77,7 +77,7 @@ void SingleHexahedron::product(In numbers, ElementLanes* values) {
 
 template void SingleHexahedron::product(NumbersOfBatch<float>, ElementLanes*);
 template void SingleHexahedron::product(NumbersOfOne<float>, ElementLanes*);
-template void BatchElements<SingleHexahedron>::apply(std::size_t, const BatchValue*,
-                                                     BatchValue*) const;
+template void BatchElements<SingleHexahedron>::apply(std::size_t, const BatchValue*, BatchValue*,
+                                                     StateAhead&) const;
 
 }  // namespace pounding::stiffness
