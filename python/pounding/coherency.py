@@ -8,6 +8,7 @@ from typing import Callable
 import numpy as np
 
 from pounding import UserError
+from pounding.tables import read_csv
 
 # Plane-wave coherency of hard rock, N. A. Abrahamson, Hard-Rock Coherency Functions Based on the Pinyon Flat Data (2007), as
 # EPRI 1015110 gives it: [1 + (f t / (a1 fc))^n1]^-1/2 [1 + (f t / a2)^n2]^-1/2, t = tanh(0.4 xi), l = ln(xi + 1), with
@@ -18,7 +19,6 @@ HARD_ROCK = {
 }
 FARTHEST = 150.0  # [m]
 WAYS = ("horizontal", "vertical")
-FORMULAS = ("abrahamson_2007_hard_rock", "luco_wong", "coherent")
 
 
 class CoherencyError(UserError):
@@ -56,12 +56,10 @@ def from_table(path: Path) -> Coherency:
     """A table of a user: columns frequency [Hz], distance [m], horizontal and, where it differs, vertical, a row for each pair
     of a frequency and a distance; straight between them, held beyond the frequencies. Distance 0 is 1. Throws CoherencyError
     or OSError."""
-    with open(path, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(line for line in file if line.strip() and not line.startswith("#")))
     try:
         read = np.array([[float(row[name]) for name in ("frequency", "distance", "horizontal")] +
-                         [float(row.get("vertical") or row["horizontal"])] for row in rows])
-    except (KeyError, TypeError, ValueError) as error:
+                         [float(row.get("vertical") or row["horizontal"])] for row in read_csv(path)])
+    except (KeyError, TypeError, ValueError, csv.Error) as error:
         raise CoherencyError(f"{path}: needs columns frequency, distance, horizontal and perhaps vertical, of numbers "
                              f"({' '.join(str(error).split())})") from error
     if not len(read) or not np.isfinite(read).all() or (read[:, :2] < 0).any() or (abs(read[:, 2:]) > 1).any():

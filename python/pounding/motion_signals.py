@@ -1,7 +1,6 @@
 """Accelerograms as the program reads them, and numbers of their own: Arias intensity, velocity and displacement, power
 spectral density, response spectra (the program's, which are exact), target spectra."""
 
-import csv
 import subprocess
 import tempfile
 from dataclasses import dataclass
@@ -13,6 +12,7 @@ import numpy as np
 from pounding import UserError
 from .log_interpolation import log_interpolated
 from .runs import program as program_of
+from .tables import read_csv
 
 G = 9.80665  # [m/s2]
 STRONG = (5.0, 75.0)  # part of the Arias intensity between which a motion is strong [%]
@@ -113,9 +113,6 @@ def correlation(one: Signal, other: Signal, shift: float = 0.0) -> tuple:
     return float(found[worst]), float(lags[worst] * one.step)
 
 
-def _table(path: Path) -> list:
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
 
 
 def _ask(words: list, program: Path | None) -> None:
@@ -133,7 +130,7 @@ def read_signals(words: list, program: Path | None = None) -> list:
         samples, spectra = Path(folder, "samples.csv"), Path(folder, "spectra.csv")
         _ask([*words, "--frequencies", "1", "--digits", "17", "--samples", samples, "--output", spectra], program)
         names, steps = zip(*((row["probe"] + "." * bool(row["direction"]) + row["direction"], float(row["interval"]))
-                             for row in _table(spectra)))
+                             for row in read_csv(spectra)))
         lines = [line.rsplit(",", 2) for line in samples.read_text(encoding="utf-8").splitlines()
                  if not line.startswith(("#", "probe,direction,"))]
     labels, time, values = zip(*((label, float(t), float(a)) for label, t, a in lines))
@@ -153,9 +150,10 @@ def _short(name: str) -> str:
     return f"{Path(path).stem}:{rest}" if colon and rest.startswith("column") else rest
 
 
-def response_spectra(signals: list, grid: str, damping: float, program: Path | None = None) -> tuple:
+def response_spectra(signals: list, grid: str, damping: float, program: Path | None = None, after: str = "auto") -> tuple:
     """Frequencies [Hz] and pseudo-accelerations [m/s2] of signals, shape (signals, frequencies), at a list of frequencies in
-    the words of pounding-spectra (0.1:50:271log, regulatory, 1,2,3), the free vibration behind the motion included."""
+    the words of pounding-spectra (0.1:50:271log, regulatory, 1,2,3); `after`: what becomes of the free vibration behind the motion,
+    in its words as well: auto, which counts it, or ignored."""
     with tempfile.TemporaryDirectory(prefix="pounding-") as folder:
         files = []
         for number, signal in enumerate(signals):
@@ -163,9 +161,9 @@ def response_spectra(signals: list, grid: str, damping: float, program: Path | N
             rows = zip(signal.step * np.arange(len(signal.values)), signal.values)
             files[-1].write_text("".join(f"{time:.17g} {value:.17g}\n" for time, value in rows))
         place = Path(folder, "spectra.csv")
-        _ask([*files, "--unit", "m/s2", "--frequencies", grid, "--damping", repr(damping), "--digits", "17", "--output", place],
-             program)
-        rows = _table(place)
+        _ask([*files, "--unit", "m/s2", "--frequencies", grid, "--damping", repr(damping), "--after", after, "--digits", "17",
+              "--output", place], program)
+        rows = read_csv(place)
     found = np.array([float(row["pseudo_acceleration"]) for row in rows]).reshape(len(signals), -1)
     return np.array([float(row["frequency"]) for row in rows[:found.shape[1]]]), found
 

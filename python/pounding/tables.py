@@ -52,6 +52,13 @@ def cells_of(rows: list) -> tuple:
     return head, [[row.get(key, "") for key in head] for row in rows]
 
 
+def read_csv(path: Path) -> list:
+    """Rows of a CSV file as dictionaries of texts; empty lines and comments ('#') are passed over. Throws OSError, UnicodeDecodeError
+    or csv.Error."""
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(line for line in file if line.strip() and not line.startswith("#")))
+
+
 def write_csv(path: Path, rows: list) -> None:
     write_rows(path, *cells_of(rows))
 

@@ -61,6 +61,14 @@ class Models(unittest.TestCase):
             self.assertAlmostEqual(float(table.gamma("vertical", frequency, numpy.array(distance))),
                                    float(formula.gamma("vertical", frequency, distance)), delta=2e-3)
 
+    def test_a_table_that_is_no_text_is_one_line(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for content in (b"frequency,distance,horizontal\n1,2,\xff\n", b"frequency,distance,horizontal\n1,2,\0\n"):
+                with open(os.path.join(folder, "table.csv"), "wb") as file:
+                    file.write(content)
+                with self.assertRaisesRegex(coherency.CoherencyError, "table.csv: needs columns"):
+                    coherency.model_of({"table": "table.csv"}, coherency.Path(folder))
+
     def test_two_mats_of_a_plant(self):
         frequencies = [1., 2, 3, 5, 8, 10]
         for axis in "xy":

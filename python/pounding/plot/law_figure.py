@@ -1,9 +1,10 @@
 """Loops of laws in one dimension, as the program follows them, with the energy that each takes."""
 
-import csv
 from pathlib import Path
 
 import numpy as np
+
+from pounding.tables import read_csv
 
 from .style import DIRECTION_COLOURS, WIDTH, plt, save
 
@@ -11,10 +12,8 @@ from .style import DIRECTION_COLOURS, WIDTH, plt, save
 def read(path: Path) -> dict:
     """Columns elongation, force, energy held and lost of each law of laws.csv, shape (steps, 4)."""
     laws = {}
-    with open(path, newline="") as file:
-        for row in csv.DictReader(file):
-            laws.setdefault(row["law"], []).append(
-                [float(row[name]) for name in ("elongation", "force", "stored_J", "lost_J")])
+    for row in read_csv(path):
+        laws.setdefault(row["law"], []).append([float(row[name]) for name in ("elongation", "force", "stored_J", "lost_J")])
     return {name: np.array(rows) for name, rows in laws.items()}
 
 

@@ -1,6 +1,5 @@
 """What is kept of a run: spectra of the treated signals, and the series that the figures need."""
 
-import csv
 import json
 import subprocess
 from pathlib import Path
@@ -10,6 +9,7 @@ import numpy as np
 
 from pounding.files import written_beside
 from pounding.runs import ending_with_us, program
+from pounding.tables import read_csv
 
 from .cases import Case
 
@@ -26,9 +26,7 @@ class HarvestError(Exception):
 
 def impacts(folder: Path) -> list:
     """Lines of impacts.csv, numbers where they are numbers."""
-    with open(folder / "impacts.csv") as file:
-        rows = csv.DictReader(line for line in file if not line.startswith("#"))
-        return [{name: value if name == "contact" else float(value) for name, value in row.items()} for row in rows]
+    return [{name: value if name == "contact" else float(value) for name, value in row.items()} for row in read_csv(folder / "impacts.csv")]
 
 
 def needs_treatment(case: Case, folder: Path) -> bool:

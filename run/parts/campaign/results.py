@@ -1,11 +1,12 @@
 """What a finished case left, read back."""
 
-import csv
 import json
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+
+from pounding.tables import read_csv
 
 from . import harvest
 from .cases import Case
@@ -16,9 +17,6 @@ IMPACT_HEAD = ["case", "floor", "impacts", "contact [ms]: median", "longest", "i
 AT_AN_END = 0.9  # share of the impulse in one half of the face that counts as a hit of that end
 
 
-def read_table(path: Path) -> list:
-    with open(path) as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
 
 
 @dataclass
@@ -52,7 +50,7 @@ class CaseResult:
 def load(case: Case, run: Case, root: Path) -> CaseResult:
     """`run`: the case that answers `case` (cases.run_for); `root`: folder of all cases."""
     folder, factor = root / run.name, case.pga / run.pga
-    rows = [row for row in read_table(folder / "spectra.csv") if float(row["damping"]) == 0.05]
+    rows = [row for row in read_csv(folder / "spectra.csv") if float(row["damping"]) == 0.05]
     spectra = {}
     for row in rows:
         spectra.setdefault(f"{row['probe']}.{row['direction']}", []).append(row)
@@ -61,11 +59,11 @@ def load(case: Case, run: Case, root: Path) -> CaseResult:
               for name, part in spectra.items()}
     treated, peaks = {}, []
     if harvest.needs_treatment(case, folder):
-        for row in read_table(folder / harvest.TREATED):
+        for row in read_csv(folder / harvest.TREATED):
             treated.setdefault(row["treatment"], []).append(float(row["pseudo_acceleration"]))
         treated = {name: np.array(part) for name, part in treated.items()}
         peaks = [{name: float(value) for name, value in row.items() if name not in ("probe", "direction", "channel")}
-                 for row in read_table(folder / harvest.PEAKS)]
+                 for row in read_csv(folder / harvest.PEAKS)]
     series = {name: values if name.endswith("time") else factor * values
               for name, values in np.load(folder / harvest.SERIES).items()}
     summary = json.loads((folder / "summary.json").read_text())
