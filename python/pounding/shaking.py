@@ -1,16 +1,13 @@
 """The motion of a floor for a shake table: without the slow part that no stroke holds, with velocity and displacement."""
 
-import csv
-import subprocess
-import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from pounding.tables import write_rows
+from pounding.motion_signals import Signal, response_spectra
 from pounding.results import Result, ResultError
-from pounding.runs import RunError, complaint, program
+from pounding.tables import write_rows
 
 LOWEST, HIGHEST = 0.05, 20.0  # of the frequencies from which the motion may be kept [Hz]
 UNITS = ("m", "m/s", "m/s2")
@@ -98,21 +95,15 @@ def write(motion: Motion, path: Path, comment: str) -> None:
 
 def kept(run: Result, probe: str, way: str, motion: Motion) -> tuple:
     """Smallest and largest ratio of the motion's response spectrum to the floor's at the run's smallest damping ratio, from
-    twice `above` to half of `below` and of the frequency of the instants; and these frequencies [Hz]. Throws RunError."""
+    twice `above` to half of `below` and of the frequency of the instants; and these frequencies [Hz]. Throws RunError or
+    MotionError."""
     damping = float(np.min(run.spectra["damping"]))
     frequency, floor = run.spectrum(probe, way, damping)
     highest = 0.5 * min(motion.below, 0.2 / (motion.time[1] - motion.time[0]))
     inside = (frequency >= 2 * motion.above) & (frequency <= highest) & (floor > 1e-6 * floor.max())
     if not inside.any():
         return None
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "motion.csv"
-        write(motion, path, "m/s2")
-        words = [str(Path(program()).with_name("pounding-spectra")), "--columns", "2", "--unit", "m/s2", "--damping", repr(damping),
-                 "--frequencies", ",".join(f"{one:.9g}" for one in frequency[inside]), "--after", "ignored", str(path)]
-        done = subprocess.run(words, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise RunError(complaint(done.stderr) or "pounding-spectra failed")
-    rows = csv.DictReader(line for line in done.stdout.splitlines() if not line.startswith("#"))
-    ratio = np.array([float(row["pseudo_acceleration"]) for row in rows]) / floor[inside]
+    table = Signal("motion", motion.time[1] - motion.time[0], motion.acceleration)
+    grid = ",".join(f"{one:.9g}" for one in frequency[inside])
+    ratio = response_spectra([table], grid, damping, after="ignored")[1][0] / floor[inside]
     return float(ratio.min()), float(ratio.max()), float(frequency[inside][0]), float(frequency[inside][-1]), damping

@@ -4,6 +4,7 @@ import re
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 import numpy
@@ -45,6 +46,21 @@ class Made(unittest.TestCase):
             gain = 1 / (1 + frequency**-8) / (1 + (frequency / 20)**8)
             middle = motion.acceleration[len(motion.time) // 2 - 8000:len(motion.time) // 2 + 8000]
             self.assertAlmostEqual(abs(middle).max(), gain, delta=0.01)
+
+
+class Refused(unittest.TestCase):
+    def test_what_the_spectra_refuse_is_told(self):
+        with tempfile.TemporaryDirectory() as folder:
+            spectra = Path(folder, "pounding-spectra")
+            spectra.write_text("#!/bin/sh\necho 'pounding-spectra: no room for the spectra' >&2\nexit 1\n")
+            spectra.chmod(0o755)
+            run = floor(numpy.sin(numpy.arange(4000) * 0.05), 1e-3)
+            frequency = numpy.array([5.0, 10.0, 20.0])
+            run.spectra = {"probe": numpy.array(["floor"] * 3), "direction": numpy.array(["x"] * 3), "damping": numpy.full(3, 0.05),
+                           "frequency": frequency, "pseudo_acceleration": numpy.ones(3)}
+            motion = shaking.motion_of(run, "floor", "x", 1.0)
+            with unittest.mock.patch.dict(os.environ, POUNDING_BUILD=folder), self.assertRaisesRegex(pounding.UserError, "no room for"):
+                shaking.kept(run, "floor", "x", motion)
 
 
 class Run(unittest.TestCase):
