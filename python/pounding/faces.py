@@ -15,9 +15,10 @@ import numpy as np
 import scipy.linalg
 
 from pounding import incoherent
-from pounding.coherency import Coherency, CoherencyError, model_of
+from pounding.coherency import Coherency, CoherencyError
+from pounding.fragility.study_file import Reader
 from pounding.incoherent import Factors, Ground, Wave
-from pounding.mats import mapping, numbers, read_seed, read_wave
+from pounding.mats import read_ground
 
 KEYS = ("faces", "part", "model", "wave", "seed")
 PART = 0.999  # of the trace that shapes hold, where none is given
@@ -28,7 +29,7 @@ MOST_NODES = 6000  # matrices are full
 @dataclass(frozen=True)
 class Faces:
     """Nodes of absorbing bases, shape (nodes, 3) [m], and their shares of the area, whose sum is 1. `part`: of the trace that
-    shapes are to hold. `told`: as it was given."""
+    shapes are to hold."""
 
     nodes: np.ndarray
     shares: np.ndarray
@@ -36,7 +37,6 @@ class Faces:
     model: Coherency
     wave: Wave | None
     seed: int
-    told: dict
 
 
 @dataclass(frozen=True)
@@ -51,30 +51,27 @@ class Shapes:
     parting: float
 
 
-def read(values: dict, folder: Path) -> Faces:
-    """What the keys KEYS of a file tell; `faces` is the model.h5 of a scene. Throws CoherencyError or OSError."""
-    told = mapping(values, "coherence", KEYS)
-    rows = _base_nodes(folder / str(told["faces"]))
-    (part,) = numbers(told.get("part", PART), 1, "part", 0.0)
+def read(reader: Reader) -> Faces:
+    """What the keys KEYS of a file tell; `faces` is the model.h5 of a scene beside it. Throws UserError."""
+    rows, part = _base_nodes(reader), reader.number("part", PART, 0.0)
     if not part < 1:
-        raise CoherencyError(f"part: {part:g} is not below 1: it is the part of the trace that shapes hold, as 0.999")
-    return Faces(rows[:, :3], rows[:, 3] / rows[:, 3].sum(), part, model_of(told.get("model"), folder), read_wave(told), read_seed(told),
-                 told)
+        reader.fail("part", "is not below 1: it is the part of the trace that shapes hold, as 0.999")
+    return Faces(rows[:, :3], rows[:, 3] / rows[:, 3].sum(), part, *read_ground(reader))
 
 
-def _base_nodes(path: Path) -> np.ndarray:
+def _base_nodes(reader: Reader) -> np.ndarray:
     """x, y, z and share of the area of all nodes of bases in a model.h5."""
+    path = reader.path.parent / str(reader.values.get("faces"))
     try:
         with h5py.File(path) as file:
             found = [one["absorbing_base"][()] for one in file.values() if isinstance(one, h5py.Group) and "absorbing_base" in one]
     except OSError as error:
-        raise CoherencyError(f"faces: {path}: is no model.h5 of a run ({error}); make it with -write_model true -dry_run true") from error
+        reader.refuse("faces", f"{path}: is no model.h5 of a run ({error}); make it with -write_model true -dry_run true")
     if not found:
-        raise CoherencyError(f"faces: {path}: no structure in it has faces of absorbing_base, through which a wave enters; name them in "
-                             "the scene")
+        reader.refuse("faces", f"{path}: no structure in it has faces of absorbing_base, through which a wave enters; name them in the scene")
     rows = np.concatenate(found)
     if len(rows) < 2 or len(rows) > MOST_NODES:
-        raise CoherencyError(f"faces: {path}: {len(rows)} nodes; the coherency is one between 2 to {MOST_NODES} of them")
+        reader.refuse("faces", f"{path}: {len(rows)} nodes; the coherency is one between 2 to {MOST_NODES} of them")
     return rows
 
 

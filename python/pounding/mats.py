@@ -3,9 +3,8 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from pounding.coherency import Coherency, CoherencyError, model_of
+from pounding.fragility.study_file import Reader
 from pounding.incoherent import COMPONENTS, Mat, Wave
 from pounding.tables import write_rows
 
@@ -24,59 +23,33 @@ class Coherence:
     told: dict
 
 
-def numbers(values, count: int, place: str, above: float = -np.inf) -> tuple:
-    items = values.split(",") if isinstance(values, str) else values if isinstance(values, (list, tuple)) else [values]
-    try:
-        found = tuple(float(item) for item in items)
-    except (TypeError, ValueError):
-        found = ()
-    if len(found) != count or not all(above < one < np.inf for one in found):
-        more = "" if above == -np.inf else f" above {above:g}"
-        raise CoherencyError(f"{place}: {values!r} is not {count} number{'s' if count > 1 else ''}{more}")
-    return found
-
-
-def mapping(values, place: str, known: tuple) -> dict:
-    if not isinstance(values, dict):
-        raise CoherencyError(f"{place}: {values!r} is no list of keys and values")
-    unknown = next((key for key in values if key not in known), None)
-    if unknown is not None:
-        raise CoherencyError(f"{place}: {unknown} is unknown; it has {', '.join(known)}")
-    return values
-
-
-def read(values, folder: Path) -> Coherence:
-    """What the keys KEYS of a file tell, whose tables lie in the folder. Throws CoherencyError or OSError."""
-    told = mapping(values, "coherence", KEYS)
-    mats, groups = [], {}
-    given = told.get("mats") or {}
+def read(reader: Reader) -> Coherence:
+    """What the keys KEYS of a file, or of the block of one, tell; its tables lie beside it. Throws UserError."""
+    given = reader.values.get("mats") or {}
     if not isinstance(given, dict):
-        raise CoherencyError(f"mats: {given!r} is no list of names with centre and sides")
+        reader.fail("mats", "is no list of names with centre and sides")
     if len(given) < 2:
-        raise CoherencyError(f"mats: coherence tells how mats move apart, and there is {'one' if given else 'none'}; give two or more")
-    for name, one in given.items():
-        one = mapping(one, f"mats: {name}", ("centre", "sides", "groups"))
-        mats.append(Mat(str(name), numbers(one.get("centre"), 3, f"mats: {name}: centre"),
-                        numbers(one.get("sides"), 2, f"mats: {name}: sides", 0.0)))
-        groups[str(name)] = str(one.get("groups", name))
-    return Coherence(tuple(mats), groups, model_of(told.get("model"), folder), read_wave(told), read_seed(told), told)
+        reader.refuse("mats", f"coherence tells how mats move apart, and there is {'one' if given else 'none'}; give two or more")
+    blocks = {name: reader.part("mats", tuple(given)).part(name, ("centre", "sides", "groups")) for name in given}
+    mats = tuple(Mat(str(name), tuple(one.numbers("centre", count=3)), tuple(one.numbers("sides", None, 0.0, count=2)))
+                 for name, one in blocks.items())
+    return Coherence(mats, {str(name): str(one.values.get("groups", name)) for name, one in blocks.items()}, *read_ground(reader),
+                     reader.values)
 
 
-def read_wave(told: dict) -> Wave | None:
-    if not told.get("wave"):
-        return None
-    one = mapping(told["wave"], "wave", ("speed", "towards"))
-    wave = Wave(*numbers(one.get("speed"), 1, "wave: speed", 0.0), numbers(one.get("towards"), 2, "wave: towards"))
-    if not any(wave.towards):
-        raise CoherencyError("wave: towards: a wave has a direction, as 1,0")
-    return wave
-
-
-def read_seed(told: dict) -> int:
-    seed = told.get("seed", 1)
-    if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
-        raise CoherencyError(f"seed: {seed!r} is not a whole number from 0 on")
-    return seed
+def read_ground(reader: Reader) -> tuple:
+    """Model of the coherency, the wave that passes, if there is one, and the seed. Throws UserError."""
+    try:
+        model = model_of(reader.values.get("model"), reader.path.parent)
+    except (CoherencyError, OSError) as error:
+        reader.refuse("", error)
+    wave = None
+    if reader.values.get("wave"):
+        one = reader.part("wave", ("speed", "towards"))
+        wave = Wave(one.number("speed", None, 0.0), tuple(one.numbers("towards", count=2)))
+        if not any(wave.towards):
+            one.refuse("towards", "a wave has a direction, as 1,0")
+    return model, wave, reader.whole("seed", 1, 0)
 
 
 def components(motions: dict) -> list:

@@ -12,7 +12,8 @@ import program
 from incoherent_test import ROCK, STEP, record, strong_part, way_of
 
 sys.path.insert(0, os.path.join(program.SOURCE, "python"))
-from pounding import coherency, faces, incoherent, mats  # noqa: E402
+from pounding import UserError, coherency, faces, incoherent, mats  # noqa: E402
+from pounding.fragility.study_file import Reader  # noqa: E402
 
 X, Y = (one.ravel() for one in numpy.meshgrid(numpy.linspace(0, 60, 5), numpy.linspace(0, 40, 3)))
 NODES = numpy.column_stack([X, Y, -5.0 * numpy.ones(len(X))])
@@ -21,7 +22,7 @@ ENDS = (0, 2)  # nodes 30 m apart
 
 
 def faces_of(model=ROCK, part=faces.PART, wave=None):
-    return faces.Faces(NODES, SHARES, part, model, wave, 1, {})
+    return faces.Faces(NODES, SHARES, part, model, wave, 1)
 
 
 def made(of, signal, shapes, seed, axis="x"):
@@ -137,9 +138,12 @@ class Refused(unittest.TestCase):
         with h5py.File(self.folder / "model.h5", "w") as file:
             file["site/absorbing_base"] = numpy.column_stack([NODES, SHARES])
 
+    def reader(self, known, **told):
+        return Reader({"faces": "model.h5", **told}, self.folder / "faces.yaml", "", known)
+
     def refused(self, message, **told):
-        with self.assertRaisesRegex(coherency.CoherencyError, message):
-            of = faces.read({"faces": "model.h5", "model": "abrahamson_2007_hard_rock", **told}, self.folder)
+        with self.assertRaisesRegex(UserError, message):
+            of = faces.read(self.reader(faces.KEYS, **{"model": "abrahamson_2007_hard_rock", **told}))
             faces.shapes_of(of, {"x": record()}, STEP)
 
     def test_wrong_use(self):
@@ -148,8 +152,8 @@ class Refused(unittest.TestCase):
         self.refused("model: 'abramson' is unknown", model="abramson")
         self.refused("is no model.h5 of a run", faces="nowhere.h5")
         self.refused("seed: -1 is not a whole number", seed=-1)
-        with self.assertRaisesRegex(coherency.CoherencyError, "faces is unknown; it has mats"):  # so do studies, which are in modes
-            mats.read({"faces": "model.h5"}, self.folder)
+        with self.assertRaisesRegex(UserError, "faces is unknown; it has mats"):  # so do studies, which are in modes
+            mats.read(self.reader(mats.KEYS))
         most, faces.MOST_SHAPES = faces.MOST_SHAPES, 3
         try:
             self.refused("part: along x 3 shapes hold .* less than 0.999; give that")

@@ -238,7 +238,10 @@ class Command(unittest.TestCase):
         self.refused(self.FILE.replace("sides: '30.4,26.4', groups: right", "sides: '30.4'"), "mats: east: sides", "2 numbers above 0")
         self.refused(self.FILE.replace("30.5,0,0", "305,0,0"), "335.8 m apart", "150 m")
         self.refused(self.FILE.replace("abrahamson_2007_hard_rock", "{luco_wong: {gamma: 0.2}}"), "luco_wong", "vs [m/s]")
-        self.refused(self.FILE.replace("motion:", "motions:"), "motion: needs records")
+        self.refused(re.sub("motion:.*\n.*\n.*\n.*\n", "", self.FILE), "motion: needs records")
+        self.refused(self.FILE.replace("motion:", "motions:"), "motions is unknown; it has mats, model, wave, seed, motion")
+        self.refused(self.FILE.replace("  east:", "  west:"), "west stands twice")
+        self.refused(self.FILE.replace("unit: m/s2}\n  y", "units: m/s2}\n  y"), "motion: x: units is unknown")
         self.write_record("y", record(4), 0.005)
         self.refused(self.FILE, "motion: the records have different steps", "y 0.005 s", "give records of one step")
 

@@ -9,11 +9,11 @@ always. docs/manual/incoherence.md has the keys and the method.
 from pathlib import Path
 
 import numpy as np
-import yaml
 
 from pounding import faces, incoherent, mats
 from pounding.coherency import CoherencyError
 from pounding.files import file_name
+from pounding.fragility.study_file import Reader, load
 from pounding.motion_signals import WORDS, read_record
 from pounding.results import DIRECTIONS
 from pounding.scenes import write_scene
@@ -22,29 +22,20 @@ from .process import parser_of
 
 
 def read(path: Path, seed: int | None) -> tuple:
-    """Coherence or Faces, and options of the records per axis. `seed`: in place of that of the file. Throws CoherencyError or
-    OSError."""
-    try:
-        told = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except (ValueError, yaml.YAMLError) as error:
-        raise CoherencyError(f"{path}: {' '.join(str(error).split())}") from error
-    if not isinstance(told, dict):
-        raise CoherencyError(f"{path}: no keys and values")
-    motion = told.pop("motion", None)
+    """Coherence or Faces, and options of the records per axis. `seed`: in place of that of the file. Throws UserError."""
+    values = load(path)
+    of = faces if isinstance(values, dict) and "faces" in values else mats
+    reader = Reader(values, path, "", (*of.KEYS, "motion"))
     if seed is not None:
-        told["seed"] = seed
-    try:
-        if not isinstance(motion, dict) or not motion or not set(motion) <= set(DIRECTIONS):
-            raise CoherencyError("motion: needs records along some of x, y and z, as `motion: {x: {record: FILE}}`")
-        for axis, one in motion.items():
-            if not isinstance(one, dict) or not isinstance(one.get("record"), str) or set(one) - {"record", "scale", *WORDS}:
-                raise CoherencyError(f"motion: {axis}: {one!r} is not a record and perhaps its unit, column, time_step and scale")
-            if isinstance(one.get("scale", 1), bool) or not isinstance(one.get("scale", 1), (int, float)):
-                raise CoherencyError(f"motion: {axis}: scale: {one['scale']!r} is no number")
-        of = faces if "faces" in told else mats
-        return of.read(told, path.parent), {axis: motion[axis] for axis in DIRECTIONS if axis in motion}
-    except CoherencyError as error:
-        raise CoherencyError(f"{path}: {error}") from error
+        reader.values["seed"] = seed
+    motion = reader.part("motion", DIRECTIONS)
+    if not motion.values:
+        reader.refuse("motion", "needs records along some of x, y and z, as `motion: {x: {record: FILE}}`")
+    records = {axis: motion.part(axis, ("record", "scale", *WORDS)) for axis in DIRECTIONS if axis in motion.values}
+    for one in records.values():
+        if not isinstance(one.values.get("record"), str):
+            one.fail("record", "is no file; a record has it, and perhaps unit, column, time_step and scale")
+    return of.read(reader), {axis: {**one.values, "scale": one.number("scale", 1)} for axis, one in records.items()}
 
 
 def records_of(motion: dict, folder: Path) -> tuple:
@@ -55,7 +46,7 @@ def records_of(motion: dict, folder: Path) -> tuple:
         raise CoherencyError("motion: the records have different steps, " +
                              ", ".join(f"{axis} {signal.step:g} s" for axis, signal in found.items()) + "; give records of one step")
     count = max(len(signal.values) for signal in found.values())
-    return {axis: motion[axis].get("scale", 1) * np.pad(signal.values, (0, count - len(signal.values)))
+    return {axis: motion[axis]["scale"] * np.pad(signal.values, (0, count - len(signal.values)))
             for axis, signal in found.items()}, steps[0]
 
 

@@ -2,7 +2,6 @@
 
 import hashlib
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
@@ -41,15 +40,12 @@ TOO = "coherent_too"
 def read(reader: Reader) -> tuple:
     """The block `coherence` of a study, None where it has none, and whether its samples are run on coherent ground too.
     Throws UserError."""
-    values = reader.values.get("coherence")
-    if values is None:
+    if reader.values.get("coherence") is None:
         return None, False
-    too = isinstance(values, dict) and Reader({TOO: values.get(TOO, False)}, reader.path, "coherence", (TOO,)).flag(TOO)
-    values = {key: one for key, one in values.items() if key != TOO} if isinstance(values, dict) else values
-    try:
-        return mats.read(values, reader.path.parent), too
-    except (CoherencyError, OSError) as error:
-        raise UserError(f"{reader.path}: coherence: {error}") from error
+    one = reader.part("coherence", (*mats.KEYS, TOO))
+    too = one.flag(TOO)
+    one.values = {key: value for key, value in one.values.items() if key != TOO}
+    return mats.read(one), too
 
 
 def make(study, made, step: float) -> None:

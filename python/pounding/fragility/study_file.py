@@ -27,13 +27,18 @@ class Reader:
         self.values = values
         for key in values:
             if key not in known:
-                raise UserError(f"{path}: {self._at(key)} is unknown; {place or 'a study'} has {', '.join(known)}")
+                raise UserError(f"{path}: {self._at(key)} is unknown; {place or 'it'} has {', '.join(known)}")
 
     def _at(self, key) -> str:
         return f"{self.place}: {key}" if self.place else str(key)
 
+    def refuse(self, key: str, why):
+        """Throws UserError of a key, or of all of them where it is ''."""
+        raise UserError(": ".join(filter(None, (str(self.path), self.place, str(key), str(why)))))
+
     def fail(self, key: str, why: str):
-        raise UserError(f"{self.path}: {self._at(key)}: {self.values.get(key)!r} {why}")
+        """The same with the value of the key."""
+        self.refuse(key, f"{self.values.get(key)!r} {why}")
 
     def number(self, key: str, default=None, above: float | None = None, below: float | None = None) -> float:
         value = self.values.get(key, default)
@@ -63,8 +68,8 @@ class Reader:
             self.fail(key, "is neither true nor false")
         return value
 
-    def numbers(self, key: str, default=None, least: float | None = None) -> list:
-        """A list, or text of numbers between commas."""
+    def numbers(self, key: str, default=None, least: float | None = None, count: int = 0) -> list:
+        """A list, or text of numbers between commas; `count`: how many, where that is fixed."""
         value = self.values.get(key, default)
         if value is None:
             raise UserError(f"{self.path}: {self._at(key)} is missing")
@@ -75,6 +80,8 @@ class Reader:
             self.fail(key, "is not a list of numbers")
         if not found or any(not abs(one) < float("inf") for one in found):
             self.fail(key, "is not a list of numbers")
+        if count and len(found) != count:
+            self.fail(key, f"is not {count} numbers{'' if least is None else f' above {least:g}'}")
         if least is not None and any(not one > least for one in found):
             self.fail(key, f"has a number that is not above {least:g}")
         return found

@@ -106,11 +106,6 @@ def impedances(mats: list, ground: Ground, frequencies, cells: int = 8) -> Imped
     return Impedances(numpy.asarray(frequencies, float), (matrix + matrix.transpose(0, 2, 1)) / 2)
 
 
-def pair_of(reader: Reader, key: str) -> tuple:
-    values = reader.numbers(key)
-    if len(values) != 2:
-        reader.fail(key, "is no pair of numbers along x and y [m]")
-    return tuple(values)
 
 
 def read(path: Path) -> Impedances:
@@ -122,9 +117,7 @@ def read(path: Path) -> Impedances:
     mats = []
     for number, values in enumerate(reader.entries("mats"), 1):
         mat = Reader(values, path, f"mats: {number}", ("middle", "sides"))
-        mats.append(Mat(pair_of(mat, "middle"), pair_of(mat, "sides")))
-        if not min(mats[-1].sides) > 0:
-            mat.fail("sides", "are not above 0")
+        mats.append(Mat(tuple(mat.numbers("middle", count=2)), tuple(mat.numbers("sides", None, 0.0, count=2))))
         for other in mats[:-1]:
             gaps = [abs(a - b) - (s + t) / 2 for a, b, s, t in zip(mats[-1].middle, other.middle, mats[-1].sides, other.sides)]
             if max(gaps) < -1e-9 * min(other.sides):
