@@ -68,37 +68,29 @@ def read(reader) -> dict:
     values = reader.values.get("mats")
     if not isinstance(values, dict) or not values:
         reader.fail("mats", "is no list of structures with what their mats have, as `mats: {tower: {friction: 0.5}}`")
-    found = {}
-    for name, block in values.items():
-        one = type(reader)(_numbers(block or {}), reader.path, ": ".join(filter(None, (reader.place, "mats", str(name)))), KEYS)
-
-        def number(key: str, default=None, least: float | None = 0.0):
-            value = one.number(key, default) if key in one.values or default is None and key == "friction" else default
-            if value is not None and least is not None and value < least:
-                one.fail(key, f"is below {least:g}")
-            return value
-
-        if "water" in one.values and "buoyancy" in one.values:
-            one.fail("water", "is beside a buoyancy; give one of the two")
-        edges = tuple(one.numbers("edges")) if "edges" in one.values else None
-        if edges and (len(edges) != 4 or not (edges[0] < edges[1] and edges[2] < edges[3])):
-            one.fail("edges", "is not x1, x2, y1, y2 of the mat's underside, x1 below x2 and y1 below y2")
-        place = tuple(one.numbers("weight_at")) if "weight_at" in one.values else None
-        if place and len(place) != 2:
-            one.fail("weight_at", "is not x, y")
-        found[str(name)] = Given(str(name), number("friction"), number("passive", 0.0), number("buoyancy", None), number("water", None, None),
-                                 edges, number("level", None, None), number("weight", None), place, str(one.values.get("contact", "")))
-    return found
+    blocks = {str(name): type(reader)(block or {}, reader.path, ": ".join(filter(None, (reader.place, "mats", str(name)))), KEYS)
+              for name, block in values.items()}
+    return {name: _given(name, one) for name, one in blocks.items()}
 
 
-def _numbers(block):
-    """A block with its texts that are numbers as such: YAML takes 2e6 for a text."""
-    def plain(value):
-        try:
-            return float(value) if isinstance(value, str) else value
-        except ValueError:
-            return value
-    return {key: plain(value) for key, value in block.items()} if isinstance(block, dict) else block
+def _given(name: str, one) -> Given:
+    """A mat of its block."""
+    def least(key: str, value: float | None) -> float | None:
+        if value is not None and value < 0:
+            one.fail(key, "is below 0")
+        return value
+
+    if "water" in one.values and "buoyancy" in one.values:
+        one.fail("water", "is beside a buoyancy; give one of the two")
+    edges = tuple(one.numbers("edges")) if "edges" in one.values else None
+    if edges and (len(edges) != 4 or not (edges[0] < edges[1] and edges[2] < edges[3])):
+        one.fail("edges", "is not x1, x2, y1, y2 of the mat's underside, x1 below x2 and y1 below y2")
+    place = tuple(one.numbers("weight_at")) if "weight_at" in one.values else None
+    if place and len(place) != 2:
+        one.fail("weight_at", "is not x, y")
+    return Given(name, least("friction", one.number("friction")), least("passive", one.number("passive", 0.0)),
+                 least("buoyancy", one.optional("buoyancy")), one.optional("water"), edges, one.optional("level"),
+                 least("weight", one.optional("weight")), place, str(one.values.get("contact", "")))
 
 
 # What a run tells of its mats.

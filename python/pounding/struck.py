@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pounding import UserError
 from pounding.results import Result
 
 TABLE = "struck_areas"
@@ -71,8 +70,7 @@ def read_strengths(reader) -> Strengths:
     for name in contacts:
         own[str(name)] = _strength(reader.part("contacts", tuple(contacts)).part(name, STRENGTHS), others)
     if all(one.concrete is one.edge is None for one in (others, *own.values())):
-        where = f"{reader.place}: " if reader.place else ""
-        raise UserError(f"{reader.path}: {where}give strength, f'c in Pa, or edge_strength in N/m")
+        reader.refuse("", "give strength, f'c in Pa, or edge_strength in N/m")
     return Strengths(own, others)
 
 

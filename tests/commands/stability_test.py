@@ -18,7 +18,7 @@ import pounding
 from pounding import stability
 from pounding.fragility import stability as in_study
 from pounding.fragility.conditions import Condition
-from pounding.fragility.study_file import ALONE
+from pounding.fragility.study_file import ALONE, Reader
 
 G = 9.81
 MAT = stability.Mat("block", 0.5, 0.0, 0.0, (0.0, 2.0, 0.0, 1.0), 0.0, 1000.0, (1.0, 0.5), 1000.0 / G, 0.0)
@@ -204,6 +204,13 @@ class Block(unittest.TestCase):
         self.command(folder, {"asked": 1.1, "gravity": G, "mats": {"it": mat}}, 1)
         self.assertIn("nothing holds this structure", self.said)
         self.assertEqual(len(self.said.strip().splitlines()), 1, self.said)
+
+
+class OfAFile(unittest.TestCase):
+    def test_contact_keeps_its_name(self):
+        for name in ("12", "1e3", "pads"):
+            found = stability.read(Reader({"mats": {"it": {"friction": "5e-1", "contact": name}}}, Path("m.yaml"), "", ("mats",)))
+            self.assertEqual((found["it"].friction, found["it"].contact), (0.5, name))
 
 
 class InAStudy(StudyCommand):

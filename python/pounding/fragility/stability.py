@@ -48,11 +48,8 @@ class Stability:
 
 def read_block(reader: Reader, levels: list | None) -> Stability:
     """A block of asked factor, gravity and mats. Throws UserError."""
-    level = reader.number("level", levels[-1], 0.0) if levels else 0.0
-    if levels and level not in levels:
-        reader.fail("level", f"is none of the study's {', '.join(f'{one:g}' for one in levels)}")
-    gravity = reader.number("gravity", None, 0.0) if "gravity" in reader.values else None
-    return Stability(reader.path, reader.number("asked", None, 0.0), level, gravity, read_mats(reader))
+    level = reader.one_of("level", levels, levels[-1]) if levels else 0.0
+    return Stability(reader.path, reader.number("asked", None, 0.0), level, reader.optional("gravity", 0.0), read_mats(reader))
 
 
 def read(reader: Reader, levels: list, structures: str) -> Stability | None:

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 
-from pounding import UserError
 from pounding.struck import STRENGTHS, Strengths, Window, beside, placed, read_strengths
 from pounding.tables import write_csv
 
@@ -39,11 +38,8 @@ def read(reader: Reader, levels: list) -> Struck | None:
     one = reader.part("struck", KEYS)
     windows = [Window(size, key == "edges") for key in ("areas", "edges") if key in one.values for size in one.increasing(key)]
     if not windows:
-        raise UserError(f"{reader.path}: struck: give areas, in m2, or edges, in m")
-    level = one.number("level", levels[-1], 0.0)
-    if level not in levels:
-        one.fail("level", f"is none of the study's {', '.join(f'{each:g}' for each in levels)}")
-    return Struck(windows, level, read_strengths(one))
+        one.refuse("", "give areas, in m2, or edges, in m")
+    return Struck(windows, one.one_of("level", levels, levels[-1]), read_strengths(one))
 
 
 def rows_of(analyses: dict, gap: float) -> list:

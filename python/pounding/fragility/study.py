@@ -373,11 +373,9 @@ def _capacities(reader: Reader, frequencies: list, dampings: list) -> list:
     for number, one in enumerate(reader.entries("capacities"), 1):
         part = Reader(one, reader.path, f"capacities, number {number}",
                        ("probe", "direction", "band", "damping", "acceleration"))
-        band, damping = part.increasing("band", [frequencies[0], frequencies[-1]]), part.number("damping", dampings[0])
+        band, damping = part.increasing("band", [frequencies[0], frequencies[-1]]), part.one_of("damping", dampings, dampings[0])
         if len(band) != 2 or not any(band[0] <= f <= band[1] for f in frequencies):
             part.fail("band", "is not two frequencies with one of the study's between them")
-        if damping not in dampings:
-            part.fail("damping", f"is none of the study's {', '.join(f'{one:g}' for one in dampings)}")
         if part.values.get("direction") not in DIRECTIONS:
             part.fail("direction", "is not x, y or z")
         found.append(Capacity(str(part.values.get("probe", "")), part.values["direction"], tuple(band), damping,
@@ -400,8 +398,7 @@ def _motion_rules(reader: Reader) -> Path | None:
 def _show(reader: Reader, gaps: list, levels: list) -> dict:
     one = reader.part("show", ("gap", "level", "channel", "frequencies"))
     for key, known in (("gap", gaps), ("level", levels)):
-        if key in one.values and one.number(key) not in known:
-            one.fail(key, f"is none of the study's {', '.join(f'{value:g}' for value in known)}")
+        one.one_of(key, known, known[0])
     return one.values
 
 
@@ -496,7 +493,7 @@ def read(path: Path) -> Study:
         _capacities(reader, frequencies, dampings), full.number("share", 0.0, -1e-12, 1.0 + 1e-12),
         full.options("options"), full.number("noise", 1e-3, 0.0), read_both_orders(full, exchange), frequencies, dampings,
         _show(reader, gaps, levels), {**{key: reader.values.get(key) for key in ("states", "submittal")}, "soils": soils_of(reader)},
-        reader.number("uncertainty", None, 0.0) if "uncertainty" in reader.values else None, table,
+        reader.optional("uncertainty", 0.0), table,
         read_matching(reader, table, limit), *read_coherence(reader),
         elevations=reader.increasing("elevations", None, -1e9) if "elevations" in reader.values else None,
         stability=read_stability(reader, levels, {**given_options(scene), **reader.options("options")}.get("structures", "")),

@@ -56,6 +56,17 @@ class Reader:
             self.fail(key, f"is not below {below:g}")
         return float(value)
 
+    def optional(self, key: str, above: float | None = None) -> float | None:
+        """A number, or None where there is none."""
+        return self.number(key, None, above) if key in self.values else None
+
+    def one_of(self, key: str, known, default, whose: str = "the study's") -> float:
+        """A number that is among those that are known."""
+        value = self.number(key, default)
+        if value not in known:
+            self.fail(key, f"is none of {whose} {', '.join(f'{one:g}' for one in known)}")
+        return value
+
     def whole(self, key: str, default: int, least: int) -> int:
         value = self.values.get(key, default)
         if isinstance(value, bool) or not isinstance(value, int) or value < least:

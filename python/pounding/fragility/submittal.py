@@ -46,10 +46,8 @@ def read(study: Study) -> Submittal | None:
     if values is None:
         return None
     reader = Reader(values, study.path, "submittal", KEYS)
-    design, beyond = (reader.number(key, default, 0.0) for key, default in (("design", study.levels[0]), ("beyond", study.levels[-1])))
-    for key, level in (("design", design), ("beyond", beyond)):
-        if level not in study.levels:
-            reader.fail(key, f"is none of the study's levels {', '.join(f'{one:g}' for one in study.levels)}")
+    design, beyond = (reader.one_of(key, study.levels, default, "the study's levels")
+                      for key, default in (("design", study.levels[0]), ("beyond", study.levels[-1])))
     lines = reader.values.get("not_covered") or []
     if not isinstance(lines, list):
         reader.fail("not_covered", "is no list of sentences")
