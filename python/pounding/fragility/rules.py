@@ -8,7 +8,7 @@ from pounding import UserError
 from pounding.study import run_side_by_side
 from pounding.files import write_text
 from pounding.results import load
-from pounding.runs import Job, clear, environment
+from pounding.runs import Job, clear, environment, words_of
 
 from .design import Design, motion_columns, motion_values
 from .study import Study
@@ -29,9 +29,7 @@ def find(study: Study, design: Design, scene: Path, folder: Path, jobs: int) -> 
         shown = sorted(set(design.motions))[:MOST]
 
         def start(motion: int) -> Job:
-            words = ["-options_file", str(scene.absolute()), "-end_time", "1e-4", "-modes", str(MODES)]
-            for name, value in zip(names, motion_values(study, motion, 1.0)):
-                words += [f"-{name}", value]
+            words = words_of(scene.absolute(), {"end_time": "1e-4", "modes": MODES, **dict(zip(names, motion_values(study, motion, 1.0)))})
             return Job(words, (folder / f"rules-{motion}").absolute(), 1, Path.cwd(), variables)
 
         def ended(_motion: int, job: Job, _waiting: list, _running: list) -> None:

@@ -15,7 +15,7 @@ from pounding.study import alone_in, announcement, run_side_by_side, understood
 from pounding.tables import write_rows
 from pounding.files import write_text
 from pounding.results import ResultError, load
-from pounding.runs import LOG, Job, clear, environment, finish
+from pounding.runs import LOG, Job, clear, environment, finish, words_of
 from pounding.scenes import write_scene
 from pounding.stability import facts_of
 
@@ -157,10 +157,7 @@ class Runner:
 
     def words(self, member, order: str) -> list:
         """Options of the run of a member."""
-        words = ["-options_file", str(self.scene(order).absolute())]
-        for column, value in zip(self.design.columns, member.values):
-            words += [f"-{column}", value]
-        return words
+        return words_of(self.scene(order).absolute(), dict(zip(self.design.columns, member.values)))
 
     @property
     def equipment(self) -> list:

@@ -28,10 +28,7 @@ class Case:
         options["motion_x_pga"] = self.motion["motion_x_pga"] * setting.pga
         for contact, values in self.gaps.items():
             options[f"{contact}_gap"] = ",".join(f"{value + setting.gap:.6g}" for value in values)
-        words = ["-options_file", f"petsc-options/azalee/{model}.yaml"]
-        for name, value in options.items():
-            words += [f"-{name}", str(value).replace("{folder}", str(folder))]
-        return words
+        return [word.replace("{folder}", str(folder)) for word in words_of(f"petsc-options/azalee/{model}.yaml", options)]
 
 
 class SceneCase:
