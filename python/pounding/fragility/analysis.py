@@ -18,7 +18,6 @@ CONTACT = "contact"
 ROUND_OFF = 1e-6  # of the largest spectrum: below it a channel stands still
 MAIN = 0.05  # of the largest spectrum of its probe: what a channel needs to count in errors and numbers of motions
 EXCEEDED = (0.5, 0.16, 0.05)
-BANDS = ((0.1, 10), (10, 50), (50, 400))  # of the parts of a scatter [Hz]
 TOLERANCE = 0.1  # of the mean that is to be known
 
 
@@ -77,22 +76,13 @@ class Analysis:
 
     def spectra_rows(self, gap: float | None, level: float) -> list:
         """A row per channel that moves, damping ratio and frequency."""
-        rows, found = [], self.outcomes
-        values = found.spectra[self.of(gap, level)][:, self.channels]
-        one = moments(values, self.study.confidence)
-        broad = widened(found.frequency, one.mean), widened(found.frequency, one.high)
-        for c, channel in enumerate(self.channels):
-            for d, ratio in enumerate(found.damping):
-                for f, frequency in enumerate(found.frequency):
-                    at = c, d, f
-                    rows.append({"channel": found.channels[channel], "damping": f"{ratio:g}",
-                                 "frequency": f"{frequency:.9g}", "members": one.count,
-                                 **{name: f"{values[at]:.6g}" for name, values in (
-                                     ("mean", one.mean), ("median", one.median), ("p16", one.low), ("p84", one.high),
-                                     ("cov", one.cov), ("log_deviation", one.log_deviation),
-                                     ("half_width_of_mean", one.half_width), ("envelope", one.largest),
-                                     ("mean_widened", broad[0]), ("p84_widened", broad[1]))}})
-        return rows
+        found = self.outcomes
+        one = moments(found.spectra[self.of(gap, level)][:, self.channels], self.study.confidence)
+        columns = {"mean": one.mean, "median": one.median, "p16": one.low, "p84": one.high, "cov": one.cov,
+                   "log_deviation": one.log_deviation, "half_width_of_mean": one.half_width, "envelope": one.largest,
+                   "mean_widened": widened(found.frequency, one.mean), "p84_widened": widened(found.frequency, one.high)}
+        return found.rows(self.channels, lambda at: {"members": one.count,
+                                                     **{name: f"{values[at]:.6g}" for name, values in columns.items()}})
 
     # Probabilities.
 
@@ -179,11 +169,7 @@ class Analysis:
         """Peak ground acceleration at which each sample first closes a joint of each gap (samples, gaps) [m/s2]: the
         needed joint of the runs as they were, linear between the levels and from zero, and on beyond the last level."""
         needed = self.needed(torsion=1)
-        shapes = [min(joint.shape) for joint in self.study.joints.values()]
-        names = [one.name for one in self.study.variables]
-        drawn = np.stack([self.design.samples[:, names.index(f"{name}_gap")] if joint.deviation
-                          else np.zeros(self.study.samples) for name, joint in self.study.joints.items()], 1)
-        at_rest = -(drawn + np.array(shapes)).min(1)
+        at_rest = -self.study.built(self.design.samples).min(1)
         levels = np.array([0.0, *self.study.levels])
         result = np.empty((self.study.samples, len(self.study.gaps)))
         for sample in range(self.study.samples):
@@ -246,13 +232,9 @@ class Analysis:
         rows, found = [], self.outcomes
         for gap, level in self.exchanged_cells:
             main = self.main(found.spectra[self.of(gap, level)])
-            own, exchanged = self.logarithms(gap, level, main)
-            one = scatter(own, exchanged)
-            rows += [{"gap [m]": gap_text(gap), "pga [m/s2]": level, "channel": found.channels[channel],
-                      "damping": f"{ratio:g}", "frequency": f"{frequency:.9g}", "all": f"{one.all[c, d, f]:.4g}",
-                      "joint": f"{one.joint[c, d, f]:.4g}", "motion": f"{one.motion[c, d, f]:.4g}"}
-                     for c, channel in enumerate(main) for d, ratio in enumerate(found.damping)
-                     for f, frequency in enumerate(found.frequency)]
+            one = scatter(*self.logarithms(gap, level, main))
+            rows += found.rows(main, lambda at: {name: f"{getattr(one, name)[at]:.4g}" for name in ("all", "joint", "motion")},
+                               {"gap [m]": gap_text(gap), "pga [m/s2]": level})
         return rows
 
     def joint_share_rows(self) -> list:
@@ -263,14 +245,11 @@ class Analysis:
         for gap, level in self.exchanged_cells:
             main = self.main(found.spectra[self.of(gap, level)])
             own, exchanged = (values[:, :, damping] for values in self.logarithms(gap, level, main))
-            for low, high in BANDS:
-                inside = (found.frequency >= low) & (found.frequency <= high)
-                if not inside.any():
-                    continue
+            for band, inside in found.bands:
                 one = scatter(own[..., inside], exchanged[..., inside])
                 part = joint_share(own[..., inside], exchanged[..., inside], self.study.confidence)
                 rows += [{"gap [m]": gap_text(gap), "pga [m/s2]": level, "channel": found.channels[channel],
-                          "band [Hz]": f"{low:g}-{high:g}",
+                          "band [Hz]": band,
                           **{name: rms(getattr(one, name)[c]) for name in ("all", "joint", "motion")},
                           "share of the joint": float(part[0][c]), "low": float(part[1][c]), "high": float(part[2][c])}
                          for c, channel in enumerate(main)]
@@ -292,12 +271,9 @@ class Analysis:
                 ratio = spectra / high[OWN_FIELD]
                 joint = scatter(*(values[:, :, damping] for values in self.logarithms(gap, level, main, factors))).joint \
                     if self.study.exchange else None
-                for low, end in BANDS:
-                    inside = (found.frequency >= low) & (found.frequency <= end)
-                    if not inside.any():
-                        continue
+                for band, inside in found.bands:
                     rows += [{"gap [m]": gap_text(gap), "pga [m/s2]": level, "channel": found.channels[channel],
-                              "band [Hz]": f"{low:g}-{end:g}", "deviation times": factors[0], "length times": factors[1],
+                              "band [Hz]": band, "deviation times": factors[0], "length times": factors[1],
                               "touch": hits, "84 % ratio, median": float(np.median(ratio[c, inside])),
                               "84 % ratio, furthest": furthest(ratio[c, inside]),
                               "joint": rms(joint[c, inside]) if joint is not None else ""}

@@ -78,17 +78,15 @@ def build(study: Study) -> Design:
         if name.endswith("_factor") and not (drawn[:, place] > 0).all():
             raise UserError(f"{study.path}: factors: {name}: a draw of {drawn[:, place].min():.3g} is not above 0; "
                             "take a lognormal one")
-    motions = [sample % count for sample in range(study.samples)]
+    motions, off = [sample % count for sample in range(study.samples)], study.deviations(drawn)
 
     def member(sample: int, gap: float | None, level: float, disturbed: bool = False, exchanged: bool = False,
                factors: tuple = OWN_FIELD) -> Member:
         shaken = level * (1 + study.noise) if disturbed else level
         owner = (sample + exchanged) % study.samples  # of the joint
         values = motion_values(study, motions[sample], shaken)
-        for contact, joint in study.joints.items():
-            off = drawn[owner, names.index(f"{contact}_gap")] if joint.deviation else 0.0
-            nominal = study.apart if gap is None else gap
-            values += (joint.text(nominal + off),)
+        for place, joint in enumerate(study.joints.values()):
+            values += (joint.text((study.apart if gap is None else gap) + off[owner, place]),)
             values += (str((study.seed * MOST_SAMPLES + owner) % 2**31),) if joint.field else ()
             if joint.field and study.field_factors:
                 values += tuple(text_of(factor * one) for factor, one in zip(factors, joint.field))
@@ -129,10 +127,4 @@ def choose(study: Study, members: list) -> list:
 
 def clipped(study: Study, design: Design) -> int:
     """How many gaps of the cells would be below zero, and are closed joints."""
-    names = [one.name for one in study.variables]
-    count = 0
-    for contact, joint in study.joints.items():
-        off = design.samples[:, names.index(f"{contact}_gap")] if joint.deviation else np.zeros(len(design.samples))
-        lowest = off[:, None] + min(joint.shape) + np.array(study.gaps)[None, :]
-        count += int((lowest < 0).sum())
-    return count
+    return int((study.built(design.samples)[..., None] + np.array(study.gaps) < 0).sum())

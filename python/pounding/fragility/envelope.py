@@ -95,16 +95,11 @@ class Envelope:
                          for one in self.analyses.values()])
 
     def spectra_rows(self, gap: float | None, level: float) -> list:
-        rows, found = [], self.first.outcomes
-        high = self.spectra(gap, level)
-        largest, at = high.max(0), high.argmax(0)
+        found, high = self.first.outcomes, self.spectra(gap, level)
+        largest, governs_at = high.max(0), high.argmax(0)
         broad = widened(found.frequency, largest)
-        for c, channel in enumerate(self.first.channels):
-            for d, ratio in enumerate(found.damping):
-                rows += [{"channel": found.channels[channel], "damping": f"{ratio:g}", "frequency": f"{f:.9g}",
-                          "p84": f"{largest[c, d, k]:.6g}", "p84_widened": f"{broad[c, d, k]:.6g}",
-                          **self.conditions[at[c, d, k]].place} for k, f in enumerate(found.frequency)]
-        return rows
+        return found.rows(self.first.channels, lambda at: {"p84": f"{largest[at]:.6g}", "p84_widened": f"{broad[at]:.6g}",
+                                                           **self.conditions[governs_at[at]].place})
 
     def condition_rows(self) -> list:
         """Of each condition the joint needed, members that touch and the 84 % spectrum that figures show, at the level of

@@ -18,6 +18,7 @@ from pounding.struck import VALUES, of_run as struck_of_run
 
 
 FILE = "ensemble.h5"
+BANDS = ((0.1, 10), (10, 50), (50, 400))  # of the parts of a scatter [Hz]
 # Dataset of ensemble.h5 -> its name here; the first dimension is the member's.
 ARRAYS = {"spectra/pseudo_acceleration": "spectra", "impacts/episodes": "episodes", "impacts/first_time": "first_time",
           "impacts/impulse_sum": "impulse_sum", "impacts/impulse_largest": "impulse_largest",
@@ -76,6 +77,19 @@ class Outcomes:
     force_names: list = field(default_factory=list)
     force_time: np.ndarray = field(default_factory=lambda: np.empty(0))
     forces: "np.ndarray | Kept" = field(default_factory=lambda: np.empty((1, 0, 0)))
+
+    def rows(self, channels: list, cells_at, place: dict | None = None) -> list:
+        """A row per channel of these numbers, damping ratio and frequency, with the cells that `cells_at` has of its place
+        among them; `place`: cells in front."""
+        return [{**(place or {}), "channel": self.channels[channel], "damping": f"{ratio:g}",
+                 "frequency": f"{frequency:.9g}", **cells_at((c, d, f))} for c, channel in enumerate(channels)
+                for d, ratio in enumerate(self.damping) for f, frequency in enumerate(self.frequency)]
+
+    @property
+    def bands(self) -> list:
+        """Name of each band of BANDS in which there are frequencies, and which of them are."""
+        inside = {f"{low:g}-{high:g}": (self.frequency >= low) & (self.frequency <= high) for low, high in BANDS}
+        return [(name, which) for name, which in inside.items() if which.any()]
 
 
 @dataclass(frozen=True)

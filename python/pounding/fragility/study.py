@@ -5,6 +5,8 @@ import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import numpy as np
+
 from pounding import UserError
 from pounding.fragility import DISTRIBUTIONS, Variable
 from pounding.mats import Coherence
@@ -194,6 +196,16 @@ class Study:
     @property
     def variables(self) -> list:
         return self.factors + [joint.deviation for joint in self.joints.values() if joint.deviation]
+
+    def deviations(self, drawn: np.ndarray) -> np.ndarray:
+        """Of the joints (samples, joints) [m], of what was drawn of the variables (samples, variables)."""
+        names = [one.name for one in self.variables]
+        return np.stack([drawn[:, names.index(f"{name}_gap")] if joint.deviation else np.zeros(len(drawn))
+                         for name, joint in self.joints.items()], 1)
+
+    def built(self, drawn: np.ndarray) -> np.ndarray:
+        """Least width of the joints at a nominal gap of 0 (samples, joints) [m]."""
+        return self.deviations(drawn) + np.array([min(joint.shape) for joint in self.joints.values()])
 
 
 def standard_frequencies() -> list:
