@@ -66,25 +66,23 @@ def announcement(runs: int, todo: int, jobs: int, ranks: int, what: str = "") ->
 
 def run_side_by_side(waiting: list, jobs: int, start: Callable, ended: Callable, look: Callable | None = None) -> None:
     """Starts what waits, `jobs` at a time: `start(item)` gives a pounding.runs.Job. Calls `ended(item, job, waiting,
-    running)` for each that ended, and `look(waiting, running)` ten times a second; `running` holds jobs. Stops what
-    it started if it is interrupted."""
-    waiting, running, item_of = list(waiting), [], {}
+    running)` for each that ended, and `look(waiting, running)` ten times a second; `running` holds items with their jobs.
+    Stops what it started if it is interrupted."""
+    waiting, running = list(waiting), []
     try:
         while waiting or running:
             while waiting and len(running) < jobs:
                 item = waiting.pop(0)
                 with interrupts_held():
-                    job = start(item)
-                    running.append(job)
-                    item_of[job] = item
+                    running.append((item, start(item)))
             if look:
                 look(waiting, running)
             time.sleep(0.1)
-            for job in [job for job in running if not job.running]:
-                running.remove(job)
-                ended(item_of[job], job, waiting, running)
+            for item, job in [one for one in running if not one[1].running]:
+                running = [one for one in running if one[1] is not job]
+                ended(item, job, waiting, running)
     finally:
-        for job in running:
+        for _, job in running:
             job.stop()
 
 

@@ -88,25 +88,18 @@ def run_all(cases: list, root: Path, jobs: int, ranks: int, keep_histories: bool
                if not (run_of(case, root).is_finished() and harvest.is_complete(case, root / case.name))]
     say(f"campaign: {announcement(len(cases), len(waiting), jobs, ranks)}; results in {root}")
     variables, clock, total = environment(), Clock(jobs), len(waiting)
-    case_of, finished = {}, []
+    finished = []
     prepare_bases(waiting, variables)
-
-    def start(case: Case) -> Job:
-        job = run_of(case, root).start(ranks, variables)
-        case_of[job] = case
-        return job
-
-    def now(running: list) -> list:
-        return [(case_of[job], job) for job in running]
 
     def ended(case: Case, job: Job, left: list, running: list) -> None:
         failures[case] = job.outcome() or close(case, root, keep_histories)
         finished.append(case)
         clock.add(case.model, job.wall_time)
         result = failures[case] or harvest.one_line(root / case.name)
-        say(f"  {len(finished)}/{total}  {case.name}: {result}; {job.wall_time:.0f} s; {clock.left(left, now(running))}")
+        say(f"  {len(finished)}/{total}  {case.name}: {result}; {job.wall_time:.0f} s; {clock.left(left, running)}")
 
-    run_side_by_side(waiting, jobs, start, ended, lambda left, running: show_running(now(running), clock.left(left, now(running))))
+    run_side_by_side(waiting, jobs, lambda case: run_of(case, root).start(ranks, variables), ended,
+                     lambda left, running: show_running(running, clock.left(left, running)))
     return failures
 
 
