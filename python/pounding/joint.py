@@ -94,9 +94,6 @@ def by_elevation(outcomes, elevations=None, members=None, built=None, torsion: f
     return rows
 
 
-def first_of(rows: list) -> dict:
-    """The row in which most members come nearest to touching; of equal ones the one with the larger ratio."""
-    return max(rows, key=lambda row: (row["first"], row["ratio"]))
 
 
 def write(folder: Path, runs: dict) -> None:

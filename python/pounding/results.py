@@ -245,9 +245,7 @@ def low_pass(values, time, frequency: float):
     from scipy import signal
     cut = np.arctan(np.tan(np.pi * frequency * interval) / (np.sqrt(2) - 1) ** 0.25) / np.pi
     b, a = signal.butter(2, 2 * cut)
-    start = signal.lfilter_zi(b, a)
-    forth = signal.lfilter(b, a, values, zi=start * values[0])[0]
-    return signal.lfilter(b, a, forth[::-1], zi=start * forth[-1])[0][::-1]
+    return signal.filtfilt(b, a, values, padlen=0)
 
 
 # What damaged files make of their readers.

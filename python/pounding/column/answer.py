@@ -4,10 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pounding.motion_signals import Signal
-
 from .column_file import Ground
-from .iteration import Found, Soil, iterate
+from .iteration import Soil, iterate
 from .waves import Column, Given, Waves
 
 LARGE_STRAIN = 0.01  # beyond which equivalent linear ground is doubted

@@ -263,23 +263,7 @@ def correlations(signals: list) -> np.ndarray:
     """Correlation coefficients (n, n) of signals with the same time step; the ground stands still behind the end of
     shorter ones."""
     length = max(map(len, signals))
-    rows = np.array([np.pad(np.asarray(one, float), (0, length - len(one))) for one in signals])
-    rows -= rows.mean(1, keepdims=True)
-    norm = np.sqrt((rows**2).sum(1))
-    return rows @ rows.T / np.outer(norm, norm)
-
-
-def independent(signals, limit: float, wanted: int) -> list:
-    """Indices of the first `wanted` of an iterable of signals whose correlation with each one taken before is below the
-    limit in absolute value; fewer if they run out."""
-    taken, kept = [], []
-    for index, signal in enumerate(signals):
-        if all(abs(correlations([signal, other])[0, 1]) < limit for other in kept):
-            taken.append(index)
-            kept.append(signal)
-        if len(taken) == wanted:
-            break
-    return taken
+    return np.atleast_2d(np.corrcoef([np.pad(np.asarray(one, float), (0, length - len(one))) for one in signals]))
 
 
 def hclpf(medians: list, betas: list, uncertainty: float | None = None) -> dict:

@@ -128,7 +128,7 @@ def table(rows: list, levels: list, one) -> str:
             lines.append((span, level, "largest at [s]", *(row.get("time [s]", "") for row in mine)))
             lines.append((span, level, "largest in", *(", ".join([str(row[key]) for key in ("soil", "state") if row.get(key, ALONE) != ALONE]
                                                                  + [f"#{row['sample']}"]) if "sample" in row else "" for row in mine)))
-    return html_table(f"#: sample of motion. Mean, 84 % and largest of the samples, each the largest over soils and states",
+    return html_table("#: sample of motion. Mean, 84 % and largest of the samples, each the largest over soils and states",
                       head, lines, text=(0, 2)) if rows else ""
 
 

@@ -63,7 +63,6 @@ class BlockFit:
     damping: float  # the same of the fit, from the first frequency to the last
     damping_at: float  # Hz
     margin: float  # least eigenvalue of the real part of S / (i omega) at any frequency, over the usual largest one of the table
-    margin_at: float  # Hz
 
     @property
     def names(self) -> str:
@@ -205,8 +204,7 @@ class Block:
         inside = (everywhere >= first) & (everywhere <= last)
         damping = numpy.linalg.eigvalsh((values.imag / sizes_of(values))[inside])[:, 0]
         return BlockFit(self.motions, self.table.mats, cells, (abs(miss) / sizes_of(wanted)).max(axis=(1, 2)), float(table[:, 0].min()),
-                        float(damping.min()), float(everywhere[inside][damping.argmin()]), float(margin.min()),
-                        float(everywhere[margin.argmin()]))
+                        float(damping.min()), float(everywhere[inside][damping.argmin()]), float(margin.min()))
 
 
 def fit(table: Impedances) -> tuple:

@@ -11,7 +11,6 @@ from pounding.tables import leave, markdown, write_rows
 
 from .ensembles import timed
 from .shapes import BEAM, SHAPES, SHELL, SOLID, Shape
-from .workers import run_program
 
 MEMBERS = 8
 STEPS = 100, 600
