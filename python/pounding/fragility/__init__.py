@@ -43,6 +43,15 @@ def moments(values: np.ndarray, confidence: float = 0.95) -> Moments:
     return Moments(count, mean, median, low, high, cov, log_deviation, half_width, values.max(0))
 
 
+def of_worst(each: dict) -> tuple:
+    """Mean, 84 % and largest of values of samples by condition, each of the condition in which it is largest; the condition and the
+    sample of the last."""
+    at = max(each, key=lambda condition: each[condition].max())
+    sample = int(each[at].argmax())
+    return {"mean": float(max(values.mean() for values in each.values())),
+            "84 %": float(max(np.quantile(values, 0.84) for values in each.values())), "largest": float(each[at][sample])}, at, sample
+
+
 def members_needed(spread, tolerance: float, confidence: float) -> np.ndarray:
     """Smallest n at which the mean is known within `tolerance` of itself: (z spread / tolerance)^2, rounded up;
     `spread`: coefficients of variation. For the mean of logarithms give their deviation, and ln(1 + tolerance)."""

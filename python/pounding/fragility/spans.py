@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from pounding import UserError, load
-from pounding.fragility import moments, widened
+from pounding.fragility import moments, of_worst, widened
 from pounding.plot.markup import html_table
 from pounding.plot.style import WIDTH, WITH, WITHOUT, log_scale, plt, save
 from pounding.results import DIRECTIONS
@@ -88,15 +88,12 @@ def rows_of(analyses: dict, gap: float) -> list:
     for number, span in enumerate(first.outcomes.spans):
         for level in first.study.levels:
             for k, motion in enumerate(MOTIONS):
-                of = {cell: [one.outcomes.span_peak[one.of(cell, level), number, k] for one in analyses.values()] for cell in (gap, None)}
-                at = int(np.argmax([values.max() for values in of[gap]]))
-                condition, one = list(analyses.items())[at]
-                sample = int(of[gap][at].argmax())
-                row = {"span": span, "pga [m/s2]": level, "motion": f"{motion} [{unit_of(motion)}]",
-                       "mean": float(max(values.mean() for values in of[gap])),
-                       "84 %": float(max(np.quantile(values, 0.84) for values in of[gap])), "largest": float(of[gap][at].max()),
-                       "apart 84 %": float(max(np.quantile(values, 0.84) for values in of[None])),
-                       "apart largest": float(max(values.max() for values in of[None]))}
+                (found, condition, sample), (apart, *_) = (
+                    of_worst({name: one.outcomes.span_peak[one.of(cell, level), number, k] for name, one in analyses.items()})
+                    for cell in (gap, None))
+                one = analyses[condition]
+                row = {"span": span, "pga [m/s2]": level, "motion": f"{motion} [{unit_of(motion)}]", **found,
+                       "apart 84 %": apart["84 %"], "apart largest": apart["largest"]}
                 length = max(one.outcomes.span_peak[one.of(gap, level), number, 4 * (k // 4) + 3].max() for one in analyses.values())
                 moves = row["largest"] > ROUND_OFF * length
                 rows.append(row | ({"time [s]": float(one.outcomes.span_time[one.of(gap, level)[sample], number, k]), "sample": sample,

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from pounding import UserError
+from pounding.fragility import of_worst
 from pounding.stability import CRITERIA, FORCES, MOTIONS, WORST, Found, found, instant_rows, read as read_mats, resolve, safe_name
 from pounding.tables import write_csv
 
@@ -146,12 +147,10 @@ def moved_rows(analyses: dict, gap: float) -> list:
             for level in first.study.levels:
                 for cell, words in ((gap, first.study.joint_named(gap)), (None, "apart")):
                     each = {condition: of_members(one.outcomes)[one.of(cell, level)] for condition, one in analyses.items()}
-                    at = max(each, key=lambda condition: each[condition].max())
-                    sample = int(each[at].argmax())
+                    found, at, sample = of_worst(each)
                     rows.append({"mat": name, "criterion": motion, "pga [m/s2]": level, "runs": words,
-                                 "mean [m]": float(max(values.mean() for values in each.values())),
-                                 "84 % [m]": float(max(np.quantile(values, 0.84) for values in each.values())),
-                                 "largest [m]": float(each[at][sample]), "sample": sample, "motions": motions_of(analyses[at], sample), **place_of(at)})
+                                 **{f"{key} [m]": value for key, value in found.items()}, "sample": sample,
+                                 "motions": motions_of(analyses[at], sample), **place_of(at)})
     return rows
 
 

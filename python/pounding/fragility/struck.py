@@ -4,8 +4,7 @@ strengths; over soils and states the largest, and doubts where one is above its 
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
+from pounding.fragility import of_worst
 from pounding.struck import STRENGTHS, Strengths, Window, beside, placed, read_strengths
 from pounding.tables import write_csv
 
@@ -53,11 +52,9 @@ def rows_of(analyses: dict, gap: float) -> list:
             for level in study.levels:
                 each = {condition: one.outcomes.struck[one.of(gap, level), c, w] for condition, one in analyses.items()}
                 means = {condition: values[:, 0] / window.size for condition, values in each.items()}
-                at = max(means, key=lambda condition: means[condition].max())
-                sample, high = int(means[at].argmax()), float(max(np.quantile(values, 0.84) for values in means.values()))
-                row = {"contact": contact, "over": window.name, "unit": window.unit, "pga [m/s2]": level,
-                       "mean": float(max(values.mean() for values in means.values())), "84 %": high,
-                       "largest": float(means[at][sample]), **beside(strength, high, "84 %"), **beside(strength, means[at][sample])}
+                found, at, sample = of_worst(means)
+                row = {"contact": contact, "over": window.name, "unit": window.unit, "pga [m/s2]": level, **found,
+                       **beside(strength, found["84 %"], "84 %"), **beside(strength, means[at][sample])}
                 if row["largest"] > 0:
                     row |= {**placed(each[at][sample]), "sample": sample, "motions": motions_of(analyses[at], sample), **place_of(at)}
                 rows.append(row)
