@@ -67,7 +67,9 @@ def load_ensemble(folder) -> Ensemble:
         with h5py.File(path, "r") as file:
             require_schema(path.name, file.attrs)
             table = file["members/table"]
-            _check_numbers(path, file)
+            for member in damaged(file)[:1]:
+                raise ResultError(f"{path}: the numbers of member {member + 1} are not those written; the same command "
+                                  "(-ensemble) steps it again")
             contacts = _words(file["impacts/contacts"]) if "impacts/contacts" in file else []
             none, has_forces = np.zeros((table.shape[0], 0)), "forces" in file
             return Ensemble(
@@ -82,17 +84,16 @@ def load_ensemble(folder) -> Ensemble:
         raise ResultError(f"{path}: no ensemble that can be read ({' '.join(str(error).split())})") from None
 
 
-def _check_numbers(path, file):
-    """Every member that is done has the numbers that were written: their CRC-32 stands beside it."""
-    sums = file["members/crc32"]
+def damaged(file) -> list:
+    """Members said to be done whose numbers are not those written: their CRC-32 stands beside them."""
+    sums, found = file["members/crc32"], []
     names = str(_text(sums.attrs["of"])).split(",")
     for member in np.flatnonzero(file["done"][:] == 1):
-        found = 0
+        crc = 0
         for name in names:
-            found = zlib.crc32(np.ascontiguousarray(file[name][member]).tobytes(), found)
-        if found != sums[member]:
-            raise ResultError(f"{path}: the numbers of member {member + 1} are not those written; the same command "
-                              "(-ensemble) steps it again")
+            crc = zlib.crc32(np.ascontiguousarray(file[name][member]).tobytes(), crc)
+        found += [int(member)] if crc != sums[member] else []
+    return found
 
 
 def _text(value) -> str:

@@ -5,9 +5,11 @@ import shutil
 import sys
 import tempfile
 import unittest
+import zlib
 from pathlib import Path
 from types import SimpleNamespace
 
+import h5py
 import numpy as np
 import program
 from scipy import stats
@@ -15,7 +17,7 @@ from scipy import stats
 sys.path.insert(0, os.path.join(program.SOURCE, "python"))
 sys.path.insert(0, os.path.join(program.SOURCE, "python"))
 sys.dont_write_bytecode = True
-from pounding.fragility import figures, report, study  # noqa: E402
+from pounding.fragility import figures, outcomes, report, study  # noqa: E402
 from pounding.plot import answer  # noqa: E402
 from pounding import fragility  # noqa: E402
 
@@ -205,6 +207,21 @@ class Samples(unittest.TestCase):
         mixed = 0.3 * first + second
         self.assertAlmostEqual(fragility.correlations([first, mixed])[0, 1], 0.3 / np.sqrt(1.09), delta=0.03)
         self.assertAlmostEqual(fragility.correlations([first, first[:2000]])[0, 1], np.sqrt(0.5), delta=0.03)
+
+
+class FileOfAnEnsemble(unittest.TestCase):
+    def test_members_whose_numbers_are_not_those_written_count_as_not_run(self):
+        path, gaps = Path(tempfile.mkdtemp(prefix="pounding-")) / "ensemble.h5", np.array([[0.01], [0.02], [0.03]])
+        with h5py.File(path, "w") as file:
+            table = file.create_dataset("members/table", data=np.array([[b"1"], [b"2"], [b"3"]]))
+            table.attrs["columns"] = "seed"
+            file["done"], file["gaps/smallest"] = np.ones(3, "i4"), gaps
+            sums = file.create_dataset("members/crc32", data=np.array([zlib.crc32(row.tobytes()) for row in gaps], np.uint32))
+            sums.attrs["of"] = "gaps/smallest"
+        self.assertEqual(outcomes.read_rows(path), (["seed"], {("1",): 0, ("2",): 1, ("3",): 2}))
+        with h5py.File(path, "r+") as file:
+            file["gaps/smallest"][1] = 0.021
+        self.assertEqual(outcomes.read_rows(path), (["seed"], {("1",): 0, ("3",): 2}))
 
 
 class OneLevel(unittest.TestCase):

@@ -10,6 +10,7 @@ import h5py
 import numpy as np
 
 from pounding import UserError
+from pounding.ensembles import damaged
 from pounding.files import written_beside
 from pounding.results import UNREADABLE, Result
 from pounding.spans import MOTIONS
@@ -120,14 +121,16 @@ def _reading(path: Path):
 
 
 def read_rows(path: Path) -> tuple:
-    """Columns, and of each finished member its texts -> its number in the file. Throws UserError."""
+    """Columns, and of each finished member its texts -> its number in the file; one whose numbers are not those written counts as
+    not run. Throws UserError."""
     with _reading(path) as file:
         table = file["members/table"]
         columns = _texts(table.attrs["columns"])[0].split(",")
         cells, done = np.array(_texts(table[()])).reshape(-1, len(columns)), np.ravel(file["done"][()])
         if len(cells) != len(done):
             raise ValueError("a flag for each member is missing")
-    return columns, {tuple(row): index for index, row in enumerate(cells) if done[index]}
+        lost = set(damaged(file) if "members/crc32" in file else ())
+    return columns, {tuple(row): index for index, row in enumerate(cells) if done[index] == 1 and index not in lost}
 
 
 def time_steps(path: Path) -> list:
