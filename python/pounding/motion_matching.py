@@ -7,7 +7,6 @@ those that stay too low weighing more from turn to turn, beside rows that hold t
 """
 
 import argparse
-import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -16,9 +15,10 @@ import numpy as np
 from scipy.linalg import expm
 from scipy.signal import lfilter
 
+from .arguments import positive
 from .files import write_text
 from .motion_kinds import KINDS, SPECTRAL, Bench, Motion, acceleration, own_target
-from .motion_rules import DIRECTIONS, REFUSED, is_accepted, judge, lines_of, motions_of, read_rules, source_of, table_of
+from .motion_rules import REFUSED, directions_of, is_accepted, judge, lines_of, motions_of, read_rules, source_of, table_of
 from .motion_signals import STRONG, MotionError, Signal, correlation, mean_around, read_signals, response_spectra
 
 POINTS_A_CYCLE = 10  # of the highest frequency, at which motions are sampled
@@ -373,15 +373,6 @@ def text_of(one: Matched, about: str) -> str:
     return f"# {about}\ntime s,acceleration m/s2\n" + "".join(f"{time:.9g},{value:.12g}\n" for time, value in rows)
 
 
-def _number(name: str, least: float = 0.0) -> Callable:
-    def read(text: str) -> float:
-        value = float(text)
-        if not least < value < np.inf:
-            raise argparse.ArgumentTypeError(f"{text} is not a number above {least:g}")
-        return value
-
-    read.__name__ = name
-    return read
 
 
 def arguments(parser: argparse.ArgumentParser) -> argparse.ArgumentParser:
@@ -393,15 +384,15 @@ def arguments(parser: argparse.ArgumentParser) -> argparse.ArgumentParser:
     parser.add_argument("--unit", metavar="UNIT", help="of the records (default: as their headers say)")
     parser.add_argument("--columns", metavar="N,...", help="columns of the records")
     parser.add_argument("--time-step", metavar="S", help="of the records (default: as they say)")
-    parser.add_argument("--scale", metavar="F", type=_number("scale"),
+    parser.add_argument("--scale", metavar="F", type=positive(float),
                         help="factor on every record (default: of each, by its spectrum at the lowest frequencies)")
-    parser.add_argument("--aim", metavar="F", type=_number("aim"), default=1.06, help="times the target that is sought (default: 1.06)")
+    parser.add_argument("--aim", metavar="F", type=positive(float), default=1.06, help="times the target that is sought (default: 1.06)")
     parser.add_argument("--turns", metavar="N", type=int, default=40, help="at most (default: 40)")
-    parser.add_argument("--peak-displacement", metavar="PERCENT", type=_number("percent"), default=5.0,
+    parser.add_argument("--peak-displacement", metavar="PERCENT", type=positive(float), default=5.0,
                         help="off that of the scaled record (default: 5)")
-    parser.add_argument("--final-displacement", metavar="MM", type=_number("mm"), default=1.0,
+    parser.add_argument("--final-displacement", metavar="MM", type=positive(float), default=1.0,
                         help="off that of the scaled record (default: 1)")
-    parser.add_argument("--correlation", metavar="R", type=_number("correlation"), default=0.16, help="of components (default: .16)")
+    parser.add_argument("--correlation", metavar="R", type=positive(float), default=0.16, help="of components (default: .16)")
     parser.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder of the matched components and tables")
     return parser
 
@@ -414,8 +405,8 @@ def carry_out(options: argparse.Namespace) -> int:
     reading = [word for name in ("unit", "columns", "time_step") if (value := getattr(options, name))
                for word in (f"--{name.replace('_', '-')}", value)]
     signals = read_signals([*options.files, *reading])
-    directions = re.sub(r"[\s,]", "", options.directions or "xyz"[:len(signals)])
-    if set(directions) - set(DIRECTIONS) or len(directions) != len(set(directions)) or len(directions) != len(signals):
+    directions = directions_of(options.directions, len(signals))
+    if len(directions) != len(signals):
         raise MotionError(f"--directions {options.directions or directions}: not one of x, y and z for each of {len(signals)} components")
     motion = motions_of(signals, directions)[0]
     found = match_motion(motion, rules, anchor, limits, options.scale, options.aim, options.turns)

@@ -9,6 +9,7 @@ docs/manual/motions.md lists kinds and columns; petsc-options/rules has tables t
 
 import argparse
 import csv
+import io
 import os
 import re
 import sys
@@ -51,6 +52,14 @@ def motions_of(signals: list, directions: str) -> list:
     names = [_shared_name([one.name for one in part.values()]) for part in parts]
     return [Motion(name if names.count(name) == 1 else f"{name} (motion {number})", part)
             for number, (name, part) in enumerate(zip(names, parts), 1)]
+
+
+def directions_of(text: str | None, count: int) -> str:
+    """The directions of a text as x,y; the first `count` of x, y and z where there is none. Throws MotionError."""
+    directions = re.sub(r"[\s,]", "", text or "xyz"[:count])
+    if set(directions) - set(DIRECTIONS) or len(set(directions)) < len(directions):
+        raise MotionError(f"--directions {text}: not different ones of x, y and z")
+    return directions
 
 
 def _shared_name(names: list) -> str:
@@ -210,15 +219,16 @@ def lines_of(verdicts: list, source: str) -> list:
 def table_of(verdicts: list) -> str:
     """The verdicts as a CSV file, a row for each rule."""
     def cell(value) -> str:
-        text = "" if value is None or value != value else f"{value:.9g}" if isinstance(value, float) else str(value)
-        return f'"{text}"' if "," in text else text
+        return "" if value is None or value != value else f"{value:.9g}" if isinstance(value, float) else str(value)
 
     rows = [("rule", "kind", "number", "unit", "least", "most", "motion", "component", "frequency_hz", "time_s", "looked_at", "refused",
              "verdict")]
     rows += [(one.rule.name, one.rule.kind, float(one.worst.number), KINDS[one.rule.kind].unit,
               *(value if np.isfinite(value) else None for value in (one.rule.least, one.rule.most)), one.worst.motion, one.worst.component,
               one.worst.frequency, one.worst.time, one.looked_at, len(one.refused), one.word) for one in verdicts]
-    return "".join(",".join(map(cell, row)) + "\n" for row in rows)
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(map(cell, row) for row in rows)
+    return text.getvalue()
 
 
 def write_table(path: Path, text: str) -> None:
@@ -241,10 +251,7 @@ def main(words: list) -> int:
     rules = read_rules(options.accept)
     anchor = acceleration(options.anchor) if options.anchor else None
     signals = read_signals(reading, program)
-    directions = re.sub(r"[\s,]", "", options.directions or "xyz"[:len(signals)])
-    if set(directions) - set(DIRECTIONS) or len(set(directions)) < len(directions):
-        raise MotionError(f"--directions {options.directions}: not different ones of x, y and z")
-    verdicts = judge(rules, motions_of(signals, directions), anchor, program)
+    verdicts = judge(rules, motions_of(signals, directions_of(options.directions, len(signals))), anchor, program)
     if options.output:
         write_table(Path(options.output), table_of(verdicts))
     print("\n".join(lines_of(verdicts, source_of(options.accept))))

@@ -1,5 +1,6 @@
 """Rules that accept and refuse motions: each kind on motions made for it, the targets' numbers, spectra and strong parts
 beside computations of the test's own, and wrong use."""
+import csv
 import math
 import os
 import subprocess
@@ -327,6 +328,14 @@ class Command(Case):
         self.assertEqual((done.returncode, done.stderr), (3, ""))
         self.assertIn("refused by pair", done.stdout)
         self.assertEqual(program.read_csv(table)["verdict"], ["holds", "refused"])
+
+    def test_names_with_quotation_marks_come_back(self):
+        rules = self.folder / "quoted.csv"
+        rules.write_text('name,kind,least\n"the ""long"" one, first",length,20\n')
+        table = self.folder / "quoted-verdicts.csv"
+        self.assertEqual(self.accept(rules, *self.files, "--output", table).returncode, 0)
+        with open(table, newline="") as file:
+            self.assertEqual([row["rule"] for row in csv.DictReader(file)], ['the "long" one, first'])
 
     def test_sets_and_directions(self):
         rules = self.table({"name": "two", "kind": "motions", "least": 2})
