@@ -175,6 +175,12 @@ class Report(unittest.TestCase):
         run = pounding.results.Result(self.wide.folder, {**self.wide.summary, "contacts": uneven}, history)
         self.assertAlmostEqual(run.closing_factors()["wide"], 0.050 / (0.050 - 0.0121), delta=1e-12)
 
+    def test_a_closed_joint_that_opens_alone(self):
+        history = {"time": numpy.array([0.0, 1.0]), "contacts": ["closed"], "gap": numpy.array([[0.0], [0.001]])}
+        summary = {**self.wide.summary, "contacts": {"closed": {"initial_gap": [0.0, 0.0]}}}
+        said = " ".join(answer.sentences(pounding.results.Result(self.wide.folder, summary, history), None))
+        self.assertIn("The smallest gap was 0 mm at closed at 0 s, of 0 mm at rest: the joint closed by 0 mm.", said)
+
     def test_a_run_with_a_wide_joint_is_a_run_without_pounding(self):
         found, why = twin.find(self.hit, self.place / "wide")
         self.assertEqual((found.folder.name, why), ("wide", ""))

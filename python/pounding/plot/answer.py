@@ -8,9 +8,10 @@ import numpy as np
 from pounding.results import DIRECTIONS, GROUND, Missing, Result
 from . import equipment
 from . import twin as twins
+from .contact_figures import draw_gap
 from .markup import answer_box, readable
 from .spectra_figures import draw_spectrum
-from .style import WIDTH, contact_colour, legend_above, plot_series, plt, save
+from .style import WIDTH, plt, save
 
 HEARD = 0.05  # of the largest floor spectrum of the run: what is below it is not looked at
 FELT = 0.01   # of the largest one without pounding: below it nothing moved, and a ratio says nothing
@@ -209,7 +210,7 @@ def _apart(run: Result) -> list:
         gap, time, rest = gaps[name]
         closing = run.closings()[name]
         lines.append(f"The smallest gap was {_millimetres(gap)} at {name} at {time:.4g} s, of {_millimetres(rest)} at rest: "
-                     f"the joint closed by {_millimetres(closing)}, and {100 * gap / rest:.3g} % of it is left.")
+                     f"the joint closed by {_millimetres(closing)}" + (f", and {100 * gap / rest:.3g} % of it is left." if rest > 0 else "."))
         factors = run.closing_factors()
         if factors:
             first = min(factors, key=factors.get)
@@ -311,22 +312,6 @@ def html(run: Result, twin: Result | None, why: str) -> str:
     return answer_box(lines, touched(run), command) if lines else ""
 
 
-def _gap(axes, result: Result, name: str) -> None:
-    time, gap = result.history["time"], 1e3 * result.history["gap"][:, result.contacts.index(name)]
-    known = np.isfinite(gap)
-    plot_series(axes, time[known], gap[known], lw=0.9, color=contact_colour(result.contacts, name))
-    axes.axhline(0, color="black", lw=0.8)
-    impacts = result.impacts
-    own = impacts["contact"].astype(str) == name if impacts and len(impacts["start"]) else np.array([])
-    if own.any():
-        size = 14 + 120 * impacts["impulse"][own] / impacts["impulse"].max()
-        axes.scatter(impacts["start"][own], np.zeros(own.sum()), s=size, marker="v", color="#C0392B", alpha=0.75, lw=0,
-                     zorder=3, label="impact (size: impulse)")
-        legend_above(axes)
-        axes.set_title(f"{name}: {own.sum()} impact{'' if own.sum() == 1 else 's'}")
-    else:
-        axes.set_title(f"{name}: smallest gap {np.min(gap[known]):.3g} mm")
-    axes.set(xlabel="time [s]", ylabel="gap [mm]")
 
 
 def _across(result: Result, name: str | None) -> tuple:
@@ -356,7 +341,8 @@ def picture(result: Result) -> list:
     figure, panels = plt.subplots(1, 2 if name and floor else 1, figsize=(WIDTH, 3.5), squeeze=False)
     panels = list(panels[0])
     if name:
-        _gap(panels[0], result, name)
+        least, count = draw_gap(panels[0], result, name, 14, 120)
+        panels[0].set(title=f"{name}: {plural(count, 'impact') if count else f'smallest gap {least:.3g} mm'}", xlabel="time [s]")
     if floor:
         probe, way, damping = floor
         draw_spectrum(panels[-1], result, probe, way, [damping], in_g=True)

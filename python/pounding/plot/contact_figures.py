@@ -22,25 +22,30 @@ def _impacts(result: Result) -> dict:
     return result.impacts
 
 
+def draw_gap(axes, result: Result, name: str, least: float, more: float) -> tuple:
+    """The gap of a contact over time with its impacts, whose marks have these areas [points squared]. Returns its smallest gap [mm] and how
+    often it is hit."""
+    time, gap, impacts = result.history["time"], 1e3 * result.history["gap"][:, result.contacts.index(name)], result.impacts
+    known = np.isfinite(gap)
+    plot_series(axes, time[known], gap[known], lw=0.9, color=contact_colour(_names(result), name))
+    axes.axhline(0, color="black", lw=0.8)
+    axes.set_ylabel("gap [mm]")
+    own = impacts["contact"].astype(str) == name if impacts else np.array([])
+    if own.any():
+        size = least + more * impacts["impulse"][own] / max(impacts["impulse"].max(), 1e-300)
+        axes.scatter(impacts["start"][own], np.zeros(own.sum()), s=size, marker="v", color="#C0392B", alpha=0.75, lw=0,
+                     zorder=3, label="impact (size: impulse)")
+        legend_above(axes)
+    return np.min(gap[known]), int(own.sum())
+
+
 def gaps(result: Result) -> list:
     result.need("gap", "contacts")
-    time, impacts = result.history["time"], result.impacts
     figure, rows = stacked(len(result.contacts), 2.1)
-    for i, (axes, name) in enumerate(zip(rows, result.contacts)):
-        gap = 1e3 * result.history["gap"][:, i]
-        known = np.isfinite(gap)
-        plot_series(axes, time[known], gap[known], lw=0.9, color=contact_colour(_names(result), name))
-        axes.axhline(0, color="black", lw=0.8)
-        title = f"{name}: smallest gap {np.min(gap[known]):.3g} mm"
-        if impacts:
-            own = impacts["contact"].astype(str) == name
-            title += f", {own.sum()} impact{'' if own.sum() == 1 else 's'}"
-            if own.any():
-                size = 12 + 90 * impacts["impulse"][own] / max(impacts["impulse"].max(), 1e-300)
-                axes.scatter(impacts["start"][own], np.zeros(own.sum()), s=size, marker="v", color="#C0392B",
-                             alpha=0.75, lw=0, zorder=3, label="impact (size: impulse)")
-                legend_above(axes)
-        axes.set(title=title, ylabel="gap [mm]")
+    for axes, name in zip(rows, result.contacts):
+        least, count = draw_gap(axes, result, name, 12, 90)
+        hits = f", {count} impact{'' if count == 1 else 's'}" if result.impacts else ""
+        axes.set_title(f"{name}: smallest gap {least:.3g} mm{hits}")
     rows[-1].set_xlabel("time [s]")
     return save(figure, result.folder, "gap.png", "Gap",
                 "Smallest gap over the faces of each contact; positive when open.")
