@@ -270,8 +270,7 @@ class Reader(Reading):
             for text in fields:
                 if not text:
                     continue
-                found = None if is_whole_number(text) else inner.find(table, text.upper()) or self.deck.find(table,
-                                                                                                      text.upper())
+                found = self._named(table, text.upper(), inner)
                 if found is None and table == "node_sets" and is_whole_number(text) and inner.find("nodes", int(text)) is None:
                     self.model.said.append(f"{place}: node {text} of set {block.name(key)} is not in the deck")
                 else:
@@ -289,11 +288,18 @@ class Reader(Reading):
     def _read_elset(self, block: Block, scope: Scope, _motion: Motion) -> None:
         self._read_set(block, scope, "element_sets", "ELSET", self._element)
 
+    def _find(self, table: str, key, scope: Scope):
+        """What a scope has of a table, else the deck; None where neither has."""
+        found = scope.find(table, key)
+        return found if found is not None else self.deck.find(table, key)
+
+    def _named(self, table: str, name: str, scope: Scope):
+        """A set or surface by its name; numbers are those of nodes and elements."""
+        return None if is_whole_number(name) else self._find(table, name, scope)
+
     def node(self, text, scope: Scope, place: str) -> int:
         """Number in the model of a node by its number, or INSTANCE.number. Throws InputFault."""
-        key = int(text) if is_whole_number(str(text)) else str(text).upper()
-        found = scope.find("nodes", key)
-        found = found if found is not None else self.deck.find("nodes", key)
+        found = self._find("nodes", int(text) if is_whole_number(str(text)) else str(text).upper(), scope)
         if found is None:
             raise InputFault(f"{place}: node {text} is not in the deck")
         return found
@@ -307,20 +313,18 @@ class Reader(Reading):
     def nodes_of(self, text: str, scope: Scope, place: str) -> list:
         """Nodes of a set, or the one of that number."""
         name = str(text).strip('"').upper()
-        for one in (scope, self.deck):
-            found = None if is_whole_number(name) else one.find("node_sets", name)
-            if found is not None:
-                return found
+        found = self._named("node_sets", name, scope)
+        if found is not None:
+            return found
         if is_whole_number(name) or is_whole_number(name.rpartition(".")[2]):
             return [self.node(name, scope, place)]
         raise InputFault(f"{place}: node set {text} is not in the deck")
 
     def elements_of(self, text: str, scope: Scope, place: str) -> list:
         name = str(text).strip('"').upper()
-        for one in (scope, self.deck):
-            found = None if is_whole_number(name) else one.find("element_sets", name)
-            if found is not None:
-                return found
+        found = self._named("element_sets", name, scope)
+        if found is not None:
+            return found
         if is_whole_number(name):
             return [self._element(name, scope, place)]
         raise InputFault(f"{place}: element set {text} is not in the deck")
@@ -355,11 +359,8 @@ class Reader(Reading):
             self.model.node_sets.setdefault(full, nodes)
 
     def surface_nodes(self, name: str, scope: Scope, place: str) -> list:
-        for one in (scope, self.deck):
-            found = one.find("surfaces", name)
-            if found is not None:
-                return found
-        return self.nodes_of(name, scope, place)
+        found = self._find("surfaces", name, scope)
+        return found if found is not None else self.nodes_of(name, scope, place)
 
     # Local axes.
 
@@ -426,6 +427,15 @@ class Reader(Reading):
 
     # Points and springs.
 
+    def _point_elements(self, block: Block, scope: Scope, begin: str) -> list:
+        """Elements of a block's set, which have to be points or springs whose types begin so. They have a value then."""
+        raws = self.elements_of(block.name("ELSET"), scope, block.place)
+        for raw in raws:
+            if raw.type not in POINTS or not raw.type.startswith(begin):
+                raise InputFault(f"{block.place}: *{block.keyword} of element {raw.number}, which is a {raw.type}")
+        self.valued |= {id(raw) for raw in raws}
+        return raws
+
     def _mass(self, block: Block, scope: Scope, _motion) -> bool | None:
         wanted = "MASS" if block.keyword == "MASS" else "ROTARYI"
         if not block.data:
@@ -436,10 +446,7 @@ class Reader(Reading):
             self.valued |= {id(raw) for raw in self.elements_of(block.name("ELSET"), scope, block.place)}
             return self.lose_block(block, "masses are the same along all axes, inertias about the global ones")
         name = block.name("ELSET")
-        for raw in self.elements_of(name, scope, block.place):
-            if raw.type != wanted:
-                raise InputFault(f"{block.place}: *{block.keyword} of element {raw.number}, which is a {raw.type}")
-            self.valued.add(id(raw))
+        for raw in self._point_elements(block, scope, wanted):
             if not self.new(f"*{block.keyword} of element", scope.full(raw.number), values, block.place):
                 continue
             mass = PointMass(raw.nodes[0], values[0], name=name, place=raw.place) if wanted == "MASS" else PointMass(
@@ -465,9 +472,7 @@ class Reader(Reading):
         (where, dofs), (place, fields) = block.data[0], block.data[-1]
         value = numbers(fields[:1], place)[0]
         both = (value, 0.0) if family == "SPRING" else (0.0, value)
-        for raw in raws:
-            if not raw.type.startswith(family):
-                raise InputFault(f"{block.place}: *{family} of element {raw.number}, which is a {raw.type}")
+        for raw in self._point_elements(block, scope, family):
             if not self.new(f"*{family} of element", scope.full(raw.number), (dofs, value), block.place):
                 continue
             if raw.type.endswith("A"):
@@ -490,10 +495,7 @@ class Reader(Reading):
             raise InputFault(f"{block.place}: *GAP has no clearance")
         place, fields = block.data[0]
         values = numbers(fields, place) + [0.0] * 6
-        for raw in self.elements_of(block.name("ELSET"), scope, block.place):
-            if raw.type != "GAPUNI":
-                raise InputFault(f"{block.place}: *GAP of element {raw.number}, which is a {raw.type}")
-            self.valued.add(id(raw))
+        for raw in self._point_elements(block, scope, "GAPUNI"):
             if self.new("*GAP of element", scope.full(raw.number), values, block.place):
                 way = unit(values[1:4]) or axis_between([self.model.nodes[node] for node in raw.nodes], raw.place)
                 self.model.gaps.append(Gap(raw.nodes, way, values[0], values[5], block.name("ELSET"), raw.place))

@@ -3,6 +3,7 @@
 from collections import Counter
 
 import numpy as np
+from scipy.cluster.hierarchy import DisjointSet
 from scipy.spatial import cKDTree
 
 from .geometry import global_components, length, sum_of
@@ -11,30 +12,22 @@ from .model import ALL, BEAMS, SHELL, TRANSLATIONS, Model, Reading
 NEAR = 1e-9  # of the model's size: nodes that coincide
 
 
-class Sets:
+class Sets(DisjointSet):
     """Disjoint sets of nodes."""
 
-    def __init__(self):
-        self.parent: dict = {}
-
     def root(self, node):
-        self.parent.setdefault(node, node)
-        while self.parent[node] != node:
-            self.parent[node] = self.parent[self.parent[node]]
-            node = self.parent[node]
-        return node
+        self.add(node)
+        return self[node]
 
     def join(self, nodes) -> None:
         nodes = list(nodes)
         for node in nodes:
-            self.parent[self.root(node)] = self.root(nodes[0])
+            self.add(node)
+            self.merge(nodes[0], node)
 
     def all(self) -> list:
         """Those of two nodes or more, sorted."""
-        found: dict = {}
-        for node in sorted(self.parent):
-            found.setdefault(self.root(node), []).append(node)
-        return [nodes for nodes in found.values() if len(nodes) > 1]
+        return sorted(sorted(nodes) for nodes in self.subsets() if len(nodes) > 1)
 
 
 def turning_nodes(model: Model) -> set:

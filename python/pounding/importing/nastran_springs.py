@@ -17,15 +17,16 @@ class SpringReader(Reading):
                          "CBUSH": self._bush, "CBUSH1D": self._along, "CVISC": self._along, "CGAP": self._gap, "CONM2": self._mass,
                          "CONM1": self._matrix_mass, "CMASS1": self._scalar_mass, "CMASS2": self._scalar_mass}
 
+    def _property(self, family: str, card: Card) -> tuple:
+        """Number of the property that a card names, its own where it names none, and what the property says."""
+        number = card.int(1, card.int(0))
+        if (family, number) not in self.reader.properties.springs:
+            raise InputFault(f"{card.place}: {family} {number} is not in the deck")
+        return number, self.reader.properties.springs[family, number]
+
     def _scalar(self, card: Card) -> bool | None:
         family = "PELAS" if card.name.startswith("CELAS") else "PDAMP"
-        if card.name.endswith("1"):
-            key = family, card.int(1, card.int(0))
-            if key not in self.reader.properties.springs:
-                raise InputFault(f"{card.place}: {family} {key[1]} is not in the deck")
-            value = self.reader.properties.springs[key]
-        else:
-            value = card.real(1)
+        value = self._property(family, card)[1] if card.name.endswith("1") else card.real(1)
         ends = [(card.int(at), card.int(at + 1, 0)) for at in (2, 4) if card.text(at)]
         if not ends or any(not 1 <= component <= 6 for _, component in ends):
             return self.lose(card.name, "springs act on components of grid points", card.place)
@@ -44,10 +45,7 @@ class SpringReader(Reading):
         return None
 
     def _bush(self, card: Card) -> bool | None:
-        key = "PBUSH", card.int(1, card.int(0))
-        if key not in self.reader.properties.springs:
-            raise InputFault(f"{card.place}: PBUSH {key[1]} is not in the deck")
-        stiffness, dashpot = self.reader.properties.springs[key]
+        number, (stiffness, dashpot) = self._property("PBUSH", card)
         nodes = tuple(card.int(at) for at in (2, 3) if card.text(at))
         if not nodes:
             raise InputFault(f"{card.place}: CBUSH {card.int(0)} has no grid point")
@@ -55,7 +53,7 @@ class SpringReader(Reading):
         way = difference(places[-1], places[0])
         apart = length(way) > 0
         who = f"{card.place}: element {card.int(0)}"
-        name = f"pbush_{key[1]}"
+        name = f"pbush_{number}"
         if card.text(7):
             axes = self.reader.systems.axes_at(card.int(7), places[0], card.place)
         elif not apart:
@@ -94,35 +92,28 @@ class SpringReader(Reading):
     def _along(self, card: Card) -> bool | None:
         """A spring or a dashpot along the line of two grid points."""
         family = "PVISC" if card.name == "CVISC" else "PBUSH1D"
-        key = family, card.int(1, card.int(0))
-        if key not in self.reader.properties.springs:
-            raise InputFault(f"{card.place}: {family} {key[1]} is not in the deck")
+        number, values = self._property(family, card)
         nodes = tuple(card.int(at) for at in (2, 3) if card.text(at))
         if len(nodes) < 2 or self.model.at(nodes[0], card.place) == self.model.at(nodes[1], card.place):
             return self.lose(card.name, "springs along a line have two grid points that are apart", card.place)
-        self.model.axial_springs.append(AxialSpring(nodes, *self.reader.properties.springs[key], f"{family.lower()}_{key[1]}",
-                                                    card.place))
+        self.model.axial_springs.append(AxialSpring(nodes, *values, f"{family.lower()}_{number}", card.place))
         return None
 
     def _gap(self, card: Card) -> bool | None:
         """Along x of its system, else along the line of its grid points."""
-        key = "PGAP", card.int(1, card.int(0))
-        if key not in self.reader.properties.springs:
-            raise InputFault(f"{card.place}: PGAP {key[1]} is not in the deck")
+        number, values = self._property("PGAP", card)
         nodes = card.int(2), card.int(3)
         places = [self.model.at(node, card.place) for node in nodes]
         if card.text(7):
             way = self.reader.systems.axes_at(card.int(7), places[0], card.place)[0]
         else:
             way = axis_between(places, f"{card.place}: gap {card.int(0)}")
-        self.model.gaps.append(Gap(nodes, way, *self.reader.properties.springs[key], f"pgap_{key[1]}", card.place))
+        self.model.gaps.append(Gap(nodes, way, *values, f"pgap_{number}", card.place))
         return None
 
     def _scalar_mass(self, card: Card) -> bool | None:
         """Masses along one component, which are gathered by grid points."""
-        value = card.real(1) if card.name == "CMASS2" else self.reader.properties.springs.get(("PMASS", card.int(1, card.int(0))))
-        if value is None:
-            raise InputFault(f"{card.place}: PMASS {card.text(1)} is not in the deck")
+        value = card.real(1) if card.name == "CMASS2" else self._property("PMASS", card)[1]
         ends = [(card.int(at), card.int(at + 1, 0)) for at in (2, 4) if card.text(at)]
         places = permutation(self.reader.frame(ends[0][0])) if len(ends) == 1 and 1 <= ends[0][1] <= 6 else None
         if places is None or ends[0][0] in self.reader.points:

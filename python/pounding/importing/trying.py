@@ -1,11 +1,10 @@
 """Tries every deck of a folder, each in a process of its own with limits of time and memory, and writes what became of
 it: read, read with losses, or refused and why."""
 
-import json
+import multiprocessing
 import os
 import re
 import resource
-import select
 import signal
 import stat
 from collections import Counter
@@ -21,6 +20,7 @@ from .scene import Scene
 from .units import in_si
 from .weighing import weigh
 
+FORKS = multiprocessing.get_context("fork")
 MEMORY = 4 << 30  # bytes of a process
 HEAD = 1 << 18  # bytes at the beginning of a file that tell what it is
 COLUMNS = ("file", "format", "mass", "outcome", "nodes", "elements", "kilograms", "losses", "reason")
@@ -102,33 +102,25 @@ def outcome_of(path: Path, kind: str, units) -> dict:
 
 def _in_child(path: Path, kind: str, units, seconds: float) -> dict:
     """`outcome_of` in a fork that ends with its limits."""
-    source, target = os.pipe()
-    child = os.fork()
-    if child == 0:
-        try:
-            for number in (signal.SIGINT, signal.SIGTERM):
-                signal.signal(number, signal.SIG_DFL)
-            resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-            data = json.dumps(outcome_of(path, kind, units)).encode()
-            while data:
-                data = data[os.write(target, data):]
-        finally:
-            os._exit(0)
-    os.close(target)
-    data = b""
+    source, target = FORKS.Pipe(duplex=False)
+
+    def try_it() -> None:
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, signal.SIG_DFL)
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+        target.send(outcome_of(path, kind, units))
+
+    child = FORKS.Process(target=try_it)
+    child.start()
+    target.close()
     try:
-        while select.select([source], [], [], seconds)[0]:
-            part = os.read(source, 1 << 16)
-            if not part:
-                break
-            data += part
-        else:
-            return {"outcome": "refused", "reason": f"not read within {seconds:g} s"}
-        return json.loads(data) if data else {"outcome": "fault", "reason": "the process ended without a word"}
+        return source.recv() if source.poll(seconds) else {"outcome": "refused", "reason": f"not read within {seconds:g} s"}
+    except (EOFError, OSError):
+        return {"outcome": "fault", "reason": "the process ended without a word"}
     finally:
-        os.close(source)
-        os.kill(child, signal.SIGKILL)
-        os.waitpid(child, 0)
+        source.close()
+        child.kill()
+        child.join()
 
 
 def _kind_of_reason(row: dict) -> str:

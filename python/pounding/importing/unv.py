@@ -3,7 +3,7 @@ file without groups has those of its cells' physical properties, by their number
 
 from pathlib import Path
 
-from .cards import lines_of, number, whole
+from .cards import cut, lines_of, number, whole
 from .model import BAR, Element, InputFault, Model
 from .second_order import by_corners
 
@@ -39,9 +39,7 @@ class Records:
 
     def integers(self, least: int) -> list:
         """Whole numbers of the next line, ten columns each."""
-        line = self.line()
-        words = [line[at:at + 10].strip() for at in range(0, len(line), 10)]
-        values = [whole(word, self.place) for word in words if word]
+        values = [whole(word, self.place) for word in cut(self.line(), (10,)) if word]
         if len(values) < least:
             raise InputFault(f"{self.place}: {len(values)} numbers, and not {least}")
         return values
