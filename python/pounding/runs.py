@@ -100,6 +100,14 @@ def complaint(text: str) -> str:
     return said[0] if said else ""
 
 
+def alone(*words) -> tuple:
+    """What the program prints that is run by itself, and '' or the line why it gave up. Throws RunError where it is not built."""
+    done = subprocess.run([str(program()), *map(str, words)], env=environment(), capture_output=True, text=True, check=False,
+                          preexec_fn=ending_with_us())
+    failed = complaint(done.stderr) or f"the program ended with exit status {done.returncode}" if done.returncode else ""
+    return done.stdout, failed
+
+
 @contextmanager
 def interrupts_held() -> Iterator[None]:
     """Holds SIGINT, SIGTERM and SIGHUP back until the block ends, where the last of them acts: a run that starts in the

@@ -5,23 +5,20 @@ each amplitude, given over the elongation of its first corner, and writes them t
 is read and nothing is stepped: laws of bars are those of their strain, per length.
 """
 
-import subprocess
 from pathlib import Path
 
 from pounding.arguments import numbers_above_0, words
 from pounding.plot import law_figure
-from pounding.runs import RunError, complaint, environment, program
+from pounding.runs import RunError, alone
 
 from .process import parser_of
 
 
-
 def follow(scene: Path, amplitudes: list, more: list, folder: Path) -> Path:
     """Has the program write laws.csv into the folder. Throws RunError."""
-    line = [program(), "-options_file", scene, *more, "-law_cycles", ",".join(map(repr, amplitudes)), "-output", folder]
-    result = subprocess.run([str(word) for word in line], env=environment(), capture_output=True, text=True, check=False)
-    if result.returncode != 0:
-        raise RunError(complaint(result.stderr) or f"the program ended with exit status {result.returncode}")
+    failure = alone("-options_file", scene, *more, "-law_cycles", ",".join(map(repr, amplitudes)), "-output", folder)[1]
+    if failure:
+        raise RunError(failure)
     return folder / "laws.csv"
 
 

@@ -2,12 +2,11 @@
 
 import json
 import math
-import subprocess
 import tempfile
 from pathlib import Path
 
 from pounding.files import write_text
-from pounding.runs import RunError, environment, program
+from pounding.runs import RunError, alone
 from pounding.scenes import write_scene
 
 HIGHEST, MOST = 33.0, 1e-3  # modes up to this frequency [Hz] move by at most this part of it
@@ -22,9 +21,7 @@ def _frequencies(options: dict, name: str, mesh: str, step: float) -> list:
         scene = Path(folder, "scene.yaml")
         write_text(scene.with_name(options[name]["mesh"]), mesh)
         write_scene(scene, {**options, name: {**options[name], "mass_scaling": step}}, "")
-        words = [program(), "-options_file", scene, "-end_time", "1e-12", "-modes", TRIED, "-output", scene.parent]
-        done = subprocess.run(list(map(str, words)), env=environment(), capture_output=True, text=True, check=False)
-        if done.returncode:
+        if alone("-options_file", scene, "-end_time", "1e-12", "-modes", TRIED, "-output", scene.parent)[1]:
             return []
         structures = json.loads((scene.parent / "summary.json").read_text())["structures"]
         return sorted(mode["frequency"] for mode in structures[name].get("frequencies", []))

@@ -1,12 +1,11 @@
 """What the command says of a model: cards, counts, mass, and the first modes that the program finds."""
 
 import re
-import subprocess
 import tempfile
 from collections import Counter
 from pathlib import Path
 
-from pounding.runs import complaint, environment, program
+from pounding.runs import alone
 
 from .model import COMPONENTS
 
@@ -60,14 +59,12 @@ def model_told(scene, mass: float, centre, expected: float | None) -> list:
 def modes_told(scene: Path, structure: str, modes: int) -> tuple:
     """Lines with the mass and the modes that the program finds, and its complaint or ''. Throws RunError where it is
     not built."""
-    words = [str(program()), "-options_file", str(scene), "-dry_run", "-modes", str(modes)]
     with tempfile.TemporaryDirectory(prefix="pounding-") as folder:
-        done = subprocess.run([*words, "-output", folder], env=environment(), capture_output=True, text=True,
-                              check=False)
-    if done.returncode:
-        return [], complaint(done.stderr) or f"the program ended with status {done.returncode}"
+        said, failure = alone("-options_file", scene, "-dry_run", "-modes", modes, "-output", folder)
+    if failure:
+        return [], failure
     lines = []
-    for line in done.stdout.split("\n"):
+    for line in said.split("\n"):
         if line.startswith((f"structure {structure}:", "warning:", "  a step of its solids")):
             lines.append(line)
         elif re.match(r"  mode  frequency|  +\d+ +[\d.e+-]+  ", line):
