@@ -7,7 +7,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from .results import UNREADABLE, ResultError, require_schema
+from .results import UNREADABLE, ResultError, require_schema, text_of
 
 
 @dataclass(repr=False)
@@ -56,8 +56,6 @@ class Ensemble:
         return self.frequency, self.pseudo_acceleration[:, self.channels.index(channel), places[0]]
 
 
-def _words(values) -> list:
-    return [value.decode() for value in values]
 
 
 def load_ensemble(folder) -> Ensemble:
@@ -70,15 +68,15 @@ def load_ensemble(folder) -> Ensemble:
             for member in damaged(file)[:1]:
                 raise ResultError(f"{path}: the numbers of member {member + 1} are not those written; the same command "
                                   "(-ensemble) steps it again")
-            contacts = _words(file["impacts/contacts"]) if "impacts/contacts" in file else []
+            contacts = list(map(text_of, file["impacts/contacts"])) if "impacts/contacts" in file else []
             none, has_forces = np.zeros((table.shape[0], 0)), "forces" in file
             return Ensemble(
-                Path(folder), str(_text(table.attrs["columns"])).split(","), np.char.decode(table[:]),
-                file["done"][:] == 1, _words(file["spectra/channels"]), file["spectra/damping"][:],
+                Path(folder), text_of(table.attrs["columns"]).split(","), np.char.decode(table[:]),
+                file["done"][:] == 1, list(map(text_of, file["spectra/channels"])), file["spectra/damping"][:],
                 file["spectra/frequency"][:], file["spectra/pseudo_acceleration"][:], file["peaks/displacement"][:],
                 file["peaks/acceleration"][:], file["energy/residual"][:], contacts,
                 {name: file["impacts"][name][:] for name in file.get("impacts", []) if name != "contacts"},
-                file["gaps/smallest"][:] if contacts else none, _words(file["forces/names"]) if has_forces else [],
+                file["gaps/smallest"][:] if contacts else none, list(map(text_of, file["forces/names"])) if has_forces else [],
                 file["forces/time"][:] if has_forces else none[0], file["forces/history"][:] if has_forces else none[:, None])
     except UNREADABLE as error:
         raise ResultError(f"{path}: no ensemble that can be read ({' '.join(str(error).split())})") from None
@@ -87,14 +85,10 @@ def load_ensemble(folder) -> Ensemble:
 def damaged(file) -> list:
     """Members said to be done whose numbers are not those written: their CRC-32 stands beside them."""
     sums, found = file["members/crc32"], []
-    names = str(_text(sums.attrs["of"])).split(",")
+    names = text_of(sums.attrs["of"]).split(",")
     for member in np.flatnonzero(file["done"][:] == 1):
         crc = 0
         for name in names:
             crc = zlib.crc32(np.ascontiguousarray(file[name][member]).tobytes(), crc)
         found += [int(member)] if crc != sums[member] else []
     return found
-
-
-def _text(value) -> str:
-    return value.decode() if isinstance(value, bytes) else value

@@ -268,13 +268,13 @@ def _read_summary(path: Path) -> dict:
 def _read_history(path: Path, result: Result) -> None:
     with h5py.File(path, "r") as file:
         require_schema(path.name, file.attrs)
-        result.title = _text(file.attrs.get("title", ""))
+        result.title = text_of(file.attrs.get("title", ""))
         for name, dataset in file.items():
             if not isinstance(dataset, h5py.Dataset):
                 continue
             values = dataset[()]
             if values.dtype.kind in "SO":
-                values = [_text(value).strip("\0 ") for value in values]
+                values = [text_of(value).strip("\0 ") for value in values]
             result.history[name] = values
             result.offset[name] = float(np.ravel(dataset.attrs.get("time_offset", 0.0))[0])
     history = result.history
@@ -303,7 +303,8 @@ def _read_history(path: Path, result: Result) -> None:
             raise ValueError(f"{name} has shape {history[name].shape}, not {shape}")
 
 
-def _text(value) -> str:
+def text_of(value) -> str:
+    """A text of an HDF5 file, whose letters h5py may leave as bytes."""
     if isinstance(value, np.ndarray):
         value = value.item() if value.size == 1 else ""
     return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)

@@ -12,7 +12,7 @@ import numpy as np
 from pounding import UserError
 from pounding.ensembles import damaged
 from pounding.files import written_beside
-from pounding.results import UNREADABLE, Result
+from pounding.results import UNREADABLE, Result, text_of
 from pounding.spans import MOTIONS
 from pounding.stability import MOTIONS as SETTLED, base_motion, slip_of
 from pounding.struck import VALUES, of_run as struck_of_run
@@ -106,7 +106,7 @@ class Kept:
 
 
 def _texts(values) -> list:
-    return [value.decode() if isinstance(value, bytes) else str(value) for value in np.ravel(values)]
+    return list(map(text_of, np.ravel(values)))
 
 
 @contextmanager
@@ -125,7 +125,7 @@ def read_rows(path: Path) -> tuple:
     not run. Throws UserError."""
     with _reading(path) as file:
         table = file["members/table"]
-        columns = _texts(table.attrs["columns"])[0].split(",")
+        columns = text_of(table.attrs["columns"]).split(",")
         cells, done = np.array(_texts(table[()])).reshape(-1, len(columns)), np.ravel(file["done"][()])
         if len(cells) != len(done):
             raise ValueError("a flag for each member is missing")
