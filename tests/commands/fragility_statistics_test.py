@@ -17,7 +17,7 @@ from scipy import stats
 sys.path.insert(0, os.path.join(program.SOURCE, "python"))
 sys.path.insert(0, os.path.join(program.SOURCE, "python"))
 sys.dont_write_bytecode = True
-from pounding.fragility import figures, outcomes, report, study  # noqa: E402
+from pounding.fragility import analysis, figures, outcomes, report, study  # noqa: E402
 from pounding.plot import answer  # noqa: E402
 from pounding import fragility  # noqa: E402
 
@@ -235,6 +235,7 @@ class OneLevel(unittest.TestCase):
         self.study.width_title = study.Study.width_title.fget(self.study)
         self.analysis = SimpleNamespace(study=self.study, gaps_of=lambda event: list(hits),
                                         hits=lambda event, gap: np.arange(4)[:, None] < hits[gap])
+        self.analysis.probability = functools.partial(analysis.Analysis.probability, self.analysis)
 
     def test_bars_by_joint(self):
         figure, axes = figures.plt.subplots()

@@ -20,7 +20,6 @@ from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
-from pounding import UserError
 from pounding.arguments import positive, ranks
 from pounding.fragility import conditions, controlled, design, envelope, motions, report, rules, stability, struck, study, submittal
 from pounding.fragility.analysis import Analysis
@@ -175,14 +174,8 @@ def members_of(found: study.Study, folder: Path, options: argparse.Namespace,
         print(f"fragility: runs ended after {time.monotonic() - began:.0f} s ({how})", flush=True)
         if options.part:
             return None
-    gathered, missing = runner.found(plan.members)
-    if missing:
-        raise UserError(f"{len(missing)} of {len(plan.members)} members are not there yet; run what is missing")
-    repeats = [plan.members[index] for index in plan.repeated]
-    full, missing = runner.found(repeats, FULL) if repeats else (None, [])
-    if missing:
-        raise UserError(f"{len(missing)} of {len(repeats)} repeats at full order are not there yet; "
-                        "run what is missing")
+    gathered, repeats = runner.complete(plan.members), [plan.members[index] for index in plan.repeated]
+    full = runner.complete(repeats, FULL, "repeats") if repeats else None
     ruled, note = ({}, "") if found.is_surveyed else rules.find(found, plan, runner.scene(REDUCED), folder, options.jobs)
     notes += [note] if note else []
     analysis = Analysis(found, plan, gathered, runner.equipment, notes, runner.scouted[REDUCED].inputs, runner, runner.mats)

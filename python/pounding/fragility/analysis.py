@@ -108,15 +108,18 @@ class Analysis:
     def gaps_of(self, event) -> list:
         return list(self.study.gaps) if event == CONTACT else [*self.study.gaps, None]
 
+    def probability(self, event, gap: float | None) -> tuple:
+        """Members in which an event comes about, their part of all, and the ends of its interval, each (levels)."""
+        counts = self.hits(event, gap).sum(0)
+        return counts, counts / self.study.samples, *binomial_interval(counts, self.study.samples, self.study.confidence)
+
     def probability_rows(self) -> list:
         rows = []
         for event in self.events:
             for gap in self.gaps_of(event):
-                counts = self.hits(event, gap).sum(0)
-                low, high = binomial_interval(counts, self.study.samples, self.study.confidence)
                 rows += [{"event": name_of(event), "gap [m]": gap_text(gap), "pga [m/s2]": level, "hits": int(count),
-                          "of": self.study.samples, "probability": count / self.study.samples, "low": float(a),
-                          "high": float(b)} for level, count, a, b in zip(self.study.levels, counts, low, high)]
+                          "of": self.study.samples, "probability": part, "low": float(a), "high": float(b)}
+                         for level, count, part, a, b in zip(self.study.levels, *self.probability(event, gap))]
         return rows
 
     def fits(self, event) -> dict:

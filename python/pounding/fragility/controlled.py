@@ -16,7 +16,7 @@ from pounding.plot.design_spectra import SHOWN
 from pounding.runs import Job, clear, finish
 from pounding.tables import write_csv
 
-from . import control_variates as control, runs
+from . import control_variates as control
 from .analysis import CONTACT, EXCEEDED, Analysis, gap_text, name_of
 from .both_orders import FULL, REDUCED
 from .design import Design
@@ -121,10 +121,8 @@ def _timed(runner, member, order: str) -> float:
 def _analysis(runner, count: int, order: str) -> Analysis:
     """Of the first samples, without those in joints of others. Throws UserError where a member is missing."""
     members = plain(runner.design, 0, count)
-    found, missing = runner.found(members, order)
-    if missing:
-        raise UserError(f"{len(missing)} of {len(members)} members{runs.told(order)} are not there yet; run what is missing")
-    return Analysis(replace(runner.study, samples=count), replace(runner.design, members=members), found, runner.equipment)
+    return Analysis(replace(runner.study, samples=count), replace(runner.design, members=members), runner.complete(members, order),
+                    runner.equipment)
 
 
 def _shown(analysis: Analysis) -> list:

@@ -6,7 +6,7 @@ import numpy as np
 from scipy import stats
 
 from pounding.plot.style import WIDTH, WITH, WITHOUT, g_axis, log_scale, plt, save
-from pounding.fragility import Fragility, binomial_interval, moments, scatter
+from pounding.fragility import Fragility, moments, scatter
 
 from .analysis import CONTACT, EXCEEDED, Analysis, gap_text, name_of
 from .study import own_gap
@@ -65,19 +65,17 @@ def _edges(values: list) -> np.ndarray:
 def draw_map(axes, analysis: Analysis) -> str:
     """P(contact) over gap and level, with its interval in every cell, and lines of the joints that runs apart need."""
     study = analysis.study
-    counts = np.array([analysis.hits(CONTACT, gap).sum(0) for gap in study.gaps])
-    low, high = binomial_interval(counts, study.samples, study.confidence)
+    _, part, low, high = np.array([analysis.probability(CONTACT, gap) for gap in study.gaps]).swapaxes(0, 1)
     places, levels = 1e3 * np.array(study.gaps), np.array(study.levels) / 9.81
-    picture = axes.pcolormesh(_edges(places), _edges(levels), counts.T / study.samples, cmap="YlOrRd", vmin=0, vmax=1)
+    picture = axes.pcolormesh(_edges(places), _edges(levels), part.T, cmap="YlOrRd", vmin=0, vmax=1)
     for i, gap in enumerate(places):
         for k, level in enumerate(levels):
-            share = counts[i, k] / study.samples
-            axes.text(gap, level, f"{share:.2f}\n{low[i, k]:.2f}-{high[i, k]:.2f}", ha="center", va="center",
-                      fontsize=7, color="white" if share > 0.6 else "black")
+            axes.text(gap, level, f"{part[i, k]:.2f}\n{low[i, k]:.2f}-{high[i, k]:.2f}", ha="center", va="center",
+                      fontsize=7, color="white" if part[i, k] > 0.6 else "black")
     needed = 1e3 * analysis.needed(torsion=1)
-    for part, style in zip(EXCEEDED, ("-", "--", ":")):
-        axes.plot(np.quantile(needed, 1 - part, axis=0), levels, color="#1B4F72", ls=style, lw=1.6,
-                  label=f"{100 * part:g} % would need more")
+    for beyond, style in zip(EXCEEDED, ("-", "--", ":")):
+        axes.plot(np.quantile(needed, 1 - beyond, axis=0), levels, color="#1B4F72", ls=style, lw=1.6,
+                  label=f"{100 * beyond:g} % would need more")
     axes.set(xlim=_edges(places)[[0, -1]], ylim=_edges(levels)[[0, -1]])
     axes.grid(False)
     axes.set(xlabel=f"{study.width_title} [mm]", ylabel="peak ground acceleration [g]",
@@ -91,9 +89,7 @@ def draw_map(axes, analysis: Analysis) -> str:
 def draw_bars(axes, analysis: Analysis, event) -> str:
     """The probability of an event at the only level, a bar for each joint with its interval; returns its caption."""
     study, gaps = analysis.study, analysis.gaps_of(event)
-    counts = np.array([analysis.hits(event, gap)[:, 0].sum() for gap in gaps])
-    low, high = binomial_interval(counts, study.samples, study.confidence)
-    share = counts / study.samples
+    _, share, low, high = np.array([analysis.probability(event, gap) for gap in gaps])[..., 0].T
     axes.bar(range(len(gaps)), share, width=0.6, color=[WITHOUT if gap is None else WITH for gap in gaps], alpha=0.7,
              yerr=np.clip([share - low, high - share], 0, None), capsize=4, ecolor="#333333")
     axes.set_xticks(range(len(gaps)), ["apart" if gap is None else f"{1e3 * gap:g} mm" for gap in gaps])
@@ -149,9 +145,7 @@ def curves(analysis: Analysis, fits: dict, folder: Path) -> list:
         return save(figure, folder, "curves.png", "Probability by joint", words, columns=[[axes] for axes in panels[0]])
     for axes, event in zip(panels[0], events):
         for gap, colour in zip(analysis.gaps_of(event), COLOURS * 9):
-            counts = analysis.hits(event, gap).sum(0)
-            low, high = binomial_interval(counts, study.samples, study.confidence)
-            share = counts / study.samples
+            _, share, low, high = analysis.probability(event, gap)
             label = "apart" if gap is None else f"{1e3 * gap:g} mm"
             axes.errorbar(np.array(study.levels) / 9.81, share, (share - low, high - share), fmt="o", ms=4,
                           color=colour, lw=0.9, capsize=2, label=label)

@@ -9,7 +9,7 @@ from pounding.tables import cells_of, markdown, write_csv, write_rows
 from pounding.plot import design_spectra
 from pounding.plot.answer import plural
 from pounding.plot.markup import answer_box, figure_parts, html_table, paragraphs, write_page
-from pounding.fragility import Fragility, binomial_interval, moments
+from pounding.fragility import Fragility, moments
 
 from . import figures, spans, stability, struck
 from .analysis import CONTACT, EXCEEDED, TOLERANCE, Analysis, fit_row, gap_text, name_of
@@ -219,9 +219,8 @@ def touching(fits: dict, analysis: Analysis) -> list:
     study, lines = analysis.study, []
     if len(study.levels) == 1:  # no curve, but its only point
         for gap in study.gaps:
-            count = int(analysis.hits(CONTACT, gap).sum())
-            low, high = binomial_interval(count, study.samples, study.confidence)
-            lines.append(f"{study.joint_named(gap).capitalize()}: touches in {percent(count / study.samples)} % of the cases at "
+            _, part, low, high = (one[0] for one in analysis.probability(CONTACT, gap))
+            lines.append(f"{study.joint_named(gap).capitalize()}: touches in {percent(part)} % of the cases at "
                          f"{study.levels[0]:g} m/s2 ({percent(low)} to {percent(high)}).")
         return lines
     for gap, fit in fits[CONTACT].items():
@@ -240,10 +239,9 @@ def failing(analysis: Analysis) -> list:
     for item in analysis.equipment:
         shares = []
         for gap in analysis.gaps_of(item):
-            count = int(analysis.hits(item, gap)[:, -1].sum())
-            low, high = binomial_interval(count, study.samples, study.confidence)
+            _, part, low, high = (one[-1] for one in analysis.probability(item, gap))
             place = "apart" if gap is None else f"in a {study.joint_named(gap)}"
-            shares.append(f"{100 * count / study.samples:.3g} % {place} ({percent(low)} to {percent(high)})")
+            shares.append(f"{100 * part:.3g} % {place} ({percent(low)} to {percent(high)})")
         lines.append(f"{item.title} fails at {study.levels[-1]:g} m/s2 in {', '.join(shares)}.")
     return lines
 

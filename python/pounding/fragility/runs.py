@@ -173,6 +173,13 @@ class Runner:
         """(Outcomes, indices of those that are missing)."""
         return outcomes.collect(self.files(order), members, self.design.columns)
 
+    def complete(self, members: list, order: str = REDUCED, what: str = "members") -> outcomes.Outcomes:
+        """Outcomes of all of these members. Throws UserError where one is missing."""
+        found, missing = self.found(members, order)
+        if missing:
+            raise UserError(f"{len(missing)} of {len(members)} {what}{told(order)} are not there yet; run what is missing")
+        return found
+
     def history(self, member) -> Path:
         """Folder of a run of a member of its own with all that it records, at the time step that the members had; kept where it
         is there already. Throws UserError."""
