@@ -14,6 +14,15 @@ PARAMETERS = ("*PARAMETER\n# a comment\ntall = 2*(1.5e0 + .5) - 1.0  # of a stor
 SPC = "         7         0         1         1         1         0         0         0\n"
 CONTROL = ("IRLF,  0\nCGOMEGA,  0., 0., 0.\nSTEF, 5.67E-08\nDMPOPT,ESAV,NO\nNCNV,1,0,0,0,0\nTIMINT,0,STRU\nCRPLIM,0.1,0\n"
            "MODCONTROL,ON\nQRDOPT,OFF\nEMUNIT,MKS\nTHOPT,FULL\nFINI\nOUTRE,ALL\nEN,R5.5,ATTR,       -1\nCM,_ALL,NODE\n")
+
+
+def in_instances(sets):
+    """Two posts beside each other, whose part has these sets."""
+    return (f"*PART, NAME=POST\n{ABAQUS.partition('*MATERIAL')[0]}{sets}*BEAM SECTION{ABAQUS.partition('*BEAM SECTION')[2]}*END PART\n"
+            "*ASSEMBLY, NAME=ALL\n*INSTANCE, NAME=A, PART=POST\n*END INSTANCE\n*INSTANCE, NAME=B, PART=POST\n5., 0., 0.\n"
+            "*END INSTANCE\n*END ASSEMBLY\n*MATERIAL" + ABAQUS.partition("*MATERIAL")[2].partition("*BEAM SECTION")[0])
+
+
 # Name, deck, and the same in plain words.
 SAME = {
     "a term a line": ("model.inp", PINNED + EQUATIONS.replace("1., 4", "1.,\n4"), PINNED + EQUATIONS),
@@ -23,6 +32,7 @@ SAME = {
     "temperatures, and nodes that are not there": (
         "model.inp", ABAQUS + "*NSET, NSET=S\n2, 77\n*BOUNDARY\n2, 0, 0, 20.\n2, 11, 11, 20.\n*HEADING\n<no name>\n",
         ABAQUS + "*NSET, NSET=S\n2\n"),
+    "a set without nodes": ("model.inp", in_instances("*NSET, NSET=NOTHING\n*NSET, NSET=S\nNOTHING, 2\n"), in_instances("*NSET, NSET=S\n2\n")),
     "indented comments": ("model.inp", ABAQUS.replace("7850.", "   ** kg/m3\n  7850."), ABAQUS),
     "surplus numbers": ("model.inp", ABAQUS.replace("2, 2, 3\n", "2, 2, 3, 1, 1\n"), ABAQUS),
     "parameters": ("model.inp", PARAMETERS + ABAQUS.replace("2, 0., 0., 3.", "2, 0., 0., <tall>").replace(
