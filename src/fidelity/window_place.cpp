@@ -12,8 +12,10 @@
 namespace pounding {
 namespace {
 
-/// Part of the window before the impact that it is made for, the fade-in being a part of that [s].
+/// Part of the window before the impact that it is made for, the fade-in being a part of that [s],
+/// and of a short window at most.
 constexpr double before_impact = 0.15;
+constexpr double most_before = 0.75;
 
 /// The time that the window is about, and why.
 std::pair<double, std::string> decisive_time(const Scene& scene, const ImpactCatalogue& impacts,
@@ -52,7 +54,9 @@ Window place_window(MPI_Comm comm, const Scene& scene, const Model& model,
     const double interval = recorder.interval();
     const std::int64_t records = std::clamp<std::int64_t>(std::llround(length / interval),
                                                           std::min<std::int64_t>(2, end), end);
-    const std::int64_t begin = std::llround((time - before_impact) / interval);
+    const std::int64_t begin =
+        std::llround(time / interval - std::min(before_impact / interval,
+                                                most_before * static_cast<double>(records)));
     const std::int64_t first = std::clamp<std::int64_t>(begin, 0, end - records);
     steps = {first * stride, (first + records) * stride};
   });

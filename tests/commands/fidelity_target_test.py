@@ -86,6 +86,15 @@ class Estimate(unittest.TestCase):
         self.assertGreater(ratio, 0.5, told)
         self.assertLess(ratio, 2, told)
 
+    def test_a_short_window_has_the_impact_that_it_is_made_for(self):
+        for length in (0.05, 0.1, 0.2):
+            folder, told = self.estimate(PIERS + reduced(("tall", "low"), 6, length))
+            impacts = program.read_csv(os.path.join(folder, "impacts.csv"))
+            _, start = max(zip(map(float, impacts["impulse"]), map(float, impacts["start"])))
+            self.assertLess(told["window"][0] + length / 5, start)
+            self.assertLess(start, told["window"][1] - length / 5)
+            self.assertGreater(told["impulse"], 0)
+
     def test_bands_that_were_not_looked_at(self):
         words = [*PIERS, *reduced(("tall", "low"), 6, 0.1), "-end_time", 0.6, "-spectra_frequencies"]
         result = program.must_end(self, [*words, "1:33:30log", "-output", os.path.join(self.folder, "low")])
