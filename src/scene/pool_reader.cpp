@@ -112,6 +112,10 @@ void take_pools(const OptionReader& options, std::span<const Pool> pools, Struct
                       "not with -" + structure.name +
                           "_matrices; write the water into the matrices and leave the pool out");
     if (!pool.is_tank()) refuse_beside_cells(options, pool, structure);
+    options.refuse_if(pool.is_tank() && structure.switched && structure.damping.alpha > 0,
+                      "<pool>_structure", names,
+                      "in modes the damping alpha would brake its waves; not with -" +
+                          structure.name + "_model switched; give beta or damping_uniform");
     options.refuse_if(
         pool.is_tank() && structure.uniform_damping && structure.uniform_damping->reference == 0,
         "<pool>_structure", names,

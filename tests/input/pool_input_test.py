@@ -19,6 +19,9 @@ class Refused(unittest.TestCase):
             self.refused([f"-tank_{option}", value], f"-tank_{option} {value}")
         self.refused(["-tank_depth", 2], "-tank_depth")
         self.refused(["-t_matrices", "somewhere"], "-tank_structure t", "-t_matrices")
+        switched = ["-t_model", "switched", "-t_modal_vectors", 5]
+        self.refused([*switched, "-t_damping_alpha", 1], "-tank_structure t", "alpha", "-t_model switched")
+        self.refused([*switched, "-t_damping_ratio", .05, "-t_damping_frequencies", "5,50"], "-tank_structure t", "alpha")
 
     def test_faces(self):
         for ranks in (1, 2):
