@@ -41,10 +41,25 @@ void require_shared_elements(const Structure& structure, const MemberTable& tabl
   if (own) refuse_column("_damping_factor", ", and some of its groups are damped by themselves");
 }
 
+/// Springs and dashpots of waves make up for the damping that their structure gives them.
+void require_shared_waves(const Structure& structure, const MemberTable& table) {
+  const std::string column = structure.name + "_damping_factor";
+  const bool braked = structure.uniform_damping || (!structure.modal && structure.damping.beta > 0);
+  if (!braked || std::ranges::count(table.columns, column) == 0 ||
+      !std::ranges::any_of(structure.pools, &Pool::is_tank)) {
+    return;
+  }
+  throw UserError("column " + column + ": springs and dashpots of the waves of structure " +
+                  structure.name +
+                  " make up for its damping; make an ensemble for each factor, which its scene "
+                  "gives, or single runs");
+}
+
 /// Modes that a factor on the stiffness of the elements would turn are not those of all members.
 void require_shared_modes(const Scene& scene, const MemberTable& table) {
   for (const Structure& structure : scene.structures) {
     if (!structure.modal) require_shared_elements(structure, table);
+    require_shared_waves(structure, table);
     const std::string column = structure.name + "_stiffness_factor";
     if (structure.scales_as_a_whole() || std::ranges::count(table.columns, column) == 0) continue;
     throw UserError("column " + column + ": the modes of structure " + structure.name +

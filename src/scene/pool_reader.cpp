@@ -53,8 +53,7 @@ double spring_of(const Structure& structure, double omega) {
 void spare(const Structure& structure, WaterPart part, Region& region) {
   const Rayleigh& own = structure.damping;
   if (structure.modal) {
-    const bool damped = own.alpha > 0 || own.beta > 0 || !structure.modal->damping_ratios.empty();
-    if (part == WaterPart::wave && damped) region.damping_factor = 0;
+    if (part == WaterPart::wave && !structure.uniform_damping) region.damping_factor = 0;
   } else if (part == WaterPart::convective && own.alpha > 0) {
     region.damping = {0, own.beta};
   }

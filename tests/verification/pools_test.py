@@ -4,6 +4,7 @@ Closed solution: a mass on a spring and a dashpot, with the impulsive mass of th
 their own beside it; masses and frequencies by the series of docs/reference/theory/pools.md, written here anew.
 """
 import math
+import tempfile
 import unittest
 
 import numpy
@@ -11,7 +12,8 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import eigh
 
 import program
-from recorded import Recorded, assert_continues, write_sine
+from decks import in_modes
+from recorded import Recorded, assert_continues, ensemble_of, write_sine
 
 LX, LY, DEPTH, HEIGHT, GRAVITY = 6.0, 4.0, 2.5, 3.0, 9.80665
 WATER = 1000 * LX * LY * DEPTH
@@ -147,6 +149,25 @@ class HitTank(unittest.TestCase):
         run = Recorded(self, [*words, "-t_model", "switched", "-t_modal_vectors", 60, "-t_switched_part", 1e-2]).summary
         self.assertGreater(run["in_modes"]["share"], .5)
         self.assertAlmostEqual(run["pools"]["tank"]["wave_height"] / full["pools"]["tank"]["wave_height"], 1, delta=1e-2)
+
+    def test_members_with_damping_of_their_own(self):
+        """Waves keep the ratio of their pool, also where the scene has no damping."""
+        words = [*self.HIT, *self.MOTION, *in_modes("t", 60)]
+        ratios = .05, .3
+        for more in ([], ["-t_modal_damping", .02]):
+            peaks, _ = ensemble_of(self, [*words, *more], "t_modal_damping", ratios)
+            for member, ratio in zip(peaks, ratios):
+                single = self.hit(*in_modes("t", 60), "-t_modal_damping", ratio)[0]
+                self.assertAlmostEqual(member[0] / abs(single).max(), 1, delta=1e-9)
+
+    def test_members_of_other_damping_than_the_waves_make_up_for_are_refused(self):
+        uniform = ["-t_damping_uniform", .03, "-t_damping_reference", 20]
+        with tempfile.NamedTemporaryFile("w", suffix=".csv") as table:
+            table.write("t_damping_factor\n1\n2\n")
+            table.flush()
+            for damping in (["-t_damping_beta", 1e-5], uniform, [*uniform, *in_modes("t", 60)]):
+                program.must_refuse(self, [*self.HIT, *self.MOTION, "-ensemble", table.name, *damping],
+                                    "column t_damping_factor", "the waves of structure t")
 
     def test_continues(self):
         whole, continued = assert_continues(self, [*self.HIT, *self.MOTION], .05, 2000)
