@@ -13,6 +13,7 @@ import program
 
 sys.path.insert(0, os.path.join(program.SOURCE, "python"))
 sys.dont_write_bytecode = True
+from pounding.commands import tradeoff  # noqa: E402
 from pounding.tradeoff import metrics  # noqa: E402
 
 FREQUENCY = np.geomspace(1, 400, 261)
@@ -79,6 +80,16 @@ class Classes(unittest.TestCase):
         for rms, largest, letter in ((0.01, 0.05, "A"), (0.0101, 0.05, "B"), (0.01, 0.051, "B"), (0.05, 0.2, "B"),
                                      (0.05, 0.21, "C"), (0.15, 0.5, "C"), (0.151, 0.5, "D"), (0.01, 0.51, "D")):
             self.assertEqual(metrics.class_of(rms, largest), letter, (rms, largest))
+
+
+class Certificates(unittest.TestCase):
+    def test_a_setting_that_changed_nothing_has_no_ratio(self):
+        """As scaled mass where no element needs it: its true error is zero, the one told is not."""
+        parts = {f"{kind} {part}": None for kind in ("told", "true") for part in tradeoff.PARTS}
+        rows = [{"scene": "pair", "setting": "mass-2", "estimate": .02, "rms": rms, "certificate": .5, "why": "", **parts} for rms in (0., .04)]
+        same, other = tradeoff.certificate_table(rows).splitlines()[-2:]
+        self.assertIn("| 2.0 / 0 | — |", same)
+        self.assertIn("| 2.0 / 4.0 | 0.5", other)
 
 
 if __name__ == "__main__":

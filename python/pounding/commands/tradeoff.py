@@ -110,7 +110,7 @@ def certificate_table(rows: list) -> str:
         pairs = [f"{percent(row[f'told {part}']) or '—'} / {percent(row[f'true {part}']) or '—'}" for part in PARTS]
         told, true = row["estimate"], row["rms"]
         lines.append([row["scene"], row["setting"], *pairs, f"{percent(told) or '—'} / {percent(true)}",
-                      told and told / true, row["certificate"], row["why"]])
+                      told / true if told and true else None, row["certificate"], row["why"]])
     return tables.markdown("Estimated / true error of the floor spectra in %, 1-400 Hz; the certificate's time over that of "
                            f"{SECONDS} s at full order", ["scene", "setting", "reduction", "step", "mesh", "whole",
                                                        "estimated over true", "time", "remark"], lines)
