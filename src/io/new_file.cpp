@@ -37,9 +37,7 @@ void require_no_link(const std::string& path) {
 NewFile::NewFile(const std::string& path) : path_(path) {
   free_name(path);
   file_ = std::fopen(path.c_str(), "wxe");  // x: never through a link
-  if (file_ == nullptr) {
-    throw UserError(path + ": cannot be written (" + std::strerror(errno) + ")");
-  }
+  refuse_if(file_ == nullptr, path + ": cannot be written (" + std::strerror(errno) + ")");
 }
 
 NewFile::~NewFile() {

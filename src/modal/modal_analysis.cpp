@@ -232,11 +232,9 @@ LargestFrequency largest_frequency(const LinearSystem& system, const Mesh& mesh,
   Lanczos lanczos(system, mesh, [&scaled](Vec x, Vec y) { scaled.apply(x, y); });
   lanczos.run(effort, "omega_max");
   double square = lanczos.bound();
-  if (!(square >= 0)) {
-    throw UserError("structure " + system.name +
-                    ": no largest frequency, since omega_max^2 comes out as " +
-                    std::to_string(square) + " 1/s2; look at its materials and matrices");
-  }
+  refuse_if(!(square >= 0),
+            "structure " + system.name + ": no largest frequency, since omega_max^2 comes out as " +
+                std::to_string(square) + " 1/s2; look at its materials and matrices");
   // Elements of one shape share a frequency that is good to 1e-7.
   const double elements = system.element_frequency_bound * (1 + 1e-6);
   if (lanczos.excess() > 0) square = std::min(square, elements * elements);

@@ -35,11 +35,10 @@ void require_semidefinite(const LinearSystem& system, Mat matrix, const std::str
   POUNDING_PETSC(MatNorm(scaled.get(), NORM_INFINITY, &bound));
   if (bound == 0) return;
   const int negative = ShiftedSolver(scaled.get(), -round_off_share * bound).eigenvalues_below();
-  if (negative > 0) {
-    throw UserError(path + ": not positive semidefinite, " + std::to_string(negative) +
-                    " of its eigenvalues lie below zero: some motion would give energy; look for "
-                    "entries with the wrong sign, or rows and columns left out");
-  }
+  refuse_if(negative > 0,
+            path + ": not positive semidefinite, " + std::to_string(negative) +
+                " of its eigenvalues lie below zero: some motion would give energy; look for "
+                "entries with the wrong sign, or rows and columns left out");
 }
 
 /// Eigenvalue of the stiffness, scaled to a unit diagonal, by which round-off may put one below

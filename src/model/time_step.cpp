@@ -203,12 +203,11 @@ void choose_time_step(const Scene& scene, const StepLimits& limits, Model& model
                  {model.time_step, limits.stable}));
   }
   constexpr double most_steps = 1e12;
-  if (scene.end_time / model.time_step > most_steps) {
-    throw UserError(
-        sentence("option -end_time {} s: {} steps of {} s, above {}; give a shorter time{}",
-                 {scene.end_time, scene.end_time / model.time_step, model.time_step, most_steps,
-                  (scene.time_step > 0 ? ", or a longer -time_step" : "")}));
-  }
+  refuse_if(scene.end_time / model.time_step > most_steps,
+
+            sentence("option -end_time {} s: {} steps of {} s, above {}; give a shorter time{}",
+                     {scene.end_time, scene.end_time / model.time_step, model.time_step, most_steps,
+                      (scene.time_step > 0 ? ", or a longer -time_step" : "")}));
   model.steps = static_cast<std::int64_t>(std::ceil(scene.end_time / model.time_step - 1e-9));
 }
 

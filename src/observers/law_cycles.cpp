@@ -74,9 +74,8 @@ OutputKind law_loops_output() {
 void write_law_loops(MPI_Comm comm, const Scene& scene) {
   on_rank0(comm, [&] {
     constexpr double most = 1000;  // of steps, and of numbers read
-    if (std::ranges::any_of(scene.law_cycles, [](double x) { return x > most; })) {
-      throw UserError("option -law_cycles: an amplitude above 1000 times the first corner");
-    }
+    refuse_if(std::ranges::any_of(scene.law_cycles, [](double x) { return x > most; }),
+              "option -law_cycles: an amplitude above 1000 times the first corner");
     const std::vector<OwnLaw> laws = laws_of(scene);
     refuse_if(laws.empty(),
               "option -law_cycles: nothing in the scene yields by a law in one dimension; see "

@@ -15,9 +15,8 @@ void judge_motions(std::span<const std::string> words) {
   // Under a prefix the package is beside the scenes; else it is that of the sources.
   fs::path package = program.parent_path().parent_path() / "share/pounding/python";
   if (!fs::exists(package)) package = POUNDING_PYTHON;
-  if (!fs::exists(package / "pounding" / "motion_rules.py")) {
-    throw UserError("--accept: no Python package in " + package.string() + "; install it anew");
-  }
+  refuse_if(!fs::exists(package / "pounding" / "motion_rules.py"),
+            "--accept: no Python package in " + package.string() + "; install it anew");
   const char* others = std::getenv("PYTHONPATH");
   const std::string places =
       package.string() + (others != nullptr ? std::string(":") + others : "");

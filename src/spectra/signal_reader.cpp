@@ -49,10 +49,8 @@ std::vector<std::size_t> choose(const std::string& path, const std::vector<std::
 
 /// Sampling step of the records, which a run makes uniform.
 double uniform_step(const std::string& path, const std::vector<double>& time) {
-  if (time.size() < 2) {
-    throw UserError(path + ": holds " + std::to_string(time.size()) +
-                    " records; a spectrum needs at least 2");
-  }
+  refuse_if(time.size() < 2, path + ": holds " + std::to_string(time.size()) +
+                                 " records; a spectrum needs at least 2");
   const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   for (std::size_t i = 1; i < time.size(); ++i) {
     if (!(std::abs(time[i] - time[i - 1] - step) < 1e-6 * step)) {
@@ -67,12 +65,10 @@ std::vector<double> less_ground(const Hdf5Reader& history, const std::string& pa
                                 std::vector<double> acceleration, const std::string& channel) {
   const std::string direction = channel.substr(channel.rfind('.') + 1);
   const auto place = std::ranges::find(direction_names, direction) - direction_names.begin();
-  if (place == static_cast<std::ptrdiff_t>(direction_names.size())) {
-    throw UserError(path + ": channel '" + channel + "' has no direction x, y or z");
-  }
-  if (history.shape("ground_acceleration").columns != direction_names.size()) {
-    throw UserError(path + ": ground_acceleration has no three columns");
-  }
+  refuse_if(place == static_cast<std::ptrdiff_t>(direction_names.size()),
+            path + ": channel '" + channel + "' has no direction x, y or z");
+  refuse_if(history.shape("ground_acceleration").columns != direction_names.size(),
+            path + ": ground_acceleration has no three columns");
   const auto ground = history.rows("ground_acceleration", 0, acceleration.size());
   for (std::size_t i = 0; i < acceleration.size(); ++i) {
     acceleration[i] -= ground.at(3 * i + static_cast<std::size_t>(place));
@@ -87,9 +83,8 @@ std::size_t whole_records(const Hdf5Reader& history, const std::string& path) {
   const std::vector<std::string> names = history.names("/");
   if (std::ranges::find(names, "records") == names.end()) return rows;
   const double whole = history.rows("records", 0, 1)[0];
-  if (!(whole >= 0 && whole <= static_cast<double>(rows))) {
-    throw UserError(path + ": 'records' is not a number of its " + std::to_string(rows) + " rows");
-  }
+  refuse_if(!(whole >= 0 && whole <= static_cast<double>(rows)),
+            path + ": 'records' is not a number of its " + std::to_string(rows) + " rows");
   return static_cast<std::size_t>(whole);
 }
 
@@ -111,9 +106,8 @@ void read_history(const std::string& path, const SpectraOptions& options,
   const double step = uniform_step(path, time);
   const double offset = history.number("acceleration", "time_offset");
   const auto shape = history.shape("acceleration");
-  if (shape.columns != channels.size() || shape.rows < records) {
-    throw UserError(path + ": acceleration, time and channels do not fit together");
-  }
+  refuse_if(shape.columns != channels.size() || shape.rows < records,
+            path + ": acceleration, time and channels do not fit together");
   const auto all = history.rows("acceleration", 0, records);
   for (const std::size_t channel : choose(path, channels, options.channels)) {
     std::vector<double> acceleration;
@@ -133,9 +127,8 @@ void read_history(const std::string& path, const SpectraOptions& options,
 
 void read_record(const std::string& path, const SpectraOptions& options,
                  std::vector<NamedSignal>& signals) {
-  if (!options.channels.empty() || options.relative) {
-    throw UserError(path + " is a record: --channels and --frame go with the history.h5 of a run");
-  }
+  refuse_if(!options.channels.empty() || options.relative,
+            path + " is a record: --channels and --frame go with the history.h5 of a run");
   for (const int column : options.columns) {
     Accelerogram record = read_accelerogram({path, options.unit, options.time_step, column});
     for (const std::string& doubt : record.doubts) {
@@ -157,10 +150,9 @@ void begin_at(double start, NamedSignal& named) {
   SampledSignal& signal = named.signal;
   const double before = std::ceil((start - signal.first_time) / signal.time_step - 1e-6);
   if (start == 0 || before <= 0) return;
-  if (before > static_cast<double>(signal.acceleration.size()) - 2) {
-    throw UserError(named.name + ": ends before two samples are left after --start " +
-                    std::to_string(start));
-  }
+  refuse_if(
+      before > static_cast<double>(signal.acceleration.size()) - 2,
+      named.name + ": ends before two samples are left after --start " + std::to_string(start));
   signal.acceleration.erase(signal.acceleration.begin(),
                             signal.acceleration.begin() + static_cast<std::ptrdiff_t>(before));
   signal.first_time += before * signal.time_step;

@@ -51,9 +51,8 @@ bool needs_peaks(const SpectraOptions& options) {
 }
 
 std::vector<TimeWindow> contact_windows(const SpectraOptions& options, const NamedSignal& named) {
-  if (options.impacts.empty() && !named.is_history) {
-    throw UserError(named.name + " is a record: its impacts are known only from --impacts FILE");
-  }
+  refuse_if(options.impacts.empty() && !named.is_history,
+            named.name + " is a record: its impacts are known only from --impacts FILE");
   const std::string path =
       options.impacts.empty() ? named.folder + "/impacts.csv" : options.impacts;
   const auto impacts = read_impact_windows(path);
@@ -64,10 +63,8 @@ std::vector<TimeWindow> contact_windows(const SpectraOptions& options, const Nam
       windows.push_back({impact.start, impact.end});
     }
   }
-  if (windows.empty()) {
-    throw UserError(path + ": no impact" + (impacts.empty() ? "" : " of these contacts") +
-                    ", so there are no peaks to keep or to leave out");
-  }
+  refuse_if(windows.empty(), path + ": no impact" + (impacts.empty() ? "" : " of these contacts") +
+                                 ", so there are no peaks to keep or to leave out");
   return windows;
 }
 
@@ -76,9 +73,8 @@ double time_step_of_run(const NamedSignal& named) {
   require_finite_file(path);
   const auto summary = nlohmann::json::parse(std::ifstream(path), nullptr, false);
   const auto found = summary.is_object() ? summary.find("time_step") : summary.end();
-  if (!summary.is_object() || found == summary.end() || !found->is_number()) {
-    throw UserError(path + " does not state the time step of the run; give --dirac-step");
-  }
+  refuse_if(!summary.is_object() || found == summary.end() || !found->is_number(),
+            path + " does not state the time step of the run; give --dirac-step");
   return found->get<double>();
 }
 
@@ -87,9 +83,7 @@ Input prepare(const SpectraOptions& options, NamedSignal named) {
   if (!needs_peaks(options)) return input;
   input.peaks =
       find_peaks(input.named.signal, contact_windows(options, input.named), options.margin);
-  if (input.peaks.empty()) {
-    throw UserError(input.named.name + ": the impacts lie outside the signal");
-  }
+  refuse_if(input.peaks.empty(), input.named.name + ": the impacts lie outside the signal");
   if (input.dirac_step == 0 && asked(options, Treatment::dirac)) {
     input.dirac_step = time_step_of_run(input.named);
   }
@@ -154,11 +148,10 @@ std::vector<Spectrum> spectra_of_pair(const SpectraOptions& options, const Input
                                       const Input& second) {
   const SampledSignal& one = first.named.signal;
   const SampledSignal& other = second.named.signal;
-  if (one.time_step != other.time_step || one.first_time != other.first_time ||
-      one.acceleration.size() != other.acceleration.size()) {
-    throw UserError("--rotd: " + first.named.name + " and " + second.named.name +
-                    " have other times: they are no pair");
-  }
+  refuse_if(one.time_step != other.time_step || one.first_time != other.first_time ||
+                one.acceleration.size() != other.acceleration.size(),
+            "--rotd: " + first.named.name + " and " + second.named.name +
+                " have other times: they are no pair");
   const auto all = rotated_spectra(one.acceleration, other.acceleration, one.time_step,
                                    options.frequencies, options.damping_ratios, options.rotated,
                                    after(options, first, Treatment::complete));
@@ -193,10 +186,9 @@ std::vector<std::pair<const Input*, const Input*>> pairs_of(const std::vector<In
     });
     if (found != inputs.end()) pairs.emplace_back(&input, &*found);
   }
-  if (records.size() % 2 != 0) {
-    throw UserError("--rotd: " + std::to_string(records.size()) +
-                    " components of records are no pairs; give two columns or two files");
-  }
+  refuse_if(records.size() % 2 != 0,
+            "--rotd: " + std::to_string(records.size()) +
+                " components of records are no pairs; give two columns or two files");
   for (std::size_t i = 0; i + 1 < records.size(); i += 2) {
     pairs.emplace_back(records[i], records[i + 1]);
   }

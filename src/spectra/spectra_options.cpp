@@ -111,19 +111,17 @@ void check_together(const SpectraOptions& options) {
         "--impacts, --contacts, --margin and --dirac-step have no effect without --treatment or "
         "--peaks");
   }
-  if (!options.rotated.empty() && (options.true_peaks || peaks)) {
-    throw UserError(
-        "--rotd has pseudo peaks of complete signals: not with --true, --treatment, "
-        "--peaks");
-  }
+  refuse_if(!options.rotated.empty() && (options.true_peaks || peaks),
+
+            "--rotd has pseudo peaks of complete signals: not with --true, --treatment, "
+            "--peaks");
   const auto place = [](const std::string& file) {
     return file.empty() ? std::string("/dev/stdout") : file;
   };
   for (const auto& [name, file] :
        {std::pair{"--peaks ", options.peaks}, {"--samples ", options.samples}}) {
-    if (!file.empty() && file == place(options.output)) {
-      throw UserError(name + file + ": the spectra go there; give another file");
-    }
+    refuse_if(!file.empty() && file == place(options.output),
+              name + file + ": the spectra go there; give another file");
   }
 }
 

@@ -90,11 +90,10 @@ ReducedStatics::ReducedStatics(const LinearSystem& system, double shift) {
   inverse_ = stiffness_;
   for (std::size_t i = 0; i < n; ++i) inverse_[i * n + i] += shift * system.lumped_mass[i];
   on_every_rank(system.comm, [&] {
-    if (n > 0 && !invert_definite(inverse_)) {
-      throw UserError("structure " + system.name +
-                      ": its reduced stiffness is not positive without its one-way links, so "
-                      "it has no static equilibrium; leave -preload out");
-    }
+    refuse_if(n > 0 && !invert_definite(inverse_),
+              "structure " + system.name +
+                  ": its reduced stiffness is not positive without its one-way links, so "
+                  "it has no static equilibrium; leave -preload out");
   });
 }
 
@@ -222,11 +221,10 @@ bool AssembledStatics::factorise(SolverChoice solver) {
   });
   MPI_Bcast(&outcome, 1, MPI_INT, 0, system_.comm);
   MPI_Bcast(&factor_memory_, 1, MPI_DOUBLE, 0, system_.comm);
-  if (outcome == Outcome::failed) {
-    throw UserError("structure " + system_.name +
-                    ": MUMPS cannot factorise its stiffness for the static equilibrium; give "
-                    "-preload_solver iterative");
-  }
+  refuse_if(outcome == Outcome::failed,
+            "structure " + system_.name +
+                ": MUMPS cannot factorise its stiffness for the static equilibrium; give "
+                "-preload_solver iterative");
   if (outcome == Outcome::too_large) {
     factor_ = MatHandle();
     gathered_ = MatHandle();

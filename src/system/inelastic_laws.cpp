@@ -204,12 +204,11 @@ Law cracking_shells(const Structure& structure, const Mesh& mesh, int region) {
   const Region& own = structure.regions[region];
   const ShellCracking law =
       CrackingShell::with_slopes(*own.yielding_shell.cracking, own.material.poisson);
-  if (!(law.tension < 1)) {
-    throw UserError(
-        "option -" + structure.name + "_" + own.group +
-        "_cracked_tension: more than is left beside its cracked_compression; give less, "
-        "or more of that");
-  }
+  refuse_if(!(law.tension < 1),
+
+            "option -" + structure.name + "_" + own.group +
+                "_cracked_tension: more than is left beside its cracked_compression; give less, "
+                "or more of that");
   const CrackingShell shell(own.material.young, own.material.poisson, own.thickness, law);
   auto shells = std::make_shared<CrackingShells>(shell, own.thickness);
   for_each_of_region(structure, mesh, region,

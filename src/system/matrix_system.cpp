@@ -122,9 +122,7 @@ class MatrixSystem {
  private:
   std::string needed_path_of(const std::string& name) const {
     std::string path = matrix_file(folder_, name);
-    if (path.empty()) {
-      throw UserError(folder_ + ": neither " + name + ".mtx nor " + name + ".petsc is there");
-    }
+    refuse_if(path.empty(), folder_ + ": neither " + name + ".mtx nor " + name + ".petsc is there");
     return path;
   }
 
@@ -176,11 +174,9 @@ class MatrixSystem {
 
   void check_size(const std::string& path, const MatrixSize& size, bool vector) const {
     const auto rows = static_cast<PetscInt>(rows_.size());
-    if (size.rows != rows || (size.columns != rows && !(vector && size.columns == 1))) {
-      throw UserError(path + ": " + std::to_string(size.rows) + " x " +
-                      std::to_string(size.columns) + ", but dofs.csv has " +
-                      std::to_string(rows_.size()) + " rows");
-    }
+    refuse_if(size.rows != rows || (size.columns != rows && !(vector && size.columns == 1)),
+              path + ": " + std::to_string(size.rows) + " x " + std::to_string(size.columns) +
+                  ", but dofs.csv has " + std::to_string(rows_.size()) + " rows");
   }
 
   /// A row number beyond dofs.csv is reported by its size, not read.
@@ -297,10 +293,8 @@ std::string matrix_file(const std::string& folder, const std::string& name) {
   const std::string binary = folder + "/" + name + ".petsc";
   const bool is_text = std::filesystem::exists(text);
   const bool is_binary = std::filesystem::exists(binary);
-  if (is_text && is_binary) {
-    throw UserError(text + ": the same matrix is in " + name +
-                    ".petsc as well; remove one of them");
-  }
+  refuse_if(is_text && is_binary,
+            text + ": the same matrix is in " + name + ".petsc as well; remove one of them");
   return is_text ? text : (is_binary ? binary : "");
 }
 

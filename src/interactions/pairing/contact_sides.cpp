@@ -60,11 +60,9 @@ class SideFinder {
   FaceSide side_of(const std::string& name, const ContactSide& s) const {
     const std::size_t index = structure_index(scene_, s.structure);
     const GlobalMesh& mesh = meshes_[index];
-    if (!mesh.groups.contains(s.group)) {
-      throw UserError(side_option(contact_, name) + ": group '" + s.group +
-                      "' is not in the mesh of " + s.structure +
-                      ", which has: " + group_names(mesh));
-    }
+    refuse_if(!mesh.groups.contains(s.group), side_option(contact_, name) + ": group '" + s.group +
+                                                  "' is not in the mesh of " + s.structure +
+                                                  ", which has: " + group_names(mesh));
     const Structure& structure = scene_.structures[index];
     FaceSide side{static_cast<int>(index), &mesh,
                   build_contact_face(mesh, structure.regions, group(s)),
@@ -91,12 +89,10 @@ class SideFinder {
     const std::vector<GlobalIndex>& b = group(contact_.primary).nodes;
     std::vector<GlobalIndex> common;
     std::ranges::set_intersection(a, b, std::back_inserter(common));
-    if (!common.empty()) {
-      throw UserError(side_option(contact_, "primary") + ": shares " +
-                      std::to_string(common.size()) + " nodes with the secondary side " +
-                      contact_.secondary.structure + ":" + contact_.secondary.group +
-                      "; a contact needs two faces that can part");
-    }
+    refuse_if(!common.empty(),
+              side_option(contact_, "primary") + ": shares " + std::to_string(common.size()) +
+                  " nodes with the secondary side " + contact_.secondary.structure + ":" +
+                  contact_.secondary.group + "; a contact needs two faces that can part");
   }
 
   /// Builds a face anew, its facets turned towards a direction where that is open.
@@ -108,13 +104,12 @@ class SideFinder {
   }
 
   void decide_beside_wall(FaceSide& side) const {
-    if (side.face.facets.empty()) {
-      throw UserError(side_option(contact_, "secondary") +
-                      ": beams look in no direction, or shells in several planes end at the edges "
-                      "of this group, so that nothing "
-                      "says on which side the wall is; give a face of shells, or an edge of one "
-                      "floor alone");
-    }
+    refuse_if(side.face.facets.empty(),
+              side_option(contact_, "secondary") +
+                  ": beams look in no direction, or shells in several planes end at the edges "
+                  "of this group, so that nothing "
+                  "says on which side the wall is; give a face of shells, or an edge of one "
+                  "floor alone");
     decide(side, contact_.secondary, side.face.mean_normal);
     // Shells have two sides: a mat is on the wall, its load on the other one.
     const Vector3 body = centre_of_body(contact_.secondary);
@@ -209,25 +204,22 @@ class SideFinder {
   /// A beam's line says nothing of its surface, and a face has no place for where it is met.
   void check_beams(const ContactSides& sides) const {
     if (sides.secondary.face.beams == 0 && sides.primary.face.beams == 0) return;
-    if (contact_.gap.is_of_meshes()) {
-      throw UserError("option -" + contact_.name +
-                      "_gap geometry: one side is beams, whose lines say nothing of their surface; "
-                      "give the gap as a number");
-    }
-    if (sides.primary.face.beams > 0 && !sides.secondary.face.is_line()) {
-      throw UserError(side_option(contact_, "primary") +
-                      ": beams before a face are its secondary side; swap the two");
-    }
+    refuse_if(contact_.gap.is_of_meshes(),
+              "option -" + contact_.name +
+                  "_gap geometry: one side is beams, whose lines say nothing of their surface; "
+                  "give the gap as a number");
+    refuse_if(sides.primary.face.beams > 0 && !sides.secondary.face.is_line(),
+              side_option(contact_, "primary") +
+                  ": beams before a face are its secondary side; swap the two");
   }
 
   void check_facing(const ContactSides& sides) const {
     const double cosine = dot(sides.secondary.face.mean_normal, sides.primary.face.mean_normal);
-    if (!(cosine < -0.5)) {
-      throw UserError(side_option(contact_, "secondary") + " and -" + contact_.name + "_primary " +
-                      contact_.primary.structure + ":" + contact_.primary.group +
-                      ": the faces do not face each other (cosine of their outward normals " +
-                      std::to_string(cosine) + ", should be near -1)");
-    }
+    refuse_if(!(cosine < -0.5),
+              side_option(contact_, "secondary") + " and -" + contact_.name + "_primary " +
+                  contact_.primary.structure + ":" + contact_.primary.group +
+                  ": the faces do not face each other (cosine of their outward normals " +
+                  std::to_string(cosine) + ", should be near -1)");
   }
 
   const Scene& scene_;

@@ -176,11 +176,10 @@ SlidingBuilder::SlidingBuilder(const Contact& contact, int number, const FaceSid
       finder_(finder),
       faces_(faces),
       facets_(facets.face.facets.size(), -1) {
-  if (facets.face.has_lines()) {
-    throw UserError("option -" + contact.name +
-                    "_sliding: pairs are found anew on facets of solids and shells, and a face of "
-                    "this contact has edges or axes of beams; leave it out");
-  }
+  refuse_if(facets.face.has_lines(),
+            "option -" + contact.name +
+                "_sliding: pairs are found anew on facets of solids and shells, and a face of "
+                "this contact has edges or axes of beams; leave it out");
 }
 
 std::vector<std::size_t> SlidingBuilder::within_reach(std::size_t i) const {

@@ -68,11 +68,10 @@ class PairFinder {
  private:
   [[noreturn]] void refuse_without_pairs() const {
     const std::string option = side_option(contact_, "secondary");
-    if (report_.left_behind == 0) {
-      throw UserError(option + ": no node of group '" + contact_.secondary.group +
-                      "' faces group '" + contact_.primary.group +
-                      "'; check that the two faces overlap across their normal");
-    }
+    refuse_if(report_.left_behind == 0,
+              option + ": no node of group '" + contact_.secondary.group + "' faces group '" +
+                  contact_.primary.group +
+                  "'; check that the two faces overlap across their normal");
     std::ostringstream text;
     text << option << ": the primary " << contact_.primary.structure << ":"
          << contact_.primary.group << " lies behind it, by up to " << report_.farthest_behind

@@ -189,19 +189,17 @@ void fill_joint(const Contact& contact, Constraint& constraint) {
 void lay_filler(const Contact& contact, bool lines, double common,
                 std::span<Constraint> constraints, InterfaceReport& report) {
   const Filler& filler = *contact.filler;
-  if (lines && !(filler.area > 0)) {
-    throw UserError("contact " + contact.name +
-                    ": one of its faces is made of lines, which have no area: give -" +
-                    contact.name + (contact.crushes() ? "_crushing_area" : "_filler_area"));
-  }
+  refuse_if(lines && !(filler.area > 0),
+            "contact " + contact.name +
+                ": one of its faces is made of lines, which have no area: give -" + contact.name +
+                (contact.crushes() ? "_crushing_area" : "_filler_area"));
   double whole = 0;
   for (const Constraint& constraint : constraints) whole += constraint.filler.area;
   const double wanted = filler.area > 0 ? filler.area : common;
-  if (!(whole > 0)) {
-    throw UserError("contact " + contact.name +
-                    ": its faces have no area in common that a node of the secondary one has a "
-                    "part of; name the face with the finer mesh as the secondary one");
-  }
+  refuse_if(!(whole > 0),
+            "contact " + contact.name +
+                ": its faces have no area in common that a node of the secondary one has a "
+                "part of; name the face with the finer mesh as the secondary one");
   report.filler_area = wanted;
   for (Constraint& constraint : constraints) {
     fill_joint(contact, constraint);

@@ -53,11 +53,9 @@ StopSide stop_side(const Scene& scene, std::span<const GlobalMesh> meshes, const
   found.structure = static_cast<int>(structure - scene.structures.begin());
   found.mesh = &meshes[static_cast<std::size_t>(found.structure)];
   const auto group = found.mesh->groups.find(side.group);
-  if (group == found.mesh->groups.end()) {
-    throw UserError(side_option(contact, name) + ": group '" + side.group +
-                    "' is not in the mesh of " + side.structure +
-                    ", which has: " + group_names(*found.mesh) + "; a point is x,y,z");
-  }
+  refuse_if(group == found.mesh->groups.end(),
+            side_option(contact, name) + ": group '" + side.group + "' is not in the mesh of " +
+                side.structure + ", which has: " + group_names(*found.mesh) + "; a point is x,y,z");
   found.nodes = group->second.nodes;
   return found;
 }
@@ -88,14 +86,12 @@ class StopRows {
     const Vector3 here = secondary_.position(node);
     const bool wall = primary_.mesh == nullptr;
     const GlobalIndex other = wall ? 0 : nearest_to(here, *primary_.mesh, primary_.nodes);
-    if (!wall && primary_.structure == secondary_.structure && other == node) {
-      throw UserError(side_option(contact_, "primary") +
-                      ": both sides of the stop are the same node; name two");
-    }
-    if (!secondary_.moves(node) && !(!wall && primary_.moves(other))) {
-      throw UserError(side_option(contact_, "secondary") + ": neither the node at " + text(here) +
-                      " nor what stops it can move; leave the stop out, or free one");
-    }
+    refuse_if(
+        !wall && primary_.structure == secondary_.structure && other == node,
+        side_option(contact_, "primary") + ": both sides of the stop are the same node; name two");
+    refuse_if(!secondary_.moves(node) && !(!wall && primary_.moves(other)),
+              side_option(contact_, "secondary") + ": neither the node at " + text(here) +
+                  " nor what stops it can move; leave the stop out, or free one");
     const Vector3 way = wall ? Vector3{0, 0, 0} : minus(primary_.position(other), here);
     const Vector3 ahead = direction(here, way);
     if (report_.pairs == 0) {
@@ -127,10 +123,9 @@ class StopRows {
 
   Vector3 direction(const Vector3& here, const Vector3& way) const {
     if (contact_.stop->along) return *contact_.stop->along;
-    if (!(norm(way) > same_place * interface_.model_size)) {
-      throw UserError("option -" + contact_.name + "_along line: both nodes lie at " + text(here) +
-                      ", and no line joins them; give a direction x,y,z");
-    }
+    refuse_if(!(norm(way) > same_place * interface_.model_size),
+              "option -" + contact_.name + "_along line: both nodes lie at " + text(here) +
+                  ", and no line joins them; give a direction x,y,z");
     return normalised(way);
   }
 

@@ -176,9 +176,8 @@ std::vector<TextLine> read_text_lines(const std::string& file) {
   if (!stream) throw UserError(file + ": cannot be opened; check the path and the permissions");
   std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  if (text.find('\0') != std::string::npos) {
-    throw UserError(file + ": is not a text file" + kind_of_bytes(text) + "; export it as text");
-  }
+  refuse_if(text.find('\0') != std::string::npos,
+            file + ": is not a text file" + kind_of_bytes(text) + "; export it as text");
   if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
 
   std::vector<TextLine> lines;
