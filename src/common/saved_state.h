@@ -81,12 +81,15 @@ class StateKeeper {
   static StateKeeper from(const SavedState& state) { return {nullptr, &state}; }
 
   bool puts() const { return to_ != nullptr; }
+  /// This one for tables that this rank has or has not: without them it puts none.
+  StateKeeper known_if(bool known) const { return {to_, from_, known}; }
   /// The state that values come from, or go to.
   const SavedState& state() const { return *from_; }
 
   // The three kinds of SavedState, by the same names.
   void table(const std::string& name, std::span<double> values, std::size_t columns = 0) const {
-    puts() ? to_->put(name, values, columns) : from_->get(name, values);
+    if (!puts()) from_->get(name, values);
+    if (puts() && known_) to_->put(name, values, columns);
   }
   void sums(const std::string& name, std::span<double> values) const {
     puts() ? to_->put_sums(name, values) : from_->get_sums(name, values);
@@ -101,60 +104,65 @@ class StateKeeper {
     std::array<double, sizeof...(Values)> row{static_cast<double>(values)...};
     table(name, row);
     auto next = row.begin();
-    const auto take = [&](auto& value) {
-      using Value = std::remove_reference_t<decltype(value)>;
-      constexpr bool whole = std::is_integral_v<Value> && !std::is_same_v<Value, bool>;
-      value = static_cast<Value>(whole ? static_cast<double>(from_->whole(name, *next)) : *next);
-      ++next;
-    };
-    if (!puts()) (take(values), ...);
+    if (!puts()) (bring(name, *next++, values), ...);
   }
   /// A table with a row for each of `count` objects: `members(i, take)` calls `take` with the
   /// numbers of object i.
   template <typename Members>
   void rows(const std::string& name, std::size_t count, const Members& members) const {
+    rows_of(name, count, 0, members);
+  }
+  /// A row for each of some objects: `members(object, take)` calls `take` with its numbers.
+  template <typename Object, typename Members>
+  void rows(const std::string& name, std::vector<Object>& objects, const Members& members) const {
+    rows_of(name, objects.size(), width<Object>(members),
+            [&](std::size_t i, const auto& take) { members(objects[i], take); });
+  }
+  /// Rows of as many objects as there were.
+  template <typename Object, typename Members>
+  void list(const std::string& name, std::vector<Object>& objects, const Members& members) const {
+    const std::size_t columns = width<Object>(members);
+    if (!puts()) objects.resize(from_->table(name, columns).size() / columns);
+    rows(name, objects, members);
+  }
+
+ private:
+  StateKeeper(SavedState* to, const SavedState* from, bool known = true)
+      : to_(to), from_(from), known_(known) {}
+
+  template <typename Object, typename Members>
+  static std::size_t width(const Members& members) {
+    std::size_t columns = 0;
+    Object one{};
+    members(one, [&](auto&... values) { columns += sizeof...(values); });
+    return columns;
+  }
+  template <typename Value>
+  void bring(const std::string& name, double number, Value& value) const {
+    if constexpr (std::is_integral_v<Value> && !std::is_same_v<Value, bool>) {
+      value = static_cast<Value>(from_->whole(name, number));
+    } else {
+      value = static_cast<Value>(number);
+    }
+  }
+  /// `columns`: of a table without rows.
+  template <typename Members>
+  void rows_of(const std::string& name, std::size_t count, std::size_t columns,
+               const Members& members) const {
     std::vector<double> all;
     for (std::size_t i = 0; i < count; ++i) {
       members(i, [&](auto&... values) { (all.push_back(static_cast<double>(values)), ...); });
     }
-    table(name, all, count == 0 ? 0 : all.size() / count);
+    table(name, all, count == 0 ? columns : all.size() / count);
     auto next = all.begin();
     for (std::size_t i = 0; !puts() && i < count; ++i) {
-      members(i, [&](auto&... values) {
-        ((values = static_cast<std::remove_reference_t<decltype(values)>>(*next++)), ...);
-      });
+      members(i, [&](auto&... values) { (bring(name, *next++, values), ...); });
     }
   }
 
- private:
-  StateKeeper(SavedState* to, const SavedState* from) : to_(to), from_(from) {}
-
   SavedState* to_;  ///< null: values are brought back
   const SavedState* from_;
+  bool known_;
 };
-
-/// Objects as rows of a table of numbers, as they go into a saved state. `members(object, take)`
-/// calls `take` with the members that make a row.
-template <typename Object, typename Members>
-std::vector<double> to_rows(const std::vector<Object>& objects, const Members& members) {
-  std::vector<double> numbers;
-  for (const Object& object : objects) {
-    members(object,
-            [&](const auto&... values) { (numbers.push_back(static_cast<double>(values)), ...); });
-  }
-  return numbers;
-}
-
-/// Reads as many objects as there are.
-template <typename Object, typename Members>
-void from_rows(std::span<const double> numbers, std::vector<Object>& objects,
-               const Members& members) {
-  auto next = numbers.begin();
-  for (Object& object : objects) {
-    members(object, [&](auto&... values) {
-      ((values = static_cast<std::remove_reference_t<decltype(values)>>(*next++)), ...);
-    });
-  }
-}
 
 }  // namespace pounding

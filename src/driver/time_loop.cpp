@@ -6,6 +6,7 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "observers/kinds.h"
 
 namespace pounding {
 namespace {
@@ -47,7 +48,7 @@ int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
   Observers& observers = *observers_;
   if (restart != nullptr) {
     scheme_.stepper().keep(StateKeeper::from(*restart));
-    for (const auto& observer : observers.list()) observer->load(*restart);
+    for (const auto& observer : observers.list()) observer->keep_state(StateKeeper::from(*restart));
     first_step_ = step() + 1;
   }
   observers.start(scheme_.stepper(), restart);
@@ -85,7 +86,7 @@ void TimeLoop::write_checkpoint(const RunIdentity& identity) {
     throw DivergenceError("the run diverged: not a number at step " + std::to_string(step()) +
                           "; the checkpoint before is kept");
   }
-  for (const auto& observer : observers_->list()) observer->save(saved);
+  for (const auto& observer : observers_->list()) observer->keep_state(StateKeeper::to(saved));
   pounding::write_checkpoint(comm_, scene_.output + "/checkpoint.h5", identity, model_.meshes,
                              model_.systems, saved);
 }

@@ -44,10 +44,9 @@ class ImpactWatch final : public Observer {
     if (run_.scheme.rows_act()) add_contact(stepper);
   }
   void finish(bool /*complete*/) override { catalogue_.finish(run_.comm, root_); }
-  void save(SavedState& saved) override {
-    if (rank_of(run_.comm) == root_) catalogue_.save(saved);
+  void keep_state(const StateKeeper& state) override {
+    catalogue_.keep(state.known_if(rank_of(run_.comm) == root_));
   }
-  void load(const SavedState& saved) override { catalogue_.load(saved); }
   void keep(MemberResult& member) const override;
   void report(RunStatistics& statistics) override;
 
@@ -84,13 +83,8 @@ class UpliftWatch final : public Observer {
 
   std::int64_t next_due(std::int64_t step) const override { return run_.next_ledger_step(step); }
   void observe(const CdLagrange& stepper) override;
-  void save(SavedState& saved) override {
-    if (rank_of(run_.comm) == 0) saved.put("contact_ratio", to_rows(ratios_, ratio_members));
-  }
-  void load(const SavedState& saved) override {
-    std::vector<double> numbers(4 * ratios_.size());
-    saved.get("contact_ratio", numbers);
-    from_rows(numbers, ratios_, ratio_members);
+  void keep_state(const StateKeeper& state) override {
+    state.rows("contact_ratio", ratios_, ratio_members);
   }
   void report(RunStatistics& statistics) override;
 
@@ -101,6 +95,14 @@ class UpliftWatch final : public Observer {
 
 /// Closings below this part of the gap are no motion.
 constexpr double least_share = 1e-6;
+
+/// The numbers of a joint in a saved state: one that never closes has no factor, and no infinite
+/// number goes into files.
+constexpr auto closing_members = [](auto& joint, const auto& take) {
+  double factor = std::isfinite(joint.factor) ? joint.factor : -1;
+  take(joint.largest, factor);
+  if (factor >= 0) joint.factor = factor;
+};
 
 /// Smallest gap at t_n and mean force over the interval of each contact, for the history; and how
 /// far the pairs have closed at the samples. On the root of the contacts.
@@ -125,8 +127,7 @@ class ContactHistory final : public Observer {
   bool follows() const override { return run_.is_contact_root(); }
   void follow(const CdLagrange& stepper) override;
   void observe(const CdLagrange& stepper) override;
-  void save(SavedState& saved) override;
-  void load(const SavedState& saved) override;
+  void keep_state(const StateKeeper& state) override;
   void keep(MemberResult& member) const override;
   void report(RunStatistics& statistics) override;
   std::optional<RecordColumns> columns() const override;
@@ -294,30 +295,13 @@ std::optional<RecordColumns> ContactHistory::columns() const {
   return columns;
 }
 
-void ContactHistory::save(SavedState& saved) {
-  if (run_.is_contact_root()) saved.put("recorder_impulse", impulses_);
-  if (rank_of(run_.comm) != std::max(run_.contact_root(), 0)) return;
-  std::vector<double> numbers;
-  for (const JointClosing& joint : closings_) {
-    // A joint that never closes has no factor, and no infinite number goes into files.
-    const bool closes = std::isfinite(joint.factor);
-    numbers.insert(numbers.end(), {joint.largest, closes ? joint.factor : -1});
+void ContactHistory::keep_state(const StateKeeper& state) {
+  if (run_.contact_root() >= 0) {
+    state.known_if(run_.is_contact_root()).table("recorder_impulse", impulses_);
   }
-  saved.put("joint_closings", numbers, 2);
-  saved.put("pair_gaps", to_rows(pairs_, least_gap_members), 3);
-}
-
-void ContactHistory::load(const SavedState& saved) {
-  if (run_.contact_root() >= 0) saved.get("recorder_impulse", impulses_);
-  std::vector<double> numbers(2 * closings_.size());
-  saved.get("joint_closings", numbers);
-  for (std::size_t c = 0; c < closings_.size(); ++c) {
-    closings_[c].largest = numbers[2 * c];
-    if (numbers[2 * c + 1] >= 0) closings_[c].factor = numbers[2 * c + 1];
-  }
-  numbers.resize(3 * pairs_.size());
-  saved.get("pair_gaps", numbers);
-  from_rows(numbers, pairs_, least_gap_members);
+  const StateKeeper own = state.known_if(rank_of(run_.comm) == std::max(run_.contact_root(), 0));
+  own.rows("joint_closings", closings_, closing_members);
+  own.rows("pair_gaps", pairs_, least_gap_members);
 }
 
 void ContactHistory::keep(MemberResult& member) const {

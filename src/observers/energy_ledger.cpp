@@ -8,8 +8,6 @@ namespace {
 /// Lines that are kept at most.
 constexpr std::int64_t most_lines = 5000;
 
-constexpr std::size_t ledger_columns = 4 + ledger_rows.size();
-
 /// The numbers of a line in a saved state.
 constexpr auto line_members = [](auto& line, const auto& take) {
   take(line.time, line.kinetic, line.strain, line.residual);
@@ -26,21 +24,13 @@ void EnergyLedger::add(const EnergyLine& line) {
   if (added_++ % stride_ == 0) lines_.push_back(line);
 }
 
-void EnergyLedger::save(SavedState& saved) const {
-  std::vector<EnergyLine> all = lines_;
-  all.push_back(last_);
-  saved.put("ledger", to_rows(all, line_members), ledger_columns);
-  saved.put("ledger_added", {static_cast<double>(added_)});
-}
-
-void EnergyLedger::load(const SavedState& saved) {
-  const std::vector<double>& numbers = saved.table("ledger", ledger_columns);
-  if (numbers.empty()) saved.refuse_values("ledger");
-  lines_.resize(numbers.size() / ledger_columns);
-  from_rows(numbers, lines_, line_members);
+void EnergyLedger::keep(const StateKeeper& state) {
+  lines_.push_back(last_);
+  state.list("ledger", lines_, line_members);
+  if (lines_.empty()) state.state().refuse_values("ledger");
   last_ = lines_.back();
   lines_.pop_back();
-  added_ = saved.integer("ledger_added");
+  state.numbers("ledger_added", added_);
 }
 
 std::string energy_columns() {

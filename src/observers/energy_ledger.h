@@ -20,8 +20,7 @@ class EnergyLedger {
   /// The last one added, kept or not.
   const EnergyLine& last() const { return last_; }
 
-  void save(SavedState& saved) const;
-  void load(const SavedState& saved);
+  void keep(const StateKeeper& state);
 
  private:
   std::int64_t stride_;  ///< lines added per line kept

@@ -27,17 +27,14 @@ void copy_numbers(const OffsetFile& from, std::int64_t source, const OffsetFile&
 
 }  // namespace
 
-void FieldWriter::save(SavedState& saved) {
+void FieldWriter::keep_state(const StateKeeper& state) {
   const int rank = rank_of(run_.comm);
-  if (rank == impulse_root() && !impulses_.empty()) saved.put("fields_impulse", impulses_);
-  if (rank == 0) saved.put("fields_frames", {static_cast<double>(frames_)});
-  flush();
-}
-
-void FieldWriter::load(const SavedState& saved) {
-  frames_ = saved.integer("fields_frames");
-  if (frames_ < 0) saved.refuse_values("fields_frames");
-  if (!impulses_.empty()) saved.get("fields_impulse", impulses_);
+  state.known_if(rank == 0).numbers("fields_frames", frames_);
+  if (frames_ < 0) state.state().refuse_values("fields_frames");
+  if (!impulses_.empty()) {
+    state.known_if(rank == impulse_root()).table("fields_impulse", impulses_);
+  }
+  if (state.puts()) return flush();
   on_rank0(run_.comm, [&] {
     try {
       const Hdf5Reader file(continued_);
@@ -60,7 +57,7 @@ void FieldWriter::load(const SavedState& saved) {
                                  std::to_string(frames_) + " of the checkpoint");
       }
     } catch (const std::runtime_error& error) {
-      throw UserError(saved.source() + ": the fields beside it cannot be continued, " +
+      throw UserError(state.state().source() + ": the fields beside it cannot be continued, " +
                       error.what());
     }
   });

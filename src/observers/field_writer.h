@@ -62,9 +62,8 @@ class FieldWriter final : public Observer {
   /// Lists them, everything on the disk. Collective.
   void finish(bool complete) override;
   /// Keeps the number of frames and the impulses since the last one, and lists the frames.
-  void save(SavedState& saved) override;
-  /// Refuses a file that cannot be continued.
-  void load(const SavedState& saved) override;
+  /// Brought back, it refuses a file that cannot be continued.
+  void keep_state(const StateKeeper& state) override;
 
  private:
   /// A quantity of a structure.

@@ -81,8 +81,7 @@ class Forces final : public Observer {
   std::int64_t next_due(std::int64_t step) const override { return run_.next_record_step(step); }
   StepNeeds begin(const CdLagrange& stepper) override;
   void observe(const CdLagrange& stepper) override;
-  void save(SavedState& saved) override;
-  void load(const SavedState& saved) override;
+  void keep_state(const StateKeeper& state) override;
   void report(RunStatistics& statistics) override;
   std::optional<RecordColumns> columns() const override;
 
@@ -261,28 +260,20 @@ std::optional<RecordColumns> Forces::columns() const {
   return columns;
 }
 
-void Forces::save(SavedState& saved) {
-  if (rank_of(run_.comm) != 0) return;
-  saved.put("force_peaks", to_rows(peaks_, peak_members), 2);
-  saved.put("force_peaks_start", {peaks_start_});
-}
-
-void Forces::load(const SavedState& saved) {
+void Forces::keep_state(const StateKeeper& state) {
+  const StateKeeper own = state.known_if(rank_of(run_.comm) == 0);
   const double time = run_.scheme.stepper().time();
-  std::vector<double> table(2 * peaks_.size());
-  saved.get("force_peaks", table);
-  std::array<double, 1> start{};
-  saved.get("force_peaks_start", start);
-  if (start[0] != peaks_start_) {
-    refuse_if(
-        time >= peaks_start_,
-        sentence("option -spectra_start {:.12g} s: the peaks of forces were counted from {:.12g} "
-                 "s on until the checkpoint at {:.12g} s; give -spectra_start {:.12g}, one after "
-                 "the checkpoint, or start anew",
-                 {peaks_start_, start[0], time, start[0]}));
-    std::ranges::fill(table, 0.0);  // summed up from zero
-  }
-  from_rows(table, peaks_, peak_members);
+  double start = peaks_start_;
+  own.rows("force_peaks", peaks_, peak_members);
+  own.numbers("force_peaks_start", start);
+  if (start == peaks_start_) return;
+  refuse_if(
+      time >= peaks_start_,
+      sentence("option -spectra_start {:.12g} s: the peaks of forces were counted from {:.12g} "
+               "s on until the checkpoint at {:.12g} s; give -spectra_start {:.12g}, one after "
+               "the checkpoint, or start anew",
+               {peaks_start_, start, time, start}));
+  peaks_.assign(peaks_.size(), {});  // summed up from zero
 }
 
 void Forces::report(RunStatistics& statistics) {

@@ -14,25 +14,12 @@
 namespace pounding {
 namespace {
 
-constexpr std::size_t impact_width = 17;
-
 /// The numbers of an impact in a table.
 constexpr auto impact_members = [](auto& i, const auto& take) {
   take(i.contact, i.start, i.end, i.impulse, i.peak_force, i.points, i.energy_lost,
        i.max_penetration, i.place[0], i.place[1], i.contact_time, i.low_share[0], i.low_share[1],
        i.tangential_impulse, i.slip, i.friction_loss, i.window_force);
 };
-
-/// Whether every row names one of so many contacts.
-bool names_contacts(const std::vector<double>& table, std::size_t contacts) {
-  for (std::size_t i = 0; i < table.size(); i += impact_width) {
-    if (!(table[i] >= 0 && table[i] < static_cast<double>(contacts)) ||
-        table[i] != std::floor(table[i])) {
-      return false;
-    }
-  }
-  return true;
-}
 
 /// Per constraint and axis: 1 below the middle of the face of its contact, 0.5 at it, 0 above.
 std::vector<std::array<double, 2>> low_halves(std::size_t contacts,
@@ -178,42 +165,27 @@ void ImpactCatalogue::finish(MPI_Comm comm, int root) {
                    [](const Impact& a, const Impact& b) { return a.start < b.start; });
 }
 
-void ImpactCatalogue::save(SavedState& saved) const {
-  saved.put("impacts", to_rows(impacts_, impact_members), impact_width);
-  saved.put("impacts_open", to_rows(open_, impact_members), impact_width);
-  saved.put("impacts_is_open", std::vector<double>(is_open_.begin(), is_open_.end()));
-  saved.put("impacts_touched_rows", std::vector<double>(touched_.begin(), touched_.end()));
-  saved.put("impacts_slipped_rows", slipped_);
-  saved.put("impacts_impulse_rows", row_impulses_);
+void ImpactCatalogue::keep(const StateKeeper& state) {
+  const auto flags = [&](const char* name, std::vector<char>& all) {
+    std::vector<double> numbers(all.begin(), all.end());
+    state.table(name, numbers);
+    std::ranges::transform(numbers, all.begin(),
+                           [](double value) { return static_cast<char>(value != 0); });
+  };
+  const auto unknown = [&](const Impact& impact) {
+    return impact.contact < 0 || impact.contact >= static_cast<int>(open_.size());
+  };
+  state.list("impacts", impacts_, impact_members);
+  state.rows("impacts_open", open_, impact_members);
+  if (std::ranges::any_of(impacts_, unknown)) state.state().refuse_values("impacts");
+  if (std::ranges::any_of(open_, unknown)) state.state().refuse_values("impacts_open");
+  flags("impacts_is_open", is_open_);
+  flags("impacts_touched_rows", touched_);
+  state.table("impacts_slipped_rows", slipped_);
+  state.table("impacts_impulse_rows", row_impulses_);
   for (std::size_t c = 0; c < windows_.size(); ++c) {
-    saved.put("impacts_window_" + std::to_string(c), windows_[c].table(), ForceWindow::columns);
+    windows_[c].keep("impacts_window_" + std::to_string(c), state);
   }
-}
-
-void ImpactCatalogue::load(const SavedState& saved) {
-  std::vector<double> open(impact_width * open_.size());
-  std::vector<double> is_open(is_open_.size());
-  std::vector<double> touched(touched_.size());
-  saved.get("impacts_open", open);
-  saved.get("impacts_is_open", is_open);
-  saved.get("impacts_touched_rows", touched);
-  saved.get("impacts_slipped_rows", slipped_);
-  saved.get("impacts_impulse_rows", row_impulses_);
-  const std::vector<double>& closed = saved.table("impacts", impact_width);
-  if (!names_contacts(closed, open_.size())) saved.refuse_values("impacts");
-  if (!names_contacts(open, open_.size())) saved.refuse_values("impacts_open");
-  impacts_.resize(closed.size() / impact_width);
-  from_rows(closed, impacts_, impact_members);
-  from_rows(open, open_, impact_members);
-  for (std::size_t c = 0; c < windows_.size(); ++c) {
-    const std::vector<double>& table =
-        saved.table("impacts_window_" + std::to_string(c), ForceWindow::columns);
-    if (table.empty()) saved.refuse_values("impacts_window_" + std::to_string(c));
-    windows_[c].restore(table.data(), table.size() / ForceWindow::columns);
-  }
-  const auto is_set = [](double value) { return static_cast<char>(value != 0); };
-  std::ranges::transform(is_open, is_open_.begin(), is_set);
-  std::ranges::transform(touched, touched_.begin(), is_set);
 }
 
 ImpactTotals ImpactCatalogue::totals(int contact) const {
@@ -309,21 +281,16 @@ void ForceWindow::reset() {
   largest_ = 0;
 }
 
-std::vector<double> ForceWindow::table() const {
-  std::vector<double> rows{largest_, 0, 0, 0};
-  for (std::size_t i = first_; i < steps_.size(); ++i) {
-    rows.insert(rows.end(), {steps_[i].start, steps_[i].end, steps_[i].before, steps_[i].after});
-  }
-  return rows;
-}
-
-void ForceWindow::restore(const double* table, std::size_t rows) {
-  reset();
-  largest_ = table[0];
-  for (std::size_t r = 1; r < rows; ++r) {
-    const double* const row = table + columns * r;
-    steps_.push_back({row[0], row[1], row[2], row[3]});
-  }
+void ForceWindow::keep(const std::string& name, const StateKeeper& state) {
+  std::vector<Step> rows{{largest_, 0, 0, 0}};
+  rows.insert(rows.end(), steps_.begin() + static_cast<std::ptrdiff_t>(first_), steps_.end());
+  state.list(name, rows, [](auto& step, const auto& take) {
+    take(step.start, step.end, step.before, step.after);
+  });
+  if (rows.empty()) state.state().refuse_values(name);
+  largest_ = rows[0].start;
+  first_ = 0;
+  steps_.assign(rows.begin() + 1, rows.end());
 }
 
 }  // namespace pounding

@@ -29,10 +29,8 @@ class ForceWindow {
   double largest() const { return largest_; }
   void reset();
 
-  static constexpr std::size_t columns = 4;
-  /// Rows of `columns` numbers: the largest force, then the steps that still count.
-  std::vector<double> table() const;
-  void restore(const double* table, std::size_t rows);
+  /// A table of the largest force and the steps that still count.
+  void keep(const std::string& name, const StateKeeper& state);
 
  private:
   /// A step with an impulse; the impulse of all since `reset` at its two ends [N s].
@@ -117,9 +115,8 @@ class ImpactCatalogue {
   /// Collective.
   void finish(MPI_Comm comm, int root);
 
-  /// Closed and open episodes; `save` on the rank that knows the interface.
-  void save(SavedState& saved) const;
-  void load(const SavedState& saved);
+  /// Closed and open episodes, known to the rank that knows the interface.
+  void keep(const StateKeeper& state);
 
   const std::vector<Impact>& impacts() const { return impacts_; }
   /// Impulse of each constraint in the run [N s]; after `finish` on every rank.

@@ -64,7 +64,7 @@ class Observer {
   virtual ~Observer() = default;
 
   /// Before the first step: begins its files, or takes over those of the run that `continued` is
-  /// the state of, once `load` of all observers has accepted that. Null: a new run.
+  /// the state of, once `keep_state` of all observers has accepted that. Null: a new run.
   virtual void start(const CdLagrange& /*stepper*/, const SavedState* /*continued*/) {}
   /// The first step from `step` on at which it is due, the same on every rank.
   virtual std::int64_t next_due(std::int64_t /*step*/) const { return never; }
@@ -80,9 +80,9 @@ class Observer {
   virtual void flush() {}
   /// After the last step, `complete` if that is the last one of the scene: closes its files.
   virtual void finish(bool /*complete*/) {}
-  /// State that a continued run needs; `load` throws UserError on every rank alike.
-  virtual void save(SavedState& /*saved*/) {}
-  virtual void load(const SavedState& /*saved*/) {}
+  /// Puts the state that a continued run needs, or brings it back; then it throws UserError on
+  /// every rank alike.
+  virtual void keep_state(const StateKeeper& /*state*/) {}
   /// After `finish`: adds its findings, and writes its tables.
   virtual void report(RunStatistics& /*statistics*/) {}
 

@@ -51,11 +51,10 @@ class PoolWaves final : public Observer {
   std::int64_t next_due(std::int64_t step) const override { return run_.next_record_step(step); }
   StepNeeds begin(const CdLagrange& stepper) override;
   void finish(bool /*complete*/) override { look(); }
-  void save(SavedState& saved) override {
+  void keep_state(const StateKeeper& state) override {
     look();
-    if (rank_of(run_.comm) == 0) saved.put("pool_waves", peaks_, 2);
+    state.table("pool_waves", peaks_, 2);
   }
-  void load(const SavedState& saved) override { saved.get("pool_waves", peaks_); }
   void report(RunStatistics& statistics) override;
 
  private:

@@ -59,7 +59,7 @@ class Recorder final : public Observer {
   void finish(bool complete) override;
   const Recorder* history() const override { return this; }
   /// Writes all records to the file and keeps the values that the next one needs. Collective.
-  void save(SavedState& saved) override;
+  void keep_state(const StateKeeper& state) override;
 
   /// After finish, rank 0: names "probe.x", samples of absolute acceleration of a channel from a
   /// record on, peaks.

@@ -14,21 +14,16 @@ constexpr std::size_t copied_records = 16384;
 
 }  // namespace
 
-void Recorder::save(SavedState& saved) {
-  flush();
-  saved.put("recorder_ground_velocity", ground_sum_);
-  if (rank_of(run_.comm) == 0) {
-    saved.put("recorder_records", {static_cast<double>(records_)});
-    saved.put("recorder_last_velocity", last_velocity_);
-  }
+void Recorder::keep_state(const StateKeeper& state) {
+  if (state.puts()) flush();
+  state.table("recorder_ground_velocity", ground_sum_);
+  state.known_if(rank_of(run_.comm) == 0).numbers("recorder_records", records_);
+  if (records_ < 0) state.state().refuse_values("recorder_records");
+  on_rank0(run_.comm, [&] { state.table("recorder_last_velocity", last_velocity_); });
 }
 
 void Recorder::take_over(const SavedState& saved) {
-  saved.get("recorder_ground_velocity", ground_sum_);
-  records_ = saved.integer("recorder_records");
-  if (records_ < 0) saved.refuse_values("recorder_records");
   on_rank0(run_.comm, [&] {
-    saved.get("recorder_last_velocity", last_velocity_);
     try {
       const Hdf5Reader history(continued_, Hdf5Reader::Kind::left_open);
       check_history(history);

@@ -47,22 +47,11 @@ class SlideWatch final : public Observer {
 
   std::int64_t next_due(std::int64_t step) const override { return next_multiple(step, stride_); }
   StepNeeds begin(const CdLagrange& stepper) override;
-  void save(SavedState& saved) override {
-    if (gather_.root() != rank_of(run_.comm)) return;
-    saved.put("contact_slide", to_rows(slides_, slide_members), 3);
-    saved.put("contact_other_pass", to_rows(passes_, pass_members), 5);
-    saved.put("pair_displacements", to_rows(largest_, displacement_members), 3);
-  }
-  void load(const SavedState& saved) override {
-    std::vector<double> values(3 * slides_.size());
-    saved.get("contact_slide", values);
-    from_rows(values, slides_, slide_members);
-    values.resize(5 * passes_.size());
-    saved.get("contact_other_pass", values);
-    from_rows(values, passes_, pass_members);
-    values.resize(3 * largest_.size());
-    saved.get("pair_displacements", values);
-    from_rows(values, largest_, displacement_members);
+  void keep_state(const StateKeeper& state) override {
+    const StateKeeper own = state.known_if(gather_.root() == rank_of(run_.comm));
+    own.rows("contact_slide", slides_, slide_members);
+    own.rows("contact_other_pass", passes_, pass_members);
+    own.rows("pair_displacements", largest_, displacement_members);
   }
   void report(RunStatistics& statistics) override;
 

@@ -44,8 +44,12 @@ class StruckAreas final : public Observer {
     if (complete && run_.is_contact_root()) look();
     broadcast_values(run_.comm, run_.contact_root(), found_);
   }
-  void save(SavedState& saved) override;
-  void load(const SavedState& saved) override;
+  void keep_state(const StateKeeper& state) override {
+    const StateKeeper own = state.known_if(run_.is_contact_root());
+    own.table("struck_impulses", impulses_);
+    own.numbers("struck_block", block_);
+    own.table("struck_largest", found_, width);
+  }
   void report(RunStatistics& statistics) override;
   void keep(MemberResult& member) const override { member.struck = found_; }
 
@@ -189,21 +193,6 @@ void StruckAreas::look_at(std::span<const Pressed> pressed, std::size_t window,
       for (std::size_t d = 0; d < 3; ++d) found[2 + d] = moment[d] / sum;
     }
   }
-}
-
-void StruckAreas::save(SavedState& saved) {
-  if (!run_.is_contact_root()) return;
-  saved.put("struck_impulses", impulses_);
-  saved.put("struck_block", {static_cast<double>(block_)});
-  saved.put("struck_largest", found_, width);
-}
-
-void StruckAreas::load(const SavedState& saved) {
-  std::array<double, 1> block{};
-  saved.get("struck_impulses", impulses_);
-  saved.get("struck_block", block);
-  saved.get("struck_largest", found_);
-  block_ = std::llround(block[0]);
 }
 
 void StruckAreas::report(RunStatistics& /*statistics*/) {

@@ -58,10 +58,9 @@ class EnergyWatch final : public Observer {
   std::int64_t next_due(std::int64_t step) const override { return run_.next_ledger_step(step); }
   StepNeeds begin(const CdLagrange& /*stepper*/) override { return {.energies = true}; }
   void observe(const CdLagrange& stepper) override;
-  void save(SavedState& saved) override {
-    if (rank_of(run_.comm) == 0) ledger_.save(saved);
+  void keep_state(const StateKeeper& state) override {
+    ledger_.keep(state.known_if(rank_of(run_.comm) == 0));
   }
-  void load(const SavedState& saved) override { ledger_.load(saved); }
   void report(RunStatistics& statistics) override;
   Phase phase() const override { return Phase::energy; }
 

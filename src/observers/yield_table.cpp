@@ -27,6 +27,16 @@ const ResultFile yielding_table{"yielding.csv", "the laws of elements and how fa
 /// Numbers by which an element's law is known on every rank: structure, region, element, part.
 using LawKey = std::array<double, 4>;
 
+/// A law that has gone beyond its first corner, as it stands in a saved state.
+struct Yielded {
+  LawKey key{};
+  double since = 0;  ///< [s]
+};
+
+constexpr auto yielded_members = [](auto& law, const auto& take) {
+  take(law.key[0], law.key[1], law.key[2], law.key[3], law.since);
+};
+
 /// A law of an element of this rank that may yield.
 struct FoundLaw {
   const interactions::InelasticElements* elements = nullptr;
@@ -101,8 +111,7 @@ class YieldTable final : public Observer {
 
   std::int64_t next_due(std::int64_t step) const override { return run_.next_record_step(step); }
   void observe(const CdLagrange& stepper) override;
-  void save(SavedState& saved) override;
-  void load(const SavedState& saved) override;
+  void keep_state(const StateKeeper& state) override;
   void report(RunStatistics& statistics) override;
 
  private:
@@ -192,24 +201,16 @@ void YieldTable::observe(const CdLagrange& stepper) {
   }
 }
 
-void YieldTable::save(SavedState& saved) {
-  std::vector<double> rows;
+void YieldTable::keep_state(const StateKeeper& state) {
+  std::vector<Yielded> all;
   for (const Own& law : own_) {
-    if (law.since == never_yielded) continue;
-    rows.insert(rows.end(), law.key.begin(), law.key.end());
-    rows.push_back(law.since);
+    if (law.since != never_yielded) all.push_back({law.key, law.since});
   }
-  const std::vector<double> all = gather_rows(run_.comm, rows);
-  if (rank_of(run_.comm) == 0) saved.put("yielded_since", all, std::tuple_size_v<LawKey> + 1);
-}
-
-void YieldTable::load(const SavedState& saved) {
-  constexpr std::size_t keys = std::tuple_size_v<LawKey>;
-  const std::vector<double>& rows = saved.table("yielded_since", keys + 1);
+  if (state.puts()) all = gather_rows(run_.comm, all);
+  state.known_if(rank_of(run_.comm) == 0).list("yielded_since", all, yielded_members);
+  if (state.puts()) return;
   std::map<LawKey, double> since;
-  for (std::size_t r = 0; r < rows.size(); r += keys + 1) {
-    since[{rows[r], rows[r + 1], rows[r + 2], rows[r + 3]}] = rows[r + keys];
-  }
+  for (const Yielded& law : all) since[law.key] = law.since;
   for (Own& law : own_) {
     if (const auto found = since.find(law.key); found != since.end()) law.since = found->second;
   }

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "common/error.h"
+#include "interactions/pairing/gap_survey.h"
 
 namespace pounding::interactions {
 namespace {

@@ -29,9 +29,9 @@ TEST(EnergyLedger, GoesOnAfterARestart) {
     before.add(line_at(i));
   }
   SavedState saved;
-  before.save(saved);
+  before.keep(StateKeeper::to(saved));
   EnergyLedger after(expected);
-  after.load(saved);
+  after.keep(StateKeeper::from(saved));
   EXPECT_EQ(after.last().time, 6999);
   EXPECT_EQ(after.last().residual, 8);
   for (int i = 7000; i < expected; ++i) {

@@ -78,9 +78,10 @@ TEST(ForceWindow, GoesOnToTheBit) {
     add(whole, n);
     add(before, n);
   }
-  const std::vector<double> table = before.table();
-  EXPECT_LE(table.size(), 14 * ForceWindow::columns);  // no more than what the length needs
-  after.restore(table.data(), table.size() / ForceWindow::columns);
+  SavedState saved;
+  before.keep("window", StateKeeper::to(saved));
+  EXPECT_LE(saved.table("window", 4).size(), 14u * 4);  // no more than what the length needs
+  after.keep("window", StateKeeper::from(saved));
   for (int n = 57; n < 200; ++n) {
     add(whole, n);
     add(after, n);

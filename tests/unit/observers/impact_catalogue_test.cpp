@@ -74,9 +74,9 @@ TEST(ImpactCatalogue, ContinuesAnOpenEpisode) {
     add(*catalogue, 2, 2, 4);
   }
   SavedState saved;
-  before.save(saved);
+  before.keep(StateKeeper::to(saved));
   ImpactCatalogue after = make();
-  after.load(saved);
+  after.keep(StateKeeper::from(saved));
   EXPECT_EQ(after.episodes(), 3);
   for (ImpactCatalogue* catalogue : {&whole, &after}) {
     add(*catalogue, 2.001, 5, 0);
