@@ -92,9 +92,7 @@ class JointDoubts {
 
  private:
   const GlobalMesh& mesh_of(const ContactSide& side) const {
-    std::size_t s = 0;
-    while (scene_.structures[s].name != side.structure) ++s;
-    return meshes_[s];
+    return meshes_[structure_number(scene_, side.structure)];
   }
   const std::vector<GlobalIndex>& nodes_of(const ContactSide& side) const {
     return mesh_of(side).groups.at(side.group).nodes;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "common/array_reductions.h"
 #include "elements/local_frame.h"
 
 namespace pounding {
@@ -122,9 +123,7 @@ void set_shear_strains(std::span<const double> along_x, std::span<const double> 
 }
 
 double negligible_length(std::span<const double> coordinates) {
-  double extent = 0;
-  for (const double x : coordinates) extent = std::max(extent, std::abs(x));
-  return smallest_relative_length * extent;
+  return smallest_relative_length * largest_magnitude(coordinates);
 }
 
 }  // namespace pounding

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <sstream>
 
+#include "common/array_reductions.h"
 #include "common/matrix3.h"
 #include "elements/gauss_rule.h"
 #include "elements/local_frame.h"
@@ -39,9 +40,7 @@ Matrix3 jacobian_of(std::span<const Vector3> nodes, std::span<const Vector3> der
 
 /// Thickness below which an element is flat: it drowns in the digits of its coordinates [m].
 double flat_thickness(std::span<const double> coordinates) {
-  double extent = 0;
-  for (const double x : coordinates) extent = std::max(extent, std::abs(x));
-  return smallest_relative_thickness * extent;
+  return smallest_relative_thickness * largest_magnitude(coordinates);
 }
 
 /// Volume of the map: throws ElementError, naming the Jacobian's determinant, unless the thickness

@@ -136,8 +136,7 @@ void require_storey(const ForceItem& force, const GlobalMesh& mesh) {
 std::vector<ResolvedForce> resolve_forces(const Scene& scene, std::span<const GlobalMesh> meshes) {
   std::vector<ResolvedForce> forces;
   for (const ForceItem& force : scene.forces) {
-    std::size_t s = 0;
-    while (scene.structures[s].name != force.structure) ++s;
+    const std::size_t s = structure_number(scene, force.structure);
     ResolvedForce& resolved = forces.emplace_back();
     resolved.structure = static_cast<int>(s);
     require_storey(force, meshes[s]);

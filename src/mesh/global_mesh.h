@@ -198,11 +198,15 @@ constexpr int component_count(std::uint8_t mask) {
 /// Rotations about x, y, z in the bits of a node's components.
 inline constexpr std::uint8_t rotation_bits = 0x38;
 
-/// Names of a mesh's groups, for a message: "base, face1, slab".
-inline std::string group_names(const GlobalMesh& mesh) {
+/// Names of groups, for a message: "base, face1, slab".
+template <typename Group>
+std::string group_names(const std::map<std::string, Group>& groups) {
   std::string names;
-  for (const auto& [name, group] : mesh.groups) names += (names.empty() ? "" : ", ") + name;
+  for (const auto& [name, group] : groups) names += (names.empty() ? "" : ", ") + name;
   return names;
+}
+inline std::string group_names(const GlobalMesh& mesh) {
+  return group_names(mesh.groups);
 }
 
 /// Two nodes, of any two structures, that should live on one rank: facing nodes of a contact.

@@ -35,12 +35,6 @@ Groups physical_groups(const RawMesh& raw) {
   return groups;
 }
 
-std::string names_of(const Groups& groups) {
-  std::string names;
-  for (const auto& [name, parts] : groups) names += (names.empty() ? "" : ", ") + name;
-  return names.empty() ? "none" : names;
-}
-
 /// The kind of element that a Gmsh type becomes in a region, or nothing if the region takes none of
 /// it.
 std::optional<ElementType> kind_in_region(ElementType wanted, int gmsh_type) {
@@ -108,7 +102,7 @@ class MeshBuilder {
  private:
   [[noreturn]] void unknown_group(const std::string& group, const std::string& option) const {
     throw UserError("option " + option + ": group '" + group + "' is not in " + structure_.mesh +
-                    ", which has: " + names_of(groups_));
+                    ", which has: " + (groups_.empty() ? "none" : group_names(groups_)));
   }
 
   void read_region(const Region& region) {

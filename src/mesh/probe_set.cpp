@@ -69,15 +69,12 @@ ResolvedProbe resolved(const std::string& name, int structure, const GlobalMesh&
   probe.structure = structure;
   for (const SnappedPoint& each : nodes) {
     probe.nodes.push_back(each.node);
-    const Vector3 x = mesh.position(each.node);
-    for (std::size_t d = 0; d < 3; ++d) {
-      probe.position[d] += x[d] / static_cast<double>(nodes.size());
-    }
     if (each.distance > probe.snap_distance) {
       probe.snap_distance = each.distance;
       probe.element_size = each.element_size;
     }
   }
+  probe.position = centroid(mesh, probe.nodes);
   return probe;
 }
 
@@ -146,8 +143,7 @@ std::vector<ResolvedProbe> with_rotations(const Scene& scene, std::span<const Gl
 std::vector<ResolvedProbe> resolve_probes(const Scene& scene, std::span<const GlobalMesh> meshes) {
   std::vector<ResolvedProbe> probes;
   for (const Probe& probe : scene.probes) {
-    std::size_t structure = 0;
-    while (scene.structures[structure].name != probe.structure) ++structure;
+    const std::size_t structure = structure_number(scene, probe.structure);
     const GlobalMesh& mesh = meshes[structure];
     const std::vector<SnappedPoint> nodes = probe_nodes(probe, mesh);
     const int index = static_cast<int>(structure);

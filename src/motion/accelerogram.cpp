@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/array_reductions.h"
 #include "common/error.h"
 #include "motion/records/record_format.h"
 #include "motion/records/record_header.h"
@@ -159,9 +160,7 @@ void add_value_doubts(const RecordedMotion& motion, Accelerogram& record) {
 }  // namespace
 
 double Accelerogram::peak() const {
-  double peak = 0;
-  for (const double a : acceleration) peak = std::max(peak, std::abs(a));
-  return peak;
+  return largest_magnitude(acceleration);
 }
 
 double Accelerogram::duration() const {

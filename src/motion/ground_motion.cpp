@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "common/array_reductions.h"
 #include "common/error.h"
 #include "motion/fourier.h"
 #include "motion/incoherent_wave.h"
@@ -277,8 +278,7 @@ void GroundMotion::enter_from_below() {
     integrate_incident();
     const std::vector<double>& at = incident_velocity_.back();
     const double velocity = at.empty() ? 0 : at.back();
-    double largest = 0;
-    for (const double v : at) largest = std::max(largest, std::abs(v));
+    const double largest = largest_magnitude(at);
     if (std::abs(velocity) > resting * largest) {
       doubts_.push_back(std::string("motion ") + direction_names[d] +
                         ": the wave from below ends at " + text_of(velocity) +

@@ -187,14 +187,6 @@ XdmfGrid write_marks(Hdf5File& file, const std::string& name, const std::string&
   return grid;
 }
 
-std::string numbered(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    text += (i == 0 ? "" : ", ") + std::to_string(i + 1) + " " + names[i];
-  }
-  return text;
-}
-
 /// The first three of six columns.
 std::vector<double> without_rotations(const std::vector<double>& table) {
   std::vector<double> moved;

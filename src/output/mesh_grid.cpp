@@ -18,14 +18,6 @@ std::vector<std::int32_t> whole(const std::vector<double>& values) {
   return {values.begin(), values.end()};
 }
 
-std::string group_note(const MeshLabels& labels) {
-  std::string text;
-  for (std::size_t g = 0; g < labels.groups.size(); ++g) {
-    text += (g == 0 ? "" : ", ") + std::to_string(g + 1) + " " + labels.groups[g];
-  }
-  return text;
-}
-
 /// Writes whole numbers per node or cell and adds them to the grid.
 void add_numbers(Hdf5File& file, const std::string& structure, const std::string& name,
                  const std::vector<std::int32_t>& values, std::vector<XdmfArray>& arrays) {
@@ -46,7 +38,7 @@ XdmfGrid write_mesh(Hdf5File* file, const Mesh& mesh, const CellTable& cells, st
     const auto nodes = static_cast<std::size_t>(mesh.global_nodes);
     grid.name = name;
     grid.cells = cells.count();
-    grid.notes.emplace_back("groups", group_note(labels));
+    grid.notes.emplace_back("groups", numbered(labels.groups));
     grid.geometry = {"coordinates", name + "/coordinates", false, {nodes, 3}};
     grid.topology = {"topology", name + "/topology", true, {cells.topology.size()}};
     file->write_array(grid.geometry.path, 3, coordinates);
@@ -67,6 +59,14 @@ XdmfGrid write_mesh(Hdf5File* file, const Mesh& mesh, const CellTable& cells, st
     }
   });
   return grid;
+}
+
+std::string numbered(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    text += (i == 0 ? "" : ", ") + std::to_string(i + 1) + " " + names[i];
+  }
+  return text;
 }
 
 void write_group_names(Hdf5File& file, const MeshLabels& labels) {

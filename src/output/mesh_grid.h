@@ -32,6 +32,9 @@ struct MeshLabels {
 XdmfGrid write_mesh(Hdf5File* file, const Mesh& mesh, const CellTable& cells, std::size_t structure,
                     const MeshLabels& labels);
 
+/// Names behind their numbers from 1, "1 left:slab, 2 left:wall", as a note of a grid has them.
+std::string numbered(const std::vector<std::string>& names);
+
 /// Adds the names of the groups to a file as `groups`. Rank 0.
 void write_group_names(Hdf5File& file, const MeshLabels& labels);
 

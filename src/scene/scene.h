@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -232,5 +233,11 @@ struct Scene {
     // clang-format on
   }
 };
+
+/// Number of a structure by its name, which is that of one of them.
+inline std::size_t structure_number(const Scene& scene, const std::string& name) {
+  const auto found = std::ranges::find(scene.structures, name, &Structure::name);
+  return static_cast<std::size_t>(found - scene.structures.begin());
+}
 
 }  // namespace pounding

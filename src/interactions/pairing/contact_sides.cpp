@@ -14,13 +14,6 @@ namespace {
 /// Share of its distance by which a structure lies on one side of a face.
 constexpr double off_the_plane = 1e-6;
 
-std::size_t structure_index(const Scene& scene, const std::string& name) {
-  for (std::size_t s = 0; s < scene.structures.size(); ++s) {
-    if (scene.structures[s].name == name) return s;
-  }
-  throw UserError("contact: structure '" + name + "' is not in the scene");
-}
-
 double shell_thickness(const Structure& structure) {
   double thickness = 0;
   for (const Region& region : structure.regions) thickness = std::max(thickness, region.thickness);
@@ -52,13 +45,13 @@ class SideFinder {
 
  private:
   const GlobalMesh& mesh(const ContactSide& side) const {
-    return meshes_[structure_index(scene_, side.structure)];
+    return meshes_[structure_number(scene_, side.structure)];
   }
   const NodeGroup& group(const ContactSide& side) const { return mesh(side).groups.at(side.group); }
   Vector3 centre(const ContactSide& side) const { return centroid(mesh(side), group(side).nodes); }
 
   FaceSide side_of(const std::string& name, const ContactSide& s) const {
-    const std::size_t index = structure_index(scene_, s.structure);
+    const std::size_t index = structure_number(scene_, s.structure);
     const GlobalMesh& mesh = meshes_[index];
     refuse_if(!mesh.groups.contains(s.group), side_option(contact_, name) + ": group '" + s.group +
                                                   "' is not in the mesh of " + s.structure +

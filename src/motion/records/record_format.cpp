@@ -6,6 +6,7 @@
 #include <cmath>
 #include <regex>
 
+#include "common/array_reductions.h"
 #include "common/error.h"
 
 namespace pounding {
@@ -126,8 +127,7 @@ std::size_t choose_component(const RecordedMotion& motion, const std::vector<std
 
 void require_peak(const std::string& file, int line, double stated,
                   const std::vector<double>& values, double part) {
-  double peak = 0;
-  for (const double value : values) peak = std::max(peak, std::abs(value));
+  const double peak = largest_magnitude(values);
   stated = std::abs(stated);
   if (std::abs(peak - stated) <= part * std::max(stated, peak)) return;
   throw UserError(at_line(file, line) + "the header states a peak of " + text_of(stated) +

@@ -265,19 +265,15 @@ std::optional<NumberRow> parse_row(const TextLine& line) {
   NumberRow row;
   row.line = line.number;
   row.delimited = line.text.find_first_of(",;") != std::string::npos;
-  bool numbers = true;
   for (const auto word : split_words(line.text)) {
     const auto value = parse_number(word);
     if (!value) {
-      numbers = false;
+      auto values = parse_fixed_width(line.text);
+      if (!values) return {};
+      row.values = std::move(*values);
       break;
     }
     row.values.push_back(*value);
-  }
-  if (!numbers) {
-    auto values = parse_fixed_width(line.text);
-    if (!values) return {};
-    row.values = std::move(*values);
   }
   if (row.values.empty()) return {};
   row.decimals = decimals_in(line.text);

@@ -5,16 +5,12 @@
 #include <cmath>
 #include <utility>
 
+#include "common/array_reductions.h"
+
 namespace pounding::stiffness {
 namespace {
 
 constexpr double largest_leak = 1e-13;
-
-double largest(const std::vector<double>& matrix) {
-  double result = 0;
-  for (const double entry : matrix) result = std::max(result, std::abs(entry));
-  return result;
-}
 
 std::vector<double> corner_stiffness(ElementType type, const ElementProperties& properties,
                                      const Vector3& lengths,
@@ -72,7 +68,7 @@ std::vector<double> stiffness_by_parity(ElementType type, const ElementPropertie
 BlockPicker::BlockPicker(std::vector<double> matrix)
     : matrix_(std::move(matrix)),
       size_(static_cast<std::size_t>(std::lround(std::sqrt(matrix_.size())))),
-      scale_(largest(matrix_)) {}
+      scale_(largest_magnitude(matrix_)) {}
 
 double BlockPicker::take(std::size_t i, std::size_t j) {
   const double value = matrix_[i * size_ + j];
@@ -90,7 +86,7 @@ std::array<double, 6> BlockPicker::take3(std::size_t i, std::size_t j, std::size
 }
 
 bool BlockPicker::took_all() const {
-  return largest(matrix_) <= largest_leak * scale_;
+  return largest_magnitude(matrix_) <= largest_leak * scale_;
 }
 
 }  // namespace pounding::stiffness
