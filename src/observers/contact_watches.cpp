@@ -29,35 +29,6 @@ ImpactCatalogue make_catalogue(const Scene& scene, const Model& model) {
           {scene.impact_merge_time, scene.force_window, model.time_step}};
 }
 
-/// Impacts of a run, from the impulses of its steps: `impacts.csv` and `contact_points.csv`.
-class ImpactWatch final : public Observer {
- public:
-  explicit ImpactWatch(const ObservedRun& run)
-      : run_(run),
-        root_(std::max(run.contact_root(), 0)),
-        catalogue_(make_catalogue(run.scene, run.model)) {}
-  /// Complete on the root of the contacts, after `finish` on every rank.
-  const ImpactCatalogue* impacts() const override { return &catalogue_; }
-
-  bool follows() const override { return run_.is_contact_root(); }
-  void follow(const CdLagrange& stepper) override {
-    if (run_.scheme.rows_act()) add_contact(stepper);
-  }
-  void finish(bool /*complete*/) override { catalogue_.finish(run_.comm, root_); }
-  void keep_state(const StateKeeper& state) override {
-    catalogue_.keep(state.known_if(rank_of(run_.comm) == root_));
-  }
-  void keep(MemberResult& member) const override;
-  void report(RunStatistics& statistics) override;
-
- private:
-  void add_contact(const CdLagrange& stepper);
-
-  ObservedRun run_;
-  int root_;  ///< of the contacts, or rank 0 without them
-  ImpactCatalogue catalogue_;
-};
-
 /// Contact ratio of a mat on compression-only springs: the stiffness of those that are pressed over
 /// that of all, 1 as long as nothing lifts off.
 struct ContactRatio {
@@ -75,24 +46,6 @@ constexpr auto ratio_members = [](auto& ratio, const auto& take) {
   take(ratio.now, ratio.smallest, ratio.time, ratio.low_duration);
 };
 
-/// Contact ratio of every structure that has compression-only springs, at the lines of the energy
-/// ledger.
-class UpliftWatch final : public Observer {
- public:
-  explicit UpliftWatch(const ObservedRun& run) : run_(run), ratios_(run.model.systems.size()) {}
-
-  std::int64_t next_due(std::int64_t step) const override { return run_.next_ledger_step(step); }
-  void observe(const CdLagrange& stepper) override;
-  void keep_state(const StateKeeper& state) override {
-    state.rows("contact_ratio", ratios_, ratio_members);
-  }
-  void report(RunStatistics& statistics) override;
-
- private:
-  ObservedRun run_;
-  std::vector<ContactRatio> ratios_;  ///< per structure, alike on all ranks
-};
-
 /// Closings below this part of the gap are no motion.
 constexpr double least_share = 1e-6;
 
@@ -104,12 +57,144 @@ constexpr auto closing_members = [](auto& joint, const auto& take) {
   if (factor >= 0) joint.factor = factor;
 };
 
-/// Smallest gap at t_n and mean force over the interval of each contact, for the history; and how
-/// far the pairs have closed at the samples. On the root of the contacts.
+/// The numbers of a pair in a saved state.
 constexpr auto least_gap_members = [](auto& pair, const auto& take) {
   take(pair.least_gap, pair.time, pair.gap_then);
 };
 
+/// Impacts of a run, from the impulses of its steps: `impacts.csv` and `contact_points.csv`.
+class ImpactWatch final : public Observer {
+ public:
+  explicit ImpactWatch(const ObservedRun& run)
+      : run_(run),
+        root_(std::max(run.contact_root(), 0)),
+        catalogue_(make_catalogue(run.scene, run.model)) {}
+  /// Complete on the root of the contacts, after `finish` on every rank.
+  const ImpactCatalogue* impacts() const override { return &catalogue_; }
+
+  bool follows() const override { return run_.is_contact_root(); }
+  void follow(const CdLagrange& stepper) override {
+    if (run_.scheme.rows_act()) add_contact(stepper);
+  }
+
+  void finish(bool /*complete*/) override { catalogue_.finish(run_.comm, root_); }
+  void keep_state(const StateKeeper& state) override {
+    catalogue_.keep(state.known_if(rank_of(run_.comm) == root_));
+  }
+
+  void keep(MemberResult& member) const override {
+    const std::size_t contacts = run_.scene.contacts.size();
+    for (std::size_t c = 0; c < contacts; ++c) {
+      const ImpactTotals totals = catalogue_.totals(static_cast<int>(c));
+      member.episodes.push_back(totals.episodes);
+      member.impulse_sum.push_back(totals.total_impulse);
+      member.impulse_largest.push_back(totals.largest_impulse);
+      member.force_peak.push_back(totals.peak_force);
+    }
+    member.first_time.assign(contacts, std::numeric_limits<double>::quiet_NaN());
+    member.slip.assign(contacts, 0.0);
+    for (const Impact& impact : catalogue_.impacts()) {  // the earliest first
+      double& first = member.first_time[impact.contact];
+      if (!(first <= impact.start)) first = impact.start;
+      member.slip[impact.contact] += impact.slip;
+    }
+  }
+
+  void report(RunStatistics& statistics) override {
+    for (std::size_t c = 0; c < run_.scene.contacts.size(); ++c) {
+      statistics.impacts.push_back(catalogue_.totals(static_cast<int>(c)));
+    }
+    statistics.all_impacts = catalogue_.totals();
+    on_rank0(run_.comm, [&] {
+      write_impacts(run_.path(impact_table.name), run_.contact_names(), catalogue_.impacts(),
+                    run_.scene.csv_digits);
+      ResultTable points(run_.scene, point_table);
+      const auto& rows = run_.model.interface.constraints;
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        points.row(run_.contact_names()[rows[i].contact],
+                   {rows[i].at[0], rows[i].at[1], rows[i].at[2], catalogue_.row_impulses()[i]});
+      }
+      points.close();
+    });
+  }
+
+ private:
+  void add_contact(const CdLagrange& stepper) {
+    const interactions::ContactProblem& contact = *run_.scheme.contact();
+    const auto [impulses, works] = run_.scheme.row_actions();
+    ContactStep step{contact.gaps(), impulses, works, {}, {}, {}};
+    if (contact.friction().has_any()) {
+      step.tangential_impulses = contact.friction().tangential_impulses();
+      step.slip_rates = contact.friction().slip_rates();
+      step.friction_losses = contact.friction().losses();
+    }
+    catalogue_.add_step(stepper.time(), stepper.force_duration(), step);
+  }
+
+  ObservedRun run_;
+  int root_;  ///< of the contacts, or rank 0 without them
+  ImpactCatalogue catalogue_;
+};
+
+/// Contact ratio of every structure that has compression-only springs, at the lines of the energy
+/// ledger.
+class UpliftWatch final : public Observer {
+ public:
+  explicit UpliftWatch(const ObservedRun& run) : run_(run), ratios_(run.model.systems.size()) {}
+
+  std::int64_t next_due(std::int64_t step) const override { return run_.next_ledger_step(step); }
+  void observe(const CdLagrange& stepper) override {
+    const int between = run_.scene.energy_interval;
+    const std::int64_t rest = (stepper.state().step - 1) % between;  // of the last line
+    const double interval = static_cast<double>(rest == 0 ? between : rest) * stepper.time_step();
+    std::vector<double> sums;  // pressed and all, structure by structure
+    for (std::size_t s = 0; s < ratios_.size(); ++s) {
+      const interactions::StructureLinks* const links = run_.scheme.links(s);
+      const auto bedding =
+          links != nullptr ? links->bedding() : interactions::StructureLinks::Bedding{};
+      sums.insert(sums.end(), {bedding.pressed, bedding.all});
+    }
+    reduce_over_ranks(run_.comm, MPI_SUM, sums);
+    for (std::size_t s = 0; s < ratios_.size(); ++s) {
+      if (!(sums[2 * s + 1] > 0)) continue;
+      ContactRatio& ratio = ratios_[s];
+      ratio.now = sums[2 * s] / sums[2 * s + 1];
+      if (ratio.now < ContactRatio::low) ratio.low_duration += interval;
+      if (ratio.now < ratio.smallest) {
+        ratio.smallest = ratio.now;
+        ratio.time = stepper.time();
+      }
+    }
+  }
+
+  void keep_state(const StateKeeper& state) override {
+    state.rows("contact_ratio", ratios_, ratio_members);
+  }
+
+  void report(RunStatistics& statistics) override {
+    for (std::size_t s = 0; s < ratios_.size(); ++s) {
+      const ContactRatio& ratio = ratios_[s];
+      const std::string& name = run_.scene.structures[s].name;
+      statistics.findings.add(
+          "contact_ratio", name,
+          {{"end", ratio.now},
+           {"smallest", ratio.smallest},
+           {"time_of_smallest", ratio.time},
+           {"time_below_80_percent", ratio.low_duration}},
+          "  {:-12s} contact ratio of its compression-only springs {end:.3f} at the end, at least "
+          "{smallest:.3f} at {time_of_smallest:.4g} s, below {:.0f %} for "
+          "{time_below_80_percent:.4g} s\n",
+          {name, ContactRatio::low});
+    }
+  }
+
+ private:
+  ObservedRun run_;
+  std::vector<ContactRatio> ratios_;  ///< per structure, alike on all ranks
+};
+
+/// Smallest gap at t_n and mean force over the interval of each contact, for the history; and how
+/// far the pairs have closed at the samples. On the root of the contacts.
 class ContactHistory final : public Observer {
  public:
   explicit ContactHistory(const ObservedRun& run)
@@ -124,17 +209,82 @@ class ContactHistory final : public Observer {
   StepNeeds begin(const CdLagrange& stepper) override {
     return {.gaps = stepper.state().step % gap_stride_ == 0};
   }
+
   bool follows() const override { return run_.is_contact_root(); }
-  void follow(const CdLagrange& stepper) override;
-  void observe(const CdLagrange& stepper) override;
-  void keep_state(const StateKeeper& state) override;
-  void keep(MemberResult& member) const override;
-  void report(RunStatistics& statistics) override;
-  std::optional<RecordColumns> columns() const override;
+  void follow(const CdLagrange& /*stepper*/) override {
+    if (!run_.scheme.rows_act()) return;
+    const std::span<const double> impulses = run_.scheme.row_actions().impulses;
+    for (std::size_t row = 0; row < impulses.size(); ++row) {
+      impulses_[contact_of(row)] += impulses[row];
+    }
+  }
+
+  void observe(const CdLagrange& stepper) override {
+    if (!run_.is_contact_root()) return;
+    const bool known = run_.scheme.interface_known();
+    for (std::size_t c = 0; c < impulses_.size(); ++c) {
+      values_[2 * c] =
+          known ? std::numeric_limits<double>::max() : std::numeric_limits<double>::quiet_NaN();
+      values_[2 * c + 1] =
+          impulses_[c] / (run_.model.time_step * record_stride(run_.scene, run_.model));
+      impulses_[c] = 0;
+    }
+    if (!known) return;
+    const std::span<const double> gaps = run_.scheme.contact()->gaps();
+    for (std::size_t row = 0; row < gaps.size(); ++row) {
+      double& smallest = values_[2 * contact_of(row)];
+      smallest = std::min(smallest, gaps[row]);
+      pairs_[row].note(gaps[row], stepper.time());
+      note_closing(row, gaps[row]);
+    }
+  }
+
+  void keep_state(const StateKeeper& state) override {
+    if (run_.contact_root() >= 0) {
+      state.known_if(run_.is_contact_root()).table("recorder_impulse", impulses_);
+    }
+    const StateKeeper own = state.known_if(rank_of(run_.comm) == std::max(run_.contact_root(), 0));
+    own.rows("joint_closings", closings_, closing_members);
+    own.rows("pair_gaps", pairs_, least_gap_members);
+  }
+
+  void keep(MemberResult& member) const override {
+    member.smallest_gap.assign(run_.scene.contacts.size(), std::numeric_limits<double>::infinity());
+    member.pair_initial_gap = run_.model.start_gaps;
+    for (std::size_t row = 0; row < pairs_.size(); ++row) {
+      double& smallest = member.smallest_gap[contact_of(row)];
+      smallest = std::min(smallest, pairs_[row].least_gap);
+      member.pair_least_gap.push_back(pairs_[row].least_gap);
+      member.pair_time.push_back(pairs_[row].time);
+    }
+  }
+
+  void report(RunStatistics& statistics) override {
+    if (run_.contact_root() < 0) return;
+    statistics.closings = closings_;
+    statistics.pairs = pairs_;
+    broadcast_values(run_.comm, run_.contact_root(), statistics.closings, statistics.pairs);
+  }
+
+  std::optional<RecordColumns> columns() const override {
+    RecordColumns columns{"contacts", run_.contact_names(), {}, {}, {}};
+    if (!columns.names.empty()) columns.quantities = {{"gap", "m"}, {"contact_force", "N"}};
+    if (run_.is_contact_root()) columns.take_all(values_);
+    return columns;
+  }
 
  private:
   int contact_of(std::size_t row) const { return run_.model.interface.constraints[row].contact; }
-  void note_closing(std::size_t row, double gap);
+  void note_closing(std::size_t row, double gap) {
+    const double start = run_.model.start_gaps[row];
+    const double closing = start - gap;
+    if (start == interactions::open_gap || gap == interactions::open_gap || !(closing > 0)) return;
+    JointClosing& joint = closings_[contact_of(row)];
+    joint.largest = std::max(joint.largest, closing);
+    if (closing > least_share * start) {
+      joint.factor = std::min(joint.factor, std::max(0.0, start) / closing);
+    }
+  }
 
   ObservedRun run_;
   std::int64_t gap_stride_;       ///< steps between two samples of the gaps
@@ -146,97 +296,8 @@ class ContactHistory final : public Observer {
 
 }  // namespace
 
-void ImpactWatch::add_contact(const CdLagrange& stepper) {
-  const interactions::ContactProblem& contact = *run_.scheme.contact();
-  const auto [impulses, works] = run_.scheme.row_actions();
-  ContactStep step{contact.gaps(), impulses, works, {}, {}, {}};
-  if (contact.friction().has_any()) {
-    step.tangential_impulses = contact.friction().tangential_impulses();
-    step.slip_rates = contact.friction().slip_rates();
-    step.friction_losses = contact.friction().losses();
-  }
-  catalogue_.add_step(stepper.time(), stepper.force_duration(), step);
-}
-
-void ImpactWatch::keep(MemberResult& member) const {
-  const std::size_t contacts = run_.scene.contacts.size();
-  for (std::size_t c = 0; c < contacts; ++c) {
-    const ImpactTotals totals = catalogue_.totals(static_cast<int>(c));
-    member.episodes.push_back(totals.episodes);
-    member.impulse_sum.push_back(totals.total_impulse);
-    member.impulse_largest.push_back(totals.largest_impulse);
-    member.force_peak.push_back(totals.peak_force);
-  }
-  member.first_time.assign(contacts, std::numeric_limits<double>::quiet_NaN());
-  member.slip.assign(contacts, 0.0);
-  for (const Impact& impact : catalogue_.impacts()) {  // the earliest first
-    double& first = member.first_time[impact.contact];
-    if (!(first <= impact.start)) first = impact.start;
-    member.slip[impact.contact] += impact.slip;
-  }
-}
-
-void ImpactWatch::report(RunStatistics& statistics) {
-  for (std::size_t c = 0; c < run_.scene.contacts.size(); ++c) {
-    statistics.impacts.push_back(catalogue_.totals(static_cast<int>(c)));
-  }
-  statistics.all_impacts = catalogue_.totals();
-  on_rank0(run_.comm, [&] {
-    write_impacts(run_.path(impact_table.name), run_.contact_names(), catalogue_.impacts(),
-                  run_.scene.csv_digits);
-    ResultTable points(run_.scene, point_table);
-    const auto& rows = run_.model.interface.constraints;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      points.row(run_.contact_names()[rows[i].contact],
-                 {rows[i].at[0], rows[i].at[1], rows[i].at[2], catalogue_.row_impulses()[i]});
-    }
-    points.close();
-  });
-}
-
 OutputKind impact_output() {
   return output<ImpactWatch>({impact_table, point_table}, nullptr, true);
-}
-
-void UpliftWatch::observe(const CdLagrange& stepper) {
-  const int between = run_.scene.energy_interval;
-  const std::int64_t rest = (stepper.state().step - 1) % between;  // of the last line
-  const double interval = static_cast<double>(rest == 0 ? between : rest) * stepper.time_step();
-  std::vector<double> sums;  // pressed and all, structure by structure
-  for (std::size_t s = 0; s < ratios_.size(); ++s) {
-    const interactions::StructureLinks* const links = run_.scheme.links(s);
-    const auto bedding =
-        links != nullptr ? links->bedding() : interactions::StructureLinks::Bedding{};
-    sums.insert(sums.end(), {bedding.pressed, bedding.all});
-  }
-  reduce_over_ranks(run_.comm, MPI_SUM, sums);
-  for (std::size_t s = 0; s < ratios_.size(); ++s) {
-    if (!(sums[2 * s + 1] > 0)) continue;
-    ContactRatio& ratio = ratios_[s];
-    ratio.now = sums[2 * s] / sums[2 * s + 1];
-    if (ratio.now < ContactRatio::low) ratio.low_duration += interval;
-    if (ratio.now < ratio.smallest) {
-      ratio.smallest = ratio.now;
-      ratio.time = stepper.time();
-    }
-  }
-}
-
-void UpliftWatch::report(RunStatistics& statistics) {
-  for (std::size_t s = 0; s < ratios_.size(); ++s) {
-    const ContactRatio& ratio = ratios_[s];
-    const std::string& name = run_.scene.structures[s].name;
-    statistics.findings.add(
-        "contact_ratio", name,
-        {{"end", ratio.now},
-         {"smallest", ratio.smallest},
-         {"time_of_smallest", ratio.time},
-         {"time_below_80_percent", ratio.low_duration}},
-        "  {:-12s} contact ratio of its compression-only springs {end:.3f} at the end, at least "
-        "{smallest:.3f} at {time_of_smallest:.4g} s, below {:.0f %} for "
-        "{time_below_80_percent:.4g} s\n",
-        {name, ContactRatio::low});
-  }
 }
 
 OutputKind uplift_output() {
@@ -247,79 +308,6 @@ OutputKind uplift_output() {
       });
     });
   });
-}
-
-void ContactHistory::follow(const CdLagrange& /*stepper*/) {
-  if (!run_.scheme.rows_act()) return;
-  const std::span<const double> impulses = run_.scheme.row_actions().impulses;
-  for (std::size_t row = 0; row < impulses.size(); ++row) {
-    impulses_[contact_of(row)] += impulses[row];
-  }
-}
-
-void ContactHistory::observe(const CdLagrange& stepper) {
-  if (!run_.is_contact_root()) return;
-  const bool known = run_.scheme.interface_known();
-  for (std::size_t c = 0; c < impulses_.size(); ++c) {
-    values_[2 * c] =
-        known ? std::numeric_limits<double>::max() : std::numeric_limits<double>::quiet_NaN();
-    values_[2 * c + 1] =
-        impulses_[c] / (run_.model.time_step * record_stride(run_.scene, run_.model));
-    impulses_[c] = 0;
-  }
-  if (!known) return;
-  const std::span<const double> gaps = run_.scheme.contact()->gaps();
-  for (std::size_t row = 0; row < gaps.size(); ++row) {
-    double& smallest = values_[2 * contact_of(row)];
-    smallest = std::min(smallest, gaps[row]);
-    pairs_[row].note(gaps[row], stepper.time());
-    note_closing(row, gaps[row]);
-  }
-}
-
-void ContactHistory::note_closing(std::size_t row, double gap) {
-  const double start = run_.model.start_gaps[row];
-  const double closing = start - gap;
-  if (start == interactions::open_gap || gap == interactions::open_gap || !(closing > 0)) return;
-  JointClosing& joint = closings_[contact_of(row)];
-  joint.largest = std::max(joint.largest, closing);
-  if (closing > least_share * start) {
-    joint.factor = std::min(joint.factor, std::max(0.0, start) / closing);
-  }
-}
-
-std::optional<RecordColumns> ContactHistory::columns() const {
-  RecordColumns columns{"contacts", run_.contact_names(), {}, {}, {}};
-  if (!columns.names.empty()) columns.quantities = {{"gap", "m"}, {"contact_force", "N"}};
-  if (run_.is_contact_root()) columns.take_all(values_);
-  return columns;
-}
-
-void ContactHistory::keep_state(const StateKeeper& state) {
-  if (run_.contact_root() >= 0) {
-    state.known_if(run_.is_contact_root()).table("recorder_impulse", impulses_);
-  }
-  const StateKeeper own = state.known_if(rank_of(run_.comm) == std::max(run_.contact_root(), 0));
-  own.rows("joint_closings", closings_, closing_members);
-  own.rows("pair_gaps", pairs_, least_gap_members);
-}
-
-void ContactHistory::keep(MemberResult& member) const {
-  member.smallest_gap.assign(run_.scene.contacts.size(), std::numeric_limits<double>::infinity());
-  member.pair_initial_gap = run_.model.start_gaps;
-  for (std::size_t row = 0; row < pairs_.size(); ++row) {
-    double& smallest = member.smallest_gap[contact_of(row)];
-    smallest = std::min(smallest, pairs_[row].least_gap);
-    member.pair_least_gap.push_back(pairs_[row].least_gap);
-    member.pair_time.push_back(pairs_[row].time);
-  }
-}
-
-void ContactHistory::report(RunStatistics& statistics) {
-  if (run_.contact_root() < 0) return;
-  statistics.closings = closings_;
-  statistics.pairs = pairs_;
-  broadcast_values(run_.comm, run_.contact_root(), statistics.closings, statistics.pairs);
 }
 
 OutputKind contact_history_output() {

@@ -76,14 +76,136 @@ constexpr auto peak_members = [](auto& peak, const auto& take) { take(peak.value
 
 class Forces final : public Observer {
  public:
-  explicit Forces(const ObservedRun& run);
+  explicit Forces(const ObservedRun& run) : run_(run), peaks_start_(run.scene.spectra.start) {
+    const Scene& scene = run.scene;
+    const Model& model = run.model;
+    lay_out();
+    for (std::size_t s = 0; s < model.systems.size(); ++s) {
+      const Mesh& mesh = *model.buildings[s].mesh;
+      std::vector<ElementForces::Row> rows;
+      on_every_rank(run.comm, [&] {
+        for (std::size_t i = 0; i < items_.size(); ++i) {
+          if (model.forces[i].structure != static_cast<int>(s)) continue;
+          const ForceItem& force = scene.forces[i];
+          const std::size_t first = items_[i].first;
+          const auto add = [&rows](std::vector<ElementForces::Row> more) {
+            std::ranges::move(more, std::back_inserter(rows));
+          };
+          if (force.of_elements()) {
+            add(member_rows(scene.structures[s], mesh, model.forces[i], first));
+            continue;
+          }
+          const bool cut = force.kind == ForceKind::cut;
+          if (!cut) {
+            refuse_relieved(force, model.systems[s]);
+            refuse_beside_matrices(force, scene.structures[s], model.systems[s]);
+          }
+          std::vector<ElementForces::Row> passing;
+          if (cut || model.systems[s].generalised) {
+            passing = total_rows(scene.structures[s], mesh, force, model.forces[i], first);
+          }
+          if (cut) {
+            add(std::move(passing));
+            continue;
+          }
+          totals_.push_back(
+              {s,
+               first,
+               std::make_unique<TotalForce>(force, model.systems[s], mesh, model.interface.soil, s),
+               {}});
+          if (model.systems[s].generalised) {
+            totals_.back().elements =
+                std::make_unique<ElementForces>(model.systems[s], mesh, passing);
+          }
+        }
+      });
+      if (rows.empty()) continue;
+      elements_.push_back({s, std::make_unique<ElementForces>(model.systems[s], mesh, rows)});
+    }
+    for (const Total& total : totals_) {
+      total.force->find_modes(model.systems[total.structure]);
+      run.scheme.stepper().watch_forces(total.structure, total.force->dofs());
+    }
+  }
 
   std::int64_t next_due(std::int64_t step) const override { return run_.next_record_step(step); }
-  StepNeeds begin(const CdLagrange& stepper) override;
-  void observe(const CdLagrange& stepper) override;
-  void keep_state(const StateKeeper& state) override;
-  void report(RunStatistics& statistics) override;
-  std::optional<RecordColumns> columns() const override;
+  StepNeeds begin(const CdLagrange& stepper) override {
+    supports_ = stepper.state().supports.displacement;
+    std::ranges::fill(part_, 0.0);
+    for (Elements& of : elements_) {
+      of.forces->add(stepper.displacement(of.structure), supports_, part_);
+    }
+    return {.forces = true};
+  }
+
+  void observe(const CdLagrange& stepper) override {
+    for (const Total& total : totals_) {
+      Wrench sum{};
+      total.force->add(stepper, total.structure, run_.scheme.links(total.structure),
+                       run_.scheme.inelastic(total.structure), run_.scheme.soil(), sum);
+      for (std::size_t k = 0; k < sum.size(); ++k) part_[total.first + k] += sum[k];
+      if (total.elements) {
+        total.elements->add(acting_displacement(total.structure), supports_, part_);
+      }
+    }
+    MPI_Reduce(part_.data(), columns_.data(), static_cast<int>(part_.size()), MPI_DOUBLE, MPI_SUM,
+               0, run_.comm);
+    if (rank_of(run_.comm) != 0 || stepper.time() < peaks_start_) return;
+    for (std::size_t c = 0; c < peaks_.size(); ++c) {
+      const ForcePeak now{columns_[c], stepper.time()};
+      if (std::abs(now.value) > std::abs(peaks_[c].value)) peaks_[c] = now;
+    }
+  }
+
+  void keep_state(const StateKeeper& state) override {
+    const StateKeeper own = state.known_if(rank_of(run_.comm) == 0);
+    const double time = run_.scheme.stepper().time();
+    double start = peaks_start_;
+    own.rows("force_peaks", peaks_, peak_members);
+    own.numbers("force_peaks_start", start);
+    if (start == peaks_start_) return;
+    refuse_if(
+        time >= peaks_start_,
+        sentence("option -spectra_start {:.12g} s: the peaks of forces were counted from {:.12g} "
+                 "s on until the checkpoint at {:.12g} s; give -spectra_start {:.12g}, one after "
+                 "the checkpoint, or start anew",
+                 {peaks_start_, start, time, start}));
+    peaks_.assign(peaks_.size(), {});  // summed up from zero
+  }
+
+  void report(RunStatistics& statistics) override {
+    if (statistics.complete) on_rank0(run_.comm, [&] { write_table(); });
+    if (rank_of(run_.comm) != 0) return;
+    Facts facts;
+    facts.say("\nforce       largest kN, kN m (of shells per m) of samples      at s   element\n");
+    for (const ForceReport& item : items_) {
+      for (std::size_t c = 0; c < item.components.size(); ++c) {
+        const auto peak = [&](std::size_t e) {
+          return peaks_[item.first + e * item.components.size() + c];
+        };
+        std::size_t most = 0;
+        for (std::size_t e = 1; e < item.elements.size(); ++e) {
+          if (std::abs(peak(e).value) > std::abs(peak(most).value)) most = e;
+        }
+        Json& of = facts.values["forces"][item.name][item.components[c]] =
+            Json{{"peak", peak(most).value}, {"time", peak(most).time}};
+        if (!item.elements[most].empty()) of["element"] = std::stoll(item.elements[most]);
+        facts.text += told("  {:-18s} {peak:24.6g [kN]} {time:19.5f}   [{element}]\n", of,
+                           {item.name + "." + item.components[c]});
+      }
+      if (!item.about) continue;
+      facts.values["moments_about"][item.name] = *item.about;
+      facts.say("    moments about {:.6g} m\n", {*item.about});
+    }
+    statistics.findings.add(facts);
+  }
+
+  std::optional<RecordColumns> columns() const override {
+    if (recorded_.empty()) return std::nullopt;
+    RecordColumns columns{"forces", recorded_, {{"force", unit_}}, {}, {}};
+    if (rank_of(run_.comm) == 0) columns.take_all({columns_.data(), recorded_.size()});
+    return columns;
+  }
 
  private:
   struct Total {
@@ -97,12 +219,76 @@ class Forces final : public Observer {
     std::size_t structure = 0;
     std::unique_ptr<ElementForces> forces;
   };
-  void lay_out();
+  void lay_out() {
+    const Scene& scene = run_.scene;
+    const Model& model = run_.model;
+    for (std::size_t i = 0; i < scene.forces.size(); ++i) {
+      const ForceItem& force = scene.forces[i];
+      ForceReport& item = items_.emplace_back();
+      item.name = force.name;
+      item.components = components_of(
+          force, scene.structures[static_cast<std::size_t>(model.forces[i].structure)]);
+      if (!force.of_elements()) {
+        item.elements = {""};
+        item.about = force.point();
+        continue;
+      }
+      for (const std::int64_t element : model.forces[i].elements) {
+        item.elements.push_back(std::to_string(element));
+      }
+    }
+    std::size_t next = 0;
+    for (const bool recorded : {true, false}) {
+      for (std::size_t i = 0; i < items_.size(); ++i) {
+        if (has_history(scene.forces[i]) != recorded) continue;
+        if (recorded && scene.forces[i].kind == ForceKind::shells) {
+          unit_ = "N, N m; of shells N/m, N m/m";
+        }
+        items_[i].first = next;
+        next += items_[i].elements.size() * items_[i].components.size();
+        for (std::size_t e = 0; recorded && e < items_[i].elements.size(); ++e) {
+          const std::string& element = items_[i].elements[e];
+          for (const std::string& component : items_[i].components) {
+            recorded_.push_back(items_[i].name + (element.empty() ? "" : "." + element) + "." +
+                                component);
+          }
+        }
+      }
+    }
+    part_.assign(next, 0.0);
+    columns_.assign(next, 0.0);
+    peaks_.assign(next, {});
+  }
+
   /// Displacements of generalised coordinates at which K u is the force of the last step, damping
   /// included; of one without stiffness its own.
-  std::span<const double> acting_displacement(std::size_t structure);
+  std::span<const double> acting_displacement(std::size_t structure) {
+    const CdLagrange& stepper = run_.scheme.stepper();
+    const std::vector<double>& squares = run_.model.buildings[structure].basis->squared_frequency;
+    acting_ = stepper.displacement(structure);
+    for (std::size_t i = 0; i < acting_.size(); ++i) {
+      if (squares[i] > 0) {
+        acting_[i] = stepper.force(structure, static_cast<LocalIndex>(i)) / squares[i];
+      }
+    }
+    return acting_;
+  }
+
   /// Rank 0.
-  void write_table() const;
+  void write_table() const {
+    ResultTable file(run_.scene, force_table);
+    for (const ForceReport& item : items_) {
+      std::size_t column = item.first;
+      for (const std::string& element : item.elements) {
+        for (const std::string& component : item.components) {
+          const ForcePeak& peak = peaks_[column++];
+          file.row(item.name + "," + component + "," + unit_of(component),
+                   {element.empty() ? 0.0 : std::stod(element), peak.value, peak.time});
+        }
+      }
+    }
+    file.close();
+  }
 
   ObservedRun run_;
   double peaks_start_;
@@ -119,204 +305,6 @@ class Forces final : public Observer {
 };
 
 }  // namespace
-
-Forces::Forces(const ObservedRun& run) : run_(run), peaks_start_(run.scene.spectra.start) {
-  const Scene& scene = run.scene;
-  const Model& model = run.model;
-  lay_out();
-  for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    const Mesh& mesh = *model.buildings[s].mesh;
-    std::vector<ElementForces::Row> rows;
-    on_every_rank(run.comm, [&] {
-      for (std::size_t i = 0; i < items_.size(); ++i) {
-        if (model.forces[i].structure != static_cast<int>(s)) continue;
-        const ForceItem& force = scene.forces[i];
-        const std::size_t first = items_[i].first;
-        const auto add = [&rows](std::vector<ElementForces::Row> more) {
-          std::ranges::move(more, std::back_inserter(rows));
-        };
-        if (force.of_elements()) {
-          add(member_rows(scene.structures[s], mesh, model.forces[i], first));
-          continue;
-        }
-        const bool cut = force.kind == ForceKind::cut;
-        if (!cut) {
-          refuse_relieved(force, model.systems[s]);
-          refuse_beside_matrices(force, scene.structures[s], model.systems[s]);
-        }
-        std::vector<ElementForces::Row> passing;
-        if (cut || model.systems[s].generalised) {
-          passing = total_rows(scene.structures[s], mesh, force, model.forces[i], first);
-        }
-        if (cut) {
-          add(std::move(passing));
-          continue;
-        }
-        totals_.push_back(
-            {s,
-             first,
-             std::make_unique<TotalForce>(force, model.systems[s], mesh, model.interface.soil, s),
-             {}});
-        if (model.systems[s].generalised) {
-          totals_.back().elements =
-              std::make_unique<ElementForces>(model.systems[s], mesh, passing);
-        }
-      }
-    });
-    if (rows.empty()) continue;
-    elements_.push_back({s, std::make_unique<ElementForces>(model.systems[s], mesh, rows)});
-  }
-  for (const Total& total : totals_) {
-    total.force->find_modes(model.systems[total.structure]);
-    run.scheme.stepper().watch_forces(total.structure, total.force->dofs());
-  }
-}
-
-void Forces::lay_out() {
-  const Scene& scene = run_.scene;
-  const Model& model = run_.model;
-  for (std::size_t i = 0; i < scene.forces.size(); ++i) {
-    const ForceItem& force = scene.forces[i];
-    ForceReport& item = items_.emplace_back();
-    item.name = force.name;
-    item.components =
-        components_of(force, scene.structures[static_cast<std::size_t>(model.forces[i].structure)]);
-    if (!force.of_elements()) {
-      item.elements = {""};
-      item.about = force.point();
-      continue;
-    }
-    for (const std::int64_t element : model.forces[i].elements) {
-      item.elements.push_back(std::to_string(element));
-    }
-  }
-  std::size_t next = 0;
-  for (const bool recorded : {true, false}) {
-    for (std::size_t i = 0; i < items_.size(); ++i) {
-      if (has_history(scene.forces[i]) != recorded) continue;
-      if (recorded && scene.forces[i].kind == ForceKind::shells) {
-        unit_ = "N, N m; of shells N/m, N m/m";
-      }
-      items_[i].first = next;
-      next += items_[i].elements.size() * items_[i].components.size();
-      for (std::size_t e = 0; recorded && e < items_[i].elements.size(); ++e) {
-        const std::string& element = items_[i].elements[e];
-        for (const std::string& component : items_[i].components) {
-          recorded_.push_back(items_[i].name + (element.empty() ? "" : "." + element) + "." +
-                              component);
-        }
-      }
-    }
-  }
-  part_.assign(next, 0.0);
-  columns_.assign(next, 0.0);
-  peaks_.assign(next, {});
-}
-
-StepNeeds Forces::begin(const CdLagrange& stepper) {
-  supports_ = stepper.state().supports.displacement;
-  std::ranges::fill(part_, 0.0);
-  for (Elements& of : elements_) {
-    of.forces->add(stepper.displacement(of.structure), supports_, part_);
-  }
-  return {.forces = true};
-}
-
-void Forces::observe(const CdLagrange& stepper) {
-  for (const Total& total : totals_) {
-    Wrench sum{};
-    total.force->add(stepper, total.structure, run_.scheme.links(total.structure),
-                     run_.scheme.inelastic(total.structure), run_.scheme.soil(), sum);
-    for (std::size_t k = 0; k < sum.size(); ++k) part_[total.first + k] += sum[k];
-    if (total.elements) {
-      total.elements->add(acting_displacement(total.structure), supports_, part_);
-    }
-  }
-  MPI_Reduce(part_.data(), columns_.data(), static_cast<int>(part_.size()), MPI_DOUBLE, MPI_SUM, 0,
-             run_.comm);
-  if (rank_of(run_.comm) != 0 || stepper.time() < peaks_start_) return;
-  for (std::size_t c = 0; c < peaks_.size(); ++c) {
-    const ForcePeak now{columns_[c], stepper.time()};
-    if (std::abs(now.value) > std::abs(peaks_[c].value)) peaks_[c] = now;
-  }
-}
-
-std::span<const double> Forces::acting_displacement(std::size_t structure) {
-  const CdLagrange& stepper = run_.scheme.stepper();
-  const std::vector<double>& squares = run_.model.buildings[structure].basis->squared_frequency;
-  acting_ = stepper.displacement(structure);
-  for (std::size_t i = 0; i < acting_.size(); ++i) {
-    if (squares[i] > 0) {
-      acting_[i] = stepper.force(structure, static_cast<LocalIndex>(i)) / squares[i];
-    }
-  }
-  return acting_;
-}
-
-std::optional<RecordColumns> Forces::columns() const {
-  if (recorded_.empty()) return std::nullopt;
-  RecordColumns columns{"forces", recorded_, {{"force", unit_}}, {}, {}};
-  if (rank_of(run_.comm) == 0) columns.take_all({columns_.data(), recorded_.size()});
-  return columns;
-}
-
-void Forces::keep_state(const StateKeeper& state) {
-  const StateKeeper own = state.known_if(rank_of(run_.comm) == 0);
-  const double time = run_.scheme.stepper().time();
-  double start = peaks_start_;
-  own.rows("force_peaks", peaks_, peak_members);
-  own.numbers("force_peaks_start", start);
-  if (start == peaks_start_) return;
-  refuse_if(
-      time >= peaks_start_,
-      sentence("option -spectra_start {:.12g} s: the peaks of forces were counted from {:.12g} "
-               "s on until the checkpoint at {:.12g} s; give -spectra_start {:.12g}, one after "
-               "the checkpoint, or start anew",
-               {peaks_start_, start, time, start}));
-  peaks_.assign(peaks_.size(), {});  // summed up from zero
-}
-
-void Forces::report(RunStatistics& statistics) {
-  if (statistics.complete) on_rank0(run_.comm, [&] { write_table(); });
-  if (rank_of(run_.comm) != 0) return;
-  Facts facts;
-  facts.say("\nforce       largest kN, kN m (of shells per m) of samples      at s   element\n");
-  for (const ForceReport& item : items_) {
-    for (std::size_t c = 0; c < item.components.size(); ++c) {
-      const auto peak = [&](std::size_t e) {
-        return peaks_[item.first + e * item.components.size() + c];
-      };
-      std::size_t most = 0;
-      for (std::size_t e = 1; e < item.elements.size(); ++e) {
-        if (std::abs(peak(e).value) > std::abs(peak(most).value)) most = e;
-      }
-      Json& of = facts.values["forces"][item.name][item.components[c]] =
-          Json{{"peak", peak(most).value}, {"time", peak(most).time}};
-      if (!item.elements[most].empty()) of["element"] = std::stoll(item.elements[most]);
-      facts.text += told("  {:-18s} {peak:24.6g [kN]} {time:19.5f}   [{element}]\n", of,
-                         {item.name + "." + item.components[c]});
-    }
-    if (!item.about) continue;
-    facts.values["moments_about"][item.name] = *item.about;
-    facts.say("    moments about {:.6g} m\n", {*item.about});
-  }
-  statistics.findings.add(facts);
-}
-
-void Forces::write_table() const {
-  ResultTable file(run_.scene, force_table);
-  for (const ForceReport& item : items_) {
-    std::size_t column = item.first;
-    for (const std::string& element : item.elements) {
-      for (const std::string& component : item.components) {
-        const ForcePeak& peak = peaks_[column++];
-        file.row(item.name + "," + component + "," + unit_of(component),
-                 {element.empty() ? 0.0 : std::stod(element), peak.value, peak.time});
-      }
-    }
-  }
-  file.close();
-}
 
 OutputKind forces_output() {
   return output<Forces>(

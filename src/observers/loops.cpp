@@ -175,11 +175,92 @@ std::string name_of(const std::string& item, const Candidate& law) {
 /// UserError for a group without links. Collective.
 class Loops final : public Observer {
  public:
-  explicit Loops(const ObservedRun& run);
+  explicit Loops(const ObservedRun& run) : run_(run) {
+    const std::vector<Loop>& items = run.scene.loops;
+    const int rank = rank_of(run.comm);
+    std::vector<Source> sources = find_sources(run);
+    std::vector<Candidate> all;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      items_.push_back(items[i].name);
+      for (std::size_t k = 0; k < sources.size(); ++k) {
+        sources[k].find(items[i], [&](Candidate found) {
+          found.item = static_cast<int>(i);
+          found.rank = rank;
+          found.source = static_cast<int>(k);
+          all.push_back(found);
+        });
+      }
+    }
+    all = of_all_ranks(run.comm, all);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const int item = static_cast<int>(i);
+      refuse_if(std::ranges::find(all, item, &Candidate::item) == all.end(),
+                "option -loops: nothing in " + items[i].name +
+                    " yields, slides, damps or acts in one direction only; name a group that does");
+      keep_nearest(items[i], item, all);
+    }
+    for (const Candidate& law : all) {
+      if (law.rank == rank) {
+        Source& source = sources[static_cast<std::size_t>(law.source)];
+        mine_.push_back(static_cast<int>(names_.size()));
+        own_.push_back({source.records, source.chosen.size()});
+        source.chosen.push_back(static_cast<std::size_t>(law.index));
+      }
+      item_of_.push_back(law.item);
+      names_.push_back(name_of(items[static_cast<std::size_t>(law.item)].name, law));
+    }
+    for (Source& source : sources) {
+      if (!source.chosen.empty()) source.record(std::move(source.chosen));
+    }
+    values_.assign(2 * own_.size(), 0.0);
+  }
 
   std::int64_t next_due(std::int64_t step) const override { return run_.next_record_step(step); }
-  void observe(const CdLagrange& stepper) override;
-  void report(RunStatistics& statistics) override;
+  void observe(const CdLagrange& /*stepper*/) override {
+    for (std::size_t k = 0; k < own_.size(); ++k) {
+      values_[2 * k] = own_[k].records->elongation(own_[k].number);
+      values_[2 * k + 1] = own_[k].records->force(own_[k].number);
+    }
+  }
+
+  void report(RunStatistics& statistics) override {
+    constexpr std::size_t width = 4;
+    std::vector<double> all(width * names_.size(), 0.0);
+    for (std::size_t k = 0; k < own_.size(); ++k) {
+      const interactions::LinkTotals& t = own_[k].records->totals(own_[k].number);
+      double* const to = &all[width * static_cast<std::size_t>(mine_[k])];
+      to[0] = t.largest_elongation;
+      to[1] = t.largest_force;
+      to[2] = t.work;
+      to[3] = t.yielded;
+    }
+    reduce_over_ranks(run_.comm, MPI_SUM, all);
+    for (std::size_t item = 0; item < items_.size(); ++item) {
+      std::size_t links = 0;
+      std::array<double, width> most{};  // of the last two the sums
+      Json yielded = Json::array();
+      for (std::size_t i = 0; i < names_.size(); ++i) {
+        if (item_of_[i] != static_cast<int>(item)) continue;
+        const double* const from = &all[width * i];
+        ++links;
+        most = {std::max(most[0], from[0]), std::max(most[1], from[1]), most[2] + from[2],
+                most[3] + from[3]};
+        if (from[3] > 0) yielded.push_back(names_[i]);
+      }
+      statistics.findings.add(
+          "loops", items_[item],
+          {{"links", links},
+           {"yielded", yielded},
+           {"largest_elongation", most[0]},
+           {"largest_force", most[1]},
+           {"energy_taken", most[2]}},
+          "  {:-12s} {:.0f} of {links} links yielded, elongation at most {largest_elongation:.4g "
+          "mm} "
+          "(or mrad), force {largest_force:.4g kN} (or kN m), took {energy_taken:.4g} J\n",
+          {items_[item], most[3]});
+    }
+  }
+
   std::optional<RecordColumns> columns() const override {
     return RecordColumns{
         "links", names_, {{"link_elongation", "m, rad"}, {"link_force", "N, N m"}}, mine_, values_};
@@ -201,90 +282,6 @@ class Loops final : public Observer {
 };
 
 }  // namespace
-
-Loops::Loops(const ObservedRun& run) : run_(run) {
-  const std::vector<Loop>& items = run.scene.loops;
-  const int rank = rank_of(run.comm);
-  std::vector<Source> sources = find_sources(run);
-  std::vector<Candidate> all;
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    items_.push_back(items[i].name);
-    for (std::size_t k = 0; k < sources.size(); ++k) {
-      sources[k].find(items[i], [&](Candidate found) {
-        found.item = static_cast<int>(i);
-        found.rank = rank;
-        found.source = static_cast<int>(k);
-        all.push_back(found);
-      });
-    }
-  }
-  all = of_all_ranks(run.comm, all);
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    const int item = static_cast<int>(i);
-    refuse_if(std::ranges::find(all, item, &Candidate::item) == all.end(),
-              "option -loops: nothing in " + items[i].name +
-                  " yields, slides, damps or acts in one direction only; name a group that does");
-    keep_nearest(items[i], item, all);
-  }
-  for (const Candidate& law : all) {
-    if (law.rank == rank) {
-      Source& source = sources[static_cast<std::size_t>(law.source)];
-      mine_.push_back(static_cast<int>(names_.size()));
-      own_.push_back({source.records, source.chosen.size()});
-      source.chosen.push_back(static_cast<std::size_t>(law.index));
-    }
-    item_of_.push_back(law.item);
-    names_.push_back(name_of(items[static_cast<std::size_t>(law.item)].name, law));
-  }
-  for (Source& source : sources) {
-    if (!source.chosen.empty()) source.record(std::move(source.chosen));
-  }
-  values_.assign(2 * own_.size(), 0.0);
-}
-
-void Loops::observe(const CdLagrange& /*stepper*/) {
-  for (std::size_t k = 0; k < own_.size(); ++k) {
-    values_[2 * k] = own_[k].records->elongation(own_[k].number);
-    values_[2 * k + 1] = own_[k].records->force(own_[k].number);
-  }
-}
-
-void Loops::report(RunStatistics& statistics) {
-  constexpr std::size_t width = 4;
-  std::vector<double> all(width * names_.size(), 0.0);
-  for (std::size_t k = 0; k < own_.size(); ++k) {
-    const interactions::LinkTotals& t = own_[k].records->totals(own_[k].number);
-    double* const to = &all[width * static_cast<std::size_t>(mine_[k])];
-    to[0] = t.largest_elongation;
-    to[1] = t.largest_force;
-    to[2] = t.work;
-    to[3] = t.yielded;
-  }
-  reduce_over_ranks(run_.comm, MPI_SUM, all);
-  for (std::size_t item = 0; item < items_.size(); ++item) {
-    std::size_t links = 0;
-    std::array<double, width> most{};  // of the last two the sums
-    Json yielded = Json::array();
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      if (item_of_[i] != static_cast<int>(item)) continue;
-      const double* const from = &all[width * i];
-      ++links;
-      most = {std::max(most[0], from[0]), std::max(most[1], from[1]), most[2] + from[2],
-              most[3] + from[3]};
-      if (from[3] > 0) yielded.push_back(names_[i]);
-    }
-    statistics.findings.add(
-        "loops", items_[item],
-        {{"links", links},
-         {"yielded", yielded},
-         {"largest_elongation", most[0]},
-         {"largest_force", most[1]},
-         {"energy_taken", most[2]}},
-        "  {:-12s} {:.0f} of {links} links yielded, elongation at most {largest_elongation:.4g mm} "
-        "(or mrad), force {largest_force:.4g kN} (or kN m), took {energy_taken:.4g} J\n",
-        {items_[item], most[3]});
-  }
-}
 
 OutputKind loops_output() {
   return output<Loops>({}, [](const ObservedRun& run) { return !run.scene.loops.empty(); });

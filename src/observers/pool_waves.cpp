@@ -46,22 +46,78 @@ DisplacementSum row_of(const Model& model, std::size_t structure,
 /// along y, of all its convective modes, at the samples of the probes.
 class PoolWaves final : public Observer {
  public:
-  explicit PoolWaves(const ObservedRun& run);
+  explicit PoolWaves(const ObservedRun& run) : run_(run) {
+    for (std::size_t s = 0; s < run.scene.structures.size(); ++s) {
+      const Structure& structure = run.scene.structures[s];
+      const auto first = std::ranges::find(structure.regions, true, &Region::of_water);
+      auto region = static_cast<int>(first - structure.regions.begin());
+      for (const Pool& pool : structure.pools) {
+        if (!pool.is_tank()) continue;
+        std::array<std::map<TracePoint, double>, 2> weights;
+        for (const WaterRegion& water : water_regions(pool)) {
+          if (water.part == WaterPart::wave) {
+            const auto mode = static_cast<std::size_t>(water.mode);
+            add_wave(run.model.meshes[s], region, water.direction,
+                     pool.water_along(water.direction).convective[mode].wave,
+                     weights[water.direction]);
+          }
+          ++region;
+        }
+        for (const auto& along : weights) rows_.push_back(row_of(run.model, s, along));
+      }
+    }
+    peaks_.resize(rows_.size());
+  }
 
   std::int64_t next_due(std::int64_t step) const override { return run_.next_record_step(step); }
-  StepNeeds begin(const CdLagrange& stepper) override;
+  StepNeeds begin(const CdLagrange& stepper) override {
+    for (const DisplacementSum& row : rows_) samples_.push_back(row.of(stepper));
+    times_.push_back(stepper.time());
+    if (times_.size() == most_samples) look();
+    return {};
+  }
+
   void finish(bool /*complete*/) override { look(); }
   void keep_state(const StateKeeper& state) override {
     look();
     state.table("pool_waves", peaks_, 2);
   }
-  void report(RunStatistics& statistics) override;
+
+  void report(RunStatistics& statistics) override {
+    std::size_t p = 0;
+    for (const Structure& structure : run_.scene.structures) {
+      for (const Pool& pool : structure.pools) {
+        if (!pool.is_tank()) continue;
+        const double height = peaks_[2 * p];
+        statistics.findings.add(
+            "pools", pool.name,
+            {{"wave_height", height},
+             {"time", peaks_[2 * p + 1]},
+             {"freeboard", pool.outline.freeboard}},
+            "  {:-12s} waves up to {wave_height:.3g} m at {time:.4g} s, freeboard "
+            "{freeboard:.3g} m\n",
+            {pool.name});
+        ++p;
+      }
+    }
+  }
 
  private:
   static constexpr std::size_t most_samples = 1000;
 
   /// Takes the samples that are kept into the peaks. Collective.
-  void look();
+  void look() {
+    reduce_over_ranks(run_.comm, MPI_SUM, samples_);
+    for (std::size_t t = 0; t < times_.size(); ++t) {
+      const double* const heights = &samples_[t * rows_.size()];
+      for (std::size_t p = 0; p < rows_.size(); p += 2) {
+        const double corner = std::abs(heights[p]) + std::abs(heights[p + 1]);
+        if (corner > peaks_[p]) std::ranges::copy(std::array{corner, times_[t]}, &peaks_[p]);
+      }
+    }
+    times_.clear();
+    samples_.clear();
+  }
 
   ObservedRun run_;
   std::vector<DisplacementSum> rows_;  ///< two per pool, along x and y
@@ -69,68 +125,6 @@ class PoolWaves final : public Observer {
   std::vector<double> samples_;        ///< of these, part of this rank in each row [m]
   std::vector<double> peaks_;          ///< per pool: height [m], time [s]; alike on all ranks
 };
-
-PoolWaves::PoolWaves(const ObservedRun& run) : run_(run) {
-  for (std::size_t s = 0; s < run.scene.structures.size(); ++s) {
-    const Structure& structure = run.scene.structures[s];
-    const auto first = std::ranges::find(structure.regions, true, &Region::of_water);
-    auto region = static_cast<int>(first - structure.regions.begin());
-    for (const Pool& pool : structure.pools) {
-      if (!pool.is_tank()) continue;
-      std::array<std::map<TracePoint, double>, 2> weights;
-      for (const WaterRegion& water : water_regions(pool)) {
-        if (water.part == WaterPart::wave) {
-          const auto mode = static_cast<std::size_t>(water.mode);
-          add_wave(run.model.meshes[s], region, water.direction,
-                   pool.water_along(water.direction).convective[mode].wave,
-                   weights[water.direction]);
-        }
-        ++region;
-      }
-      for (const auto& along : weights) rows_.push_back(row_of(run.model, s, along));
-    }
-  }
-  peaks_.resize(rows_.size());
-}
-
-StepNeeds PoolWaves::begin(const CdLagrange& stepper) {
-  for (const DisplacementSum& row : rows_) samples_.push_back(row.of(stepper));
-  times_.push_back(stepper.time());
-  if (times_.size() == most_samples) look();
-  return {};
-}
-
-void PoolWaves::look() {
-  reduce_over_ranks(run_.comm, MPI_SUM, samples_);
-  for (std::size_t t = 0; t < times_.size(); ++t) {
-    const double* const heights = &samples_[t * rows_.size()];
-    for (std::size_t p = 0; p < rows_.size(); p += 2) {
-      const double corner = std::abs(heights[p]) + std::abs(heights[p + 1]);
-      if (corner > peaks_[p]) std::ranges::copy(std::array{corner, times_[t]}, &peaks_[p]);
-    }
-  }
-  times_.clear();
-  samples_.clear();
-}
-
-void PoolWaves::report(RunStatistics& statistics) {
-  std::size_t p = 0;
-  for (const Structure& structure : run_.scene.structures) {
-    for (const Pool& pool : structure.pools) {
-      if (!pool.is_tank()) continue;
-      const double height = peaks_[2 * p];
-      statistics.findings.add(
-          "pools", pool.name,
-          {{"wave_height", height},
-           {"time", peaks_[2 * p + 1]},
-           {"freeboard", pool.outline.freeboard}},
-          "  {:-12s} waves up to {wave_height:.3g} m at {time:.4g} s, freeboard "
-          "{freeboard:.3g} m\n",
-          {pool.name});
-      ++p;
-    }
-  }
-}
 
 }  // namespace
 

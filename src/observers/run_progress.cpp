@@ -39,10 +39,23 @@ class ProgressWatch final : public Observer {
     begun_at_ = continued != nullptr ? stepper.time() : 0;
     wall_start_ = MPI_Wtime();
   }
+
   std::int64_t next_due(std::int64_t step) const override {
     return next_multiple(std::max<std::int64_t>(step, 1), stride_);
   }
-  void observe(const CdLagrange& stepper) override;
+
+  void observe(const CdLagrange& stepper) override {
+    const double no_gap = std::numeric_limits<double>::max();
+    std::array<double, 2> now{no_gap, 0};  // smallest gap, minus the number of impacts
+    if (run_.is_contact_root()) {
+      now = {run_.scheme.contact()->smallest_gap(), -static_cast<double>(impacts_.episodes())};
+    }
+    reduce_over_ranks(run_.comm, MPI_MIN, now);
+    if (rank_of(run_.comm) != 0) return;
+    progress_.show({stepper.time(), run_.scene.end_time, stepper.time() - begun_at_,
+                    MPI_Wtime() - wall_start_, now[0], std::llround(-now[1]),
+                    stepper.energy().relative_residual()});
+  }
 
  private:
   ObservedRun run_;
@@ -86,19 +99,6 @@ void RunProgress::show(const RunPosition& position) {
     std::printf("%s\n", line.c_str());
   }
   std::fflush(stdout);
-}
-
-void ProgressWatch::observe(const CdLagrange& stepper) {
-  const double no_gap = std::numeric_limits<double>::max();
-  std::array<double, 2> now{no_gap, 0};  // smallest gap, minus the number of impacts
-  if (run_.is_contact_root()) {
-    now = {run_.scheme.contact()->smallest_gap(), -static_cast<double>(impacts_.episodes())};
-  }
-  reduce_over_ranks(run_.comm, MPI_MIN, now);
-  if (rank_of(run_.comm) != 0) return;
-  progress_.show({stepper.time(), run_.scene.end_time, stepper.time() - begun_at_,
-                  MPI_Wtime() - wall_start_, now[0], std::llround(-now[1]),
-                  stepper.energy().relative_residual()});
 }
 
 OutputKind progress_output() {

@@ -57,11 +57,26 @@ class EnergyWatch final : public Observer {
 
   std::int64_t next_due(std::int64_t step) const override { return run_.next_ledger_step(step); }
   StepNeeds begin(const CdLagrange& /*stepper*/) override { return {.energies = true}; }
-  void observe(const CdLagrange& stepper) override;
+  void observe(const CdLagrange& stepper) override {
+    EnergyBalance& energy = run_.scheme.stepper().energy();
+    const ClosedLine closed =
+        close_line(run_.comm, run_.model, stepper.state(), run_.scheme.contact(), energy);
+    run_.scheme.note_energies(energy.closed_steps() - 1, closed.energies, closed.round_off);
+    ledger_.add(closed.line);
+  }
+
   void keep_state(const StateKeeper& state) override {
     ledger_.keep(state.known_if(rank_of(run_.comm) == 0));
   }
-  void report(RunStatistics& statistics) override;
+
+  void report(RunStatistics& statistics) override {
+    statistics.energy = ledger_.last();
+    statistics.energy_residual = run_.scheme.stepper().energy().relative_residual();
+    on_rank0(run_.comm, [&] {
+      write_energy(run_.path("energy.csv"), ledger_.lines(), run_.scene.csv_digits);
+    });
+  }
+
   Phase phase() const override { return Phase::energy; }
 
  private:
@@ -167,21 +182,6 @@ ClosedLine close_line(MPI_Comm comm, const Model& model, const State& state,
     closed.round_off.push_back(energy_round_off(model, s, closed.energies[s]));
   }
   return closed;
-}
-
-void EnergyWatch::observe(const CdLagrange& stepper) {
-  EnergyBalance& energy = run_.scheme.stepper().energy();
-  const ClosedLine closed =
-      close_line(run_.comm, run_.model, stepper.state(), run_.scheme.contact(), energy);
-  run_.scheme.note_energies(energy.closed_steps() - 1, closed.energies, closed.round_off);
-  ledger_.add(closed.line);
-}
-
-void EnergyWatch::report(RunStatistics& statistics) {
-  statistics.energy = ledger_.last();
-  statistics.energy_residual = run_.scheme.stepper().energy().relative_residual();
-  on_rank0(run_.comm,
-           [&] { write_energy(run_.path("energy.csv"), ledger_.lines(), run_.scene.csv_digits); });
 }
 
 OutputKind energy_output() {

@@ -86,6 +86,7 @@ struct YieldSum {
     if (row.since != never_yielded) first_time = std::min(first_time, row.since);
     if (row.ductility > (most != nullptr ? most->ductility : 0)) most = &row;
   }
+
   Json values() const {
     const YieldRow& largest = most != nullptr ? *most : YieldRow{};
     Json of = FACTS_OF((*this), elements, yielded);
@@ -104,35 +105,6 @@ std::string told_yielding(const std::string& name, const Json& of) {
                                      : told(" {first_time:12.4f}", of)) +
          told(" {energy_lost:12.4g}  at {place:.4g} m\n", of);
 }
-
-class YieldTable final : public Observer {
- public:
-  explicit YieldTable(const ObservedRun& run);
-
-  std::int64_t next_due(std::int64_t step) const override { return run_.next_record_step(step); }
-  void observe(const CdLagrange& stepper) override;
-  void keep_state(const StateKeeper& state) override;
-  void report(RunStatistics& statistics) override;
-
- private:
-  /// A law of an element of this rank.
-  struct Own {
-    LawKey key{};
-    FoundLaw law;
-    Vector3 place{};
-    double since = never_yielded;
-  };
-
-  std::string part_name(std::size_t structure, std::size_t region, std::size_t part) const;
-  /// Rows of all ranks. Collective.
-  std::vector<YieldRow> rows() const;
-  /// The storey that a place is in, "roof over floor2"; empty where none is. `order`: its number.
-  std::string storey_of(const YieldRow& row, std::size_t& order) const;
-
-  ObservedRun run_;
-  std::vector<Own> own_;
-  std::vector<Storey> storeys_;
-};
 
 Facts facts_of(const std::vector<YieldSum>& sums) {
   Facts facts;
@@ -162,6 +134,133 @@ Facts facts_of(const std::vector<YieldSum>& sums) {
   return facts;
 }
 
+class YieldTable final : public Observer {
+ public:
+  explicit YieldTable(const ObservedRun& run)
+      : run_(run), storeys_(find_storeys(run.comm, run.scene, run.model)) {
+    for (std::size_t s = 0; s < run.model.systems.size(); ++s) {
+      for (const FoundLaw& law : yielding_laws(run, s)) {
+        own_.push_back({{static_cast<double>(s), static_cast<double>(law.region()),
+                         static_cast<double>(law.element()), static_cast<double>(law.part.number)},
+                        law,
+                        element_middle(run.model.meshes[s], law.elements->block_of(law.part),
+                                       law.part.element)});
+      }
+    }
+  }
+
+  std::int64_t next_due(std::int64_t step) const override { return run_.next_record_step(step); }
+  void observe(const CdLagrange& stepper) override {
+    for (Own& law : own_) {
+      if (law.since == never_yielded && law.law.ductility() > 1) law.since = stepper.time();
+    }
+  }
+
+  void keep_state(const StateKeeper& state) override {
+    std::vector<Yielded> all;
+    for (const Own& law : own_) {
+      if (law.since != never_yielded) all.push_back({law.key, law.since});
+    }
+    if (state.puts()) all = gather_rows(run_.comm, all);
+    state.known_if(rank_of(run_.comm) == 0).list("yielded_since", all, yielded_members);
+    if (state.puts()) return;
+    std::map<LawKey, double> since;
+    for (const Yielded& law : all) since[law.key] = law.since;
+    for (Own& law : own_) {
+      if (const auto found = since.find(law.key); found != since.end()) law.since = found->second;
+    }
+  }
+
+  void report(RunStatistics& statistics) override {
+    const std::vector<YieldRow> all = rows();
+    std::vector<YieldSum> sums;
+    on_rank0(run_.comm, [&] {
+      ResultTable file(run_.scene, yielding_table);
+      for (const YieldRow& row : all) {
+        const bool elastic = row.since == never_yielded;
+        file.row(row.name, {static_cast<double>(row.element), row.ductility, row.lost, row.place[0],
+                            row.place[1], row.place[2],
+                            elastic ? std::numeric_limits<double>::quiet_NaN() : row.since});
+        if (sums.empty() || sums.back().name != row.name) sums.push_back({row.name});
+        sums.back().add(row);
+        std::size_t order = 0;
+        const std::string storey = storey_of(row, order);
+        if (storey.empty()) continue;
+        YieldSum& within = sums.back().storeys[order];
+        within.name = storey;
+        within.add(row);
+      }
+      file.close();
+    });
+    if (!sums.empty()) statistics.findings.add(facts_of(sums));
+  }
+
+ private:
+  /// A law of an element of this rank.
+  struct Own {
+    LawKey key{};
+    FoundLaw law;
+    Vector3 place{};
+    double since = never_yielded;
+  };
+
+  std::string part_name(std::size_t structure, std::size_t region, std::size_t part) const {
+    const auto& laws = run_.model.systems[structure].laws;
+    const auto number = static_cast<int>(region);
+    return std::ranges::find(laws, number, &interactions::RegionLaw::region)->law->parts()[part];
+  }
+
+  /// Rows of all ranks. Collective.
+  std::vector<YieldRow> rows() const {
+    std::vector<double> mine;
+    for (const Own& law : own_) {
+      mine.insert(mine.end(), law.key.begin(), law.key.end());
+      mine.insert(mine.end(), law.place.begin(), law.place.end());
+      const interactions::PartState state = law.law.state();
+      mine.insert(mine.end(), {law.since, state.ductility, state.lost});
+    }
+    const std::vector<double> table = gather_rows(run_.comm, mine);
+    constexpr std::size_t width = 10;
+    std::vector<YieldRow> all;
+    for (std::size_t r = 0; r < table.size(); r += width) {
+      const double* const v = &table[r];
+      const auto s = static_cast<std::size_t>(v[0]);
+      const auto region = static_cast<std::size_t>(v[1]);
+      const std::string part = part_name(s, region, static_cast<std::size_t>(v[3]));
+      const double loss = v[8] > 1 ? v[9] : 0;  // round-off while it is elastic
+      all.push_back({run_.model.systems[s].name + ":" +
+                         run_.scene.structures[s].regions[region].group + ":" + part,
+                     s,
+                     static_cast<std::int64_t>(v[2]),
+                     {v[4], v[5], v[6]},
+                     v[7],
+                     v[8],
+                     loss});
+    }
+    std::ranges::sort(all, {}, &YieldRow::key);
+    return all;
+  }
+
+  /// The storey that a place is in, "roof over floor2"; empty where none is. `order`: its number.
+  std::string storey_of(const YieldRow& row, std::size_t& order) const {
+    for (order = 0; order < storeys_.size(); ++order) {
+      const Storey& storey = storeys_[order];
+      if (storey.structure != run_.scene.structures[row.structure].name) continue;
+      const auto probe = static_cast<std::size_t>(storey.upper_probe);
+      const double top = run_.model.probes[probe].position[2];
+      const double small = 1e-9 * storey.height;
+      if (row.place[2] > top - storey.height - small && row.place[2] < top + small) {
+        return storey.upper + " over " + storey.lower;
+      }
+    }
+    return "";
+  }
+
+  ObservedRun run_;
+  std::vector<Own> own_;
+  std::vector<Storey> storeys_;
+};
+
 }  // namespace
 
 std::vector<double> yielding_elements(const ObservedRun& run, std::size_t structure) {
@@ -180,115 +279,6 @@ std::vector<double> yielding_elements(const ObservedRun& run, std::size_t struct
     rows.insert(rows.end(), values.begin(), values.end());
   }
   return rows;
-}
-
-YieldTable::YieldTable(const ObservedRun& run)
-    : run_(run), storeys_(find_storeys(run.comm, run.scene, run.model)) {
-  for (std::size_t s = 0; s < run.model.systems.size(); ++s) {
-    for (const FoundLaw& law : yielding_laws(run, s)) {
-      own_.push_back({{static_cast<double>(s), static_cast<double>(law.region()),
-                       static_cast<double>(law.element()), static_cast<double>(law.part.number)},
-                      law,
-                      element_middle(run.model.meshes[s], law.elements->block_of(law.part),
-                                     law.part.element)});
-    }
-  }
-}
-
-void YieldTable::observe(const CdLagrange& stepper) {
-  for (Own& law : own_) {
-    if (law.since == never_yielded && law.law.ductility() > 1) law.since = stepper.time();
-  }
-}
-
-void YieldTable::keep_state(const StateKeeper& state) {
-  std::vector<Yielded> all;
-  for (const Own& law : own_) {
-    if (law.since != never_yielded) all.push_back({law.key, law.since});
-  }
-  if (state.puts()) all = gather_rows(run_.comm, all);
-  state.known_if(rank_of(run_.comm) == 0).list("yielded_since", all, yielded_members);
-  if (state.puts()) return;
-  std::map<LawKey, double> since;
-  for (const Yielded& law : all) since[law.key] = law.since;
-  for (Own& law : own_) {
-    if (const auto found = since.find(law.key); found != since.end()) law.since = found->second;
-  }
-}
-
-std::string YieldTable::part_name(std::size_t structure, std::size_t region,
-                                  std::size_t part) const {
-  const auto& laws = run_.model.systems[structure].laws;
-  const auto number = static_cast<int>(region);
-  return std::ranges::find(laws, number, &interactions::RegionLaw::region)->law->parts()[part];
-}
-
-std::vector<YieldRow> YieldTable::rows() const {
-  std::vector<double> mine;
-  for (const Own& law : own_) {
-    mine.insert(mine.end(), law.key.begin(), law.key.end());
-    mine.insert(mine.end(), law.place.begin(), law.place.end());
-    const interactions::PartState state = law.law.state();
-    mine.insert(mine.end(), {law.since, state.ductility, state.lost});
-  }
-  const std::vector<double> table = gather_rows(run_.comm, mine);
-  constexpr std::size_t width = 10;
-  std::vector<YieldRow> all;
-  for (std::size_t r = 0; r < table.size(); r += width) {
-    const double* const v = &table[r];
-    const auto s = static_cast<std::size_t>(v[0]);
-    const auto region = static_cast<std::size_t>(v[1]);
-    const std::string part = part_name(s, region, static_cast<std::size_t>(v[3]));
-    const double loss = v[8] > 1 ? v[9] : 0;  // round-off while it is elastic
-    all.push_back({run_.model.systems[s].name + ":" +
-                       run_.scene.structures[s].regions[region].group + ":" + part,
-                   s,
-                   static_cast<std::int64_t>(v[2]),
-                   {v[4], v[5], v[6]},
-                   v[7],
-                   v[8],
-                   loss});
-  }
-  std::ranges::sort(all, {}, &YieldRow::key);
-  return all;
-}
-
-std::string YieldTable::storey_of(const YieldRow& row, std::size_t& order) const {
-  for (order = 0; order < storeys_.size(); ++order) {
-    const Storey& storey = storeys_[order];
-    if (storey.structure != run_.scene.structures[row.structure].name) continue;
-    const auto probe = static_cast<std::size_t>(storey.upper_probe);
-    const double top = run_.model.probes[probe].position[2];
-    const double small = 1e-9 * storey.height;
-    if (row.place[2] > top - storey.height - small && row.place[2] < top + small) {
-      return storey.upper + " over " + storey.lower;
-    }
-  }
-  return "";
-}
-
-void YieldTable::report(RunStatistics& statistics) {
-  const std::vector<YieldRow> all = rows();
-  std::vector<YieldSum> sums;
-  on_rank0(run_.comm, [&] {
-    ResultTable file(run_.scene, yielding_table);
-    for (const YieldRow& row : all) {
-      const bool elastic = row.since == never_yielded;
-      file.row(row.name, {static_cast<double>(row.element), row.ductility, row.lost, row.place[0],
-                          row.place[1], row.place[2],
-                          elastic ? std::numeric_limits<double>::quiet_NaN() : row.since});
-      if (sums.empty() || sums.back().name != row.name) sums.push_back({row.name});
-      sums.back().add(row);
-      std::size_t order = 0;
-      const std::string storey = storey_of(row, order);
-      if (storey.empty()) continue;
-      YieldSum& within = sums.back().storeys[order];
-      within.name = storey;
-      within.add(row);
-    }
-    file.close();
-  });
-  if (!sums.empty()) statistics.findings.add(facts_of(sums));
 }
 
 OutputKind yield_output() {

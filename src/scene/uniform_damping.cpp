@@ -57,12 +57,72 @@ class Fit {
     evaluate();
   }
 
-  void minimise_mean();
-  void equalise_ripple();
+  /// Levenberg and Marquardt.
+  void minimise_mean() {
+    const std::size_t n = unknowns_.size();
+    double trust = 1e-3;
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      std::vector<double> matrix(n * n, 0.0);
+      std::vector<double> change(n, 0.0);
+      for (std::size_t k = 0; k < points; ++k) {
+        const double* const row = &slope_[k * n];
+        for (std::size_t i = 0; i < n; ++i) {
+          change[i] -= row[i] * error_[k];
+          for (std::size_t j = 0; j < n; ++j) matrix[i * n + j] += row[i] * row[j];
+        }
+      }
+      for (std::size_t i = 0; i < n; ++i) matrix[i * n + i] *= 1 + trust;
+      const double before = mean();
+      const std::vector<double> start = unknowns_;
+      if (!solve_dense(matrix, change)) return;
+      move(change, 1);
+      const double after = mean();
+      if (after < before) {
+        trust = std::max(trust / 5, 1e-9);
+        if (before - after < 1e-8 * before) return;
+      } else {
+        trust *= 5;
+        unknowns_ = start;
+        evaluate();
+      }
+    }
+  }
+
+  /// Remez: errors of +-r, sign by sign, at the points of the alternation, by Newton's method with r
+  /// as one more unknown.
+  void equalise_ripple() {
+    const std::size_t n = unknowns_.size();
+    std::vector<double> best = unknowns_;
+    double least = ripple();
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      const std::vector<std::size_t> places = alternation();
+      if (places.size() < n + 1) {
+        break;  // round-off: the errors are that small
+      }
+      std::vector<double> matrix((n + 1) * (n + 1));
+      std::vector<double> change(n + 1);
+      for (std::size_t j = 0; j <= n; ++j) {
+        std::copy_n(&slope_[places[j] * n], n, &matrix[j * (n + 1)]);
+        matrix[j * (n + 1) + n] = error_[places[j]] > 0 ? -1 : 1;
+        change[j] = -error_[places[j]];
+      }
+      if (!solve_dense(matrix, change)) break;
+      move(change, 0.3);
+      const double now = ripple();
+      if (now < least) {
+        best = unknowns_;
+        least = now;
+      }
+      if (std::abs(std::abs(change[n]) - now) < 1e-9 * now) break;
+    }
+    unknowns_ = best;
+    evaluate();
+  }
 
   double ripple() const {
     return std::abs(*std::ranges::max_element(error_, {}, [](double e) { return std::abs(e); }));
   }
+
   std::vector<DampingFilter> filters() const {
     std::vector<DampingFilter> result;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -75,15 +135,58 @@ class Fit {
   static constexpr std::size_t points = 801;
 
   /// Relative errors of the damping ratio, shape (points), and their slopes, shape (points, 2 n).
-  void evaluate();
-  void move(const std::vector<double>& change, double largest);
+  void evaluate() {
+    const std::vector<DampingFilter> now = filters();
+    const std::size_t unknowns = 2 * count_;
+    for (std::size_t k = 0; k < points; ++k) {
+      const double lag = lag_at(now, omega_[k]);
+      const std::complex<double> z = on_ray(omega_[k], lag);
+      const std::complex<double> g = modulus(now, z);
+      error_[k] = std::sin(lag) / ratio_ - 1;
+      // The phase of G by the filters' numbers, and by the lag itself.
+      double by_lag = 0;
+      for (std::size_t i = 0; i < count_; ++i) {
+        const auto [weight, rate] = now[i];
+        const std::complex<double> passed = weight * z / (rate + z);
+        const std::complex<double> bent = passed * rate / (rate + z);
+        slope_[k * unknowns + i] = (passed / g).imag();
+        slope_[k * unknowns + count_ + i] = -(bent / g).imag();
+        by_lag += (std::complex<double>(0, 1) * bent / g).imag();
+      }
+      const double scale = std::cos(lag) / ratio_ / (2 - by_lag);
+      for (std::size_t i = 0; i < unknowns; ++i) slope_[k * unknowns + i] *= scale;
+    }
+  }
+
+  void move(const std::vector<double>& change, double largest) {
+    for (std::size_t i = 0; i < unknowns_.size(); ++i) {
+      unknowns_[i] += std::clamp(change[i], -largest, largest);
+    }
+    evaluate();
+  }
+
   double mean() const {
     double sum = 0;
     for (const double e : error_) sum += e * e;
     return sum;
   }
+
   /// Points of the largest errors of alternating sign; fewer than 2 n + 1 if there are no more.
-  std::vector<std::size_t> alternation() const;
+  std::vector<std::size_t> alternation() const {
+    std::vector<std::size_t> found{0};
+    for (std::size_t k = 1; k < points; ++k) {
+      if ((error_[k] > 0) != (error_[found.back()] > 0)) {
+        found.push_back(k);
+      } else if (std::abs(error_[k]) > std::abs(error_[found.back()])) {
+        found.back() = k;
+      }
+    }
+    while (found.size() > 2 * count_ + 1) {
+      const bool first = std::abs(error_[found.front()]) < std::abs(error_[found.back()]);
+      found.erase(first ? found.begin() : found.end() - 1);
+    }
+    return found;
+  }
 
   double ratio_;
   std::size_t count_;
@@ -92,114 +195,6 @@ class Fit {
   std::vector<double> error_;
   std::vector<double> slope_;
 };
-
-void Fit::evaluate() {
-  const std::vector<DampingFilter> now = filters();
-  const std::size_t unknowns = 2 * count_;
-  for (std::size_t k = 0; k < points; ++k) {
-    const double lag = lag_at(now, omega_[k]);
-    const std::complex<double> z = on_ray(omega_[k], lag);
-    const std::complex<double> g = modulus(now, z);
-    error_[k] = std::sin(lag) / ratio_ - 1;
-    // The phase of G by the filters' numbers, and by the lag itself.
-    double by_lag = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-      const auto [weight, rate] = now[i];
-      const std::complex<double> passed = weight * z / (rate + z);
-      const std::complex<double> bent = passed * rate / (rate + z);
-      slope_[k * unknowns + i] = (passed / g).imag();
-      slope_[k * unknowns + count_ + i] = -(bent / g).imag();
-      by_lag += (std::complex<double>(0, 1) * bent / g).imag();
-    }
-    const double scale = std::cos(lag) / ratio_ / (2 - by_lag);
-    for (std::size_t i = 0; i < unknowns; ++i) slope_[k * unknowns + i] *= scale;
-  }
-}
-
-void Fit::move(const std::vector<double>& change, double largest) {
-  for (std::size_t i = 0; i < unknowns_.size(); ++i) {
-    unknowns_[i] += std::clamp(change[i], -largest, largest);
-  }
-  evaluate();
-}
-
-/// Levenberg and Marquardt.
-void Fit::minimise_mean() {
-  const std::size_t n = unknowns_.size();
-  double trust = 1e-3;
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    std::vector<double> matrix(n * n, 0.0);
-    std::vector<double> change(n, 0.0);
-    for (std::size_t k = 0; k < points; ++k) {
-      const double* const row = &slope_[k * n];
-      for (std::size_t i = 0; i < n; ++i) {
-        change[i] -= row[i] * error_[k];
-        for (std::size_t j = 0; j < n; ++j) matrix[i * n + j] += row[i] * row[j];
-      }
-    }
-    for (std::size_t i = 0; i < n; ++i) matrix[i * n + i] *= 1 + trust;
-    const double before = mean();
-    const std::vector<double> start = unknowns_;
-    if (!solve_dense(matrix, change)) return;
-    move(change, 1);
-    const double after = mean();
-    if (after < before) {
-      trust = std::max(trust / 5, 1e-9);
-      if (before - after < 1e-8 * before) return;
-    } else {
-      trust *= 5;
-      unknowns_ = start;
-      evaluate();
-    }
-  }
-}
-
-std::vector<std::size_t> Fit::alternation() const {
-  std::vector<std::size_t> found{0};
-  for (std::size_t k = 1; k < points; ++k) {
-    if ((error_[k] > 0) != (error_[found.back()] > 0)) {
-      found.push_back(k);
-    } else if (std::abs(error_[k]) > std::abs(error_[found.back()])) {
-      found.back() = k;
-    }
-  }
-  while (found.size() > 2 * count_ + 1) {
-    const bool first = std::abs(error_[found.front()]) < std::abs(error_[found.back()]);
-    found.erase(first ? found.begin() : found.end() - 1);
-  }
-  return found;
-}
-
-/// Remez: errors of +-r, sign by sign, at the points of the alternation, by Newton's method with r
-/// as one more unknown.
-void Fit::equalise_ripple() {
-  const std::size_t n = unknowns_.size();
-  std::vector<double> best = unknowns_;
-  double least = ripple();
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    const std::vector<std::size_t> places = alternation();
-    if (places.size() < n + 1) {
-      break;  // round-off: the errors are that small
-    }
-    std::vector<double> matrix((n + 1) * (n + 1));
-    std::vector<double> change(n + 1);
-    for (std::size_t j = 0; j <= n; ++j) {
-      std::copy_n(&slope_[places[j] * n], n, &matrix[j * (n + 1)]);
-      matrix[j * (n + 1) + n] = error_[places[j]] > 0 ? -1 : 1;
-      change[j] = -error_[places[j]];
-    }
-    if (!solve_dense(matrix, change)) break;
-    move(change, 0.3);
-    const double now = ripple();
-    if (now < least) {
-      best = unknowns_;
-      least = now;
-    }
-    if (std::abs(std::abs(change[n]) - now) < 1e-9 * now) break;
-  }
-  unknowns_ = best;
-  evaluate();
-}
 
 }  // namespace
 
