@@ -22,20 +22,21 @@
 #include "output/result_folder.h"
 #include "report/provenance.h"
 #include "report/report.h"
+#include "scene/resolved_options.h"
 
 namespace pounding {
 namespace {
 
 /// Removes the results of an earlier run; the resolved options are the first thing in the folder.
 /// Rank 0.
-void begin_results(const Scene& scene, const std::string& resolved, const Provenance& provenance,
+void begin_results(const Scene& scene, const OptionValues& resolved, const Provenance& provenance,
                    const ResultFolder& folder) {
   const std::vector<std::string> removed = folder.clear(scene.restart, result_files());
   if (!removed.empty()) print_removed(scene, removed);
   std::string files = "# Files of results:";
   for (const ResultFile& file : result_files()) files += " " + file.name;
   write_whole_file(scene.output + "/resolved.yaml",
-                   resolved + files + "\n" + provenance_comment(provenance));
+                   resolved_yaml(resolved) + files + "\n" + provenance_comment(provenance));
 }
 
 [[noreturn]] void stop(const Scene& scene, const Model& model, int signal, std::int64_t step) {
@@ -60,7 +61,7 @@ std::optional<SavedState> read_restart(MPI_Comm comm, const Scene& scene, const 
 }
 
 /// Tries the folders of a run before the work, and takes that of its results if it has any. Rank 0.
-void take_folders(Scene& scene, const std::string& resolved, bool runs,
+void take_folders(Scene& scene, const OptionValues& resolved, bool runs,
                   std::optional<ResultFolder>& folder) {
   if (runs || scene.write_modes || scene.write_model) try_folder("output", scene.output);
   if (!scene.export_matrices.empty()) try_folder("export_matrices", scene.export_matrices);
@@ -93,7 +94,7 @@ bool write_in_place_of_run(MPI_Comm comm, Scene& scene, Profile& profile) {
 }
 
 /// Files of the model, and the beginning of the results. `folder`: of rank 0. Collective.
-void write_before_run(MPI_Comm comm, const Scene& scene, const std::string& resolved,
+void write_before_run(MPI_Comm comm, const Scene& scene, const OptionValues& resolved,
                       const Provenance& provenance, const Model& model,
                       const std::optional<ResultFolder>& folder) {
   if (!scene.dry_run) {
@@ -117,7 +118,7 @@ void end_dry_run(MPI_Comm comm, const Scene& scene, const Model& model, Profile&
 }
 
 /// Spectra, doubts and peaks of a run at its end; report and summary. `begun` [s]. Collective.
-void end_run(MPI_Comm comm, const Scene& scene, const std::string& resolved,
+void end_run(MPI_Comm comm, const Scene& scene, const OptionValues& resolved,
              const Provenance& provenance, const Model& model, const TimeLoop& loop,
              const std::vector<TargetSpectrum>& capacities, double begun,
              RunStatistics& statistics) {
@@ -142,7 +143,7 @@ void end_run(MPI_Comm comm, const Scene& scene, const std::string& resolved,
 RunOutcome run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
                      const FidelityEstimator& estimator) {
   Scene& scene = read.scene;
-  const std::string& resolved = read.resolved;
+  const OptionValues& resolved = read.resolved;
   flush_subnormal_numbers();
   return_large_arrays();
   const double start = MPI_Wtime();

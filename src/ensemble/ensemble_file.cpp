@@ -339,9 +339,9 @@ void write_ensemble_table(const std::string& path, const EnsembleLayout& layout,
   write_whole_file(path, text);
 }
 
-std::vector<std::string> ensemble_identity(const std::string& resolved, const MemberTable& table) {
+std::vector<std::string> ensemble_identity(const OptionValues& resolved, const MemberTable& table) {
   std::vector<std::string> lines;
-  for (const auto& [name, value] : resolved_values(resolved)) {
+  for (const auto& [name, value] : resolved) {
     if (counts(name)) lines.push_back("option " + name + " " + value);
   }
   std::string columns = "columns";
@@ -355,14 +355,14 @@ std::vector<std::string> ensemble_identity(const std::string& resolved, const Me
   return lines;
 }
 
-std::vector<std::string> identity_of_files(MPI_Comm comm, const std::string& resolved,
+std::vector<std::string> identity_of_files(MPI_Comm comm, const OptionValues& resolved,
                                            const MemberTable& table,
                                            const std::vector<std::string>& opened) {
   std::set<std::string> files(opened.begin(), opened.end());
   const auto take_file = [&](const std::string& name, const std::string& value) {
     if (names_content(name) && !value.empty() && value != "none") files.insert(value);
   };
-  for (const auto& [name, value] : resolved_values(resolved)) {
+  for (const auto& [name, value] : resolved) {
     if (counts(name)) take_file(name, value);
   }
   for (std::size_t m = 0; m < table.members(); ++m) {

@@ -29,6 +29,7 @@
 #include "output/result_folder.h"
 #include "report/provenance.h"
 #include "report/report.h"
+#include "scene/resolved_options.h"
 
 namespace pounding {
 namespace {
@@ -237,7 +238,7 @@ class Ensemble {
   void open_file() {
     on_rank0(comm_, [&] {
       EnsembleFile::prepare(path("ensemble.h5"), layout_);
-      write_whole_file(path("resolved.yaml"), read_.resolved);
+      write_whole_file(path("resolved.yaml"), resolved_yaml(read_.resolved));
     });
     on_every_rank(comm_, [&] { file_.emplace(path("ensemble.h5"), layout_); });
     const std::vector<bool> done = file_->done();

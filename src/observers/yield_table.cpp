@@ -27,7 +27,7 @@ const ResultFile yielding_table{"yielding.csv", "the laws of elements and how fa
 /// Numbers by which an element's law is known on every rank: structure, region, element, part.
 using LawKey = std::array<double, 4>;
 
-/// A law that has gone beyond its first corner, as it stands in a saved state.
+/// A law that has gone beyond its first corner, as a saved state has it.
 struct Yielded {
   LawKey key{};
   double since = 0;  ///< [s]

@@ -22,6 +22,7 @@
 #include "output/result_folder.h"
 #include "scene/option_table.h"
 #include "scene/option_values.h"
+#include "scene/options_database.h"
 #include "scene/resolved_options.h"
 #include "system/matrix_system.h"
 
@@ -104,11 +105,10 @@ class Inputs {
   std::vector<InputFile> files;
 };
 
-std::vector<InputFile> input_files(const SceneOrigin& origin, const std::string& resolved) {
+std::vector<InputFile> input_files(const SceneOrigin& origin, const OptionValues& resolved) {
   Inputs inputs;
   for (const std::string& file : origin.files) inputs.add("options_file", file);
-  const auto values = resolved_values(resolved);
-  for (const auto& [name, value] : values) inputs.add_option(name, value);
+  for (const auto& [name, value] : resolved) inputs.add_option(name, value);
   return std::move(inputs.files);
 }
 
@@ -170,9 +170,9 @@ bool tells_the_scene(const std::string& option) {
          option.starts_with("motion_");
 }
 
-std::map<std::string, std::string> scene_options(const std::string& resolved) {
+std::map<std::string, std::string> scene_options(const auto& resolved) {
   std::map<std::string, std::string> options;
-  for (const auto& [name, value] : resolved_values(resolved)) {
+  for (const auto& [name, value] : resolved) {
     if (tells_the_scene(name)) options[name] = value;
   }
   return options;
@@ -180,7 +180,7 @@ std::map<std::string, std::string> scene_options(const std::string& resolved) {
 
 }  // namespace
 
-Provenance note_provenance(MPI_Comm comm, const SceneOrigin& origin, const std::string& resolved) {
+Provenance note_provenance(MPI_Comm comm, const SceneOrigin& origin, const OptionValues& resolved) {
   Provenance provenance{local_time(), machine_names(comm), "", "", {}, origin.overrides};
   on_rank0(comm, [&] {
     provenance.processor = processor_name();
@@ -238,9 +238,9 @@ void add_provenance(const Provenance& provenance, nlohmann::ordered_json& summar
   for (const auto& [name, version] : library_versions()) summary["versions"][name] = version;
 }
 
-std::map<std::string, std::string> lasting_options(MPI_Comm comm, const std::string& resolved) {
+std::map<std::string, std::string> lasting_options(MPI_Comm comm, const OptionValues& resolved) {
   std::map<std::string, std::string> options;
-  for (const auto& [name, value] : resolved_values(resolved)) {
+  for (const auto& [name, value] : resolved) {
     if (!may_differ(name, Comparison::restart)) options[name] = value;
   }
   on_rank0(comm, [&] {
@@ -256,7 +256,7 @@ std::map<std::string, std::string> lasting_options(MPI_Comm comm, const std::str
   return options;
 }
 
-RunIdentity identity_of(MPI_Comm comm, const std::string& resolved, const Model& model) {
+RunIdentity identity_of(MPI_Comm comm, const OptionValues& resolved, const Model& model) {
   RunIdentity identity{lasting_options(comm, resolved), model.time_step,
                        hash_of(*model.motion, model.supports.get(), model.load_histories.get())};
   for (const Building& building : model.buildings) {
@@ -288,11 +288,17 @@ void try_folder(const std::string& option, const std::string& folder) {
   restore();
 }
 
-std::vector<std::string> replaced_results(const Scene& scene, const std::string& resolved) {
-  require_finite_file(scene.output + "/resolved.yaml");
-  std::ifstream file(scene.output + "/resolved.yaml");
+std::vector<std::string> replaced_results(const Scene& scene, const OptionValues& resolved) {
+  const std::string path = scene.output + "/resolved.yaml";
+  require_finite_file(path);
+  std::ifstream file(path);
   if (!file || !scene.restart.empty()) return {};
-  const auto before = scene_options({std::istreambuf_iterator<char>(file), {}});
+  OptionsDatabase written;
+  try {
+    written = parse_options_file({std::istreambuf_iterator<char>(file), {}}, path);
+  } catch (const UserError&) {  // nobody knows of which scene it was
+  }
+  const auto before = scene_options(written);
   const auto now = scene_options(resolved);
   if (before.empty() || before == now) return {};
   const auto other = std::ranges::find_if(now, [&before](const auto& option) {

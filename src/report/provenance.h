@@ -39,7 +39,7 @@ struct Provenance {
 /// a checkpoint. `resolved`: the options in force. Files that are not there are left to their
 /// readers. Rank 0 reads; the result is on rank 0. Throws UserError on every rank alike.
 /// Collective.
-Provenance note_provenance(MPI_Comm comm, const SceneOrigin& origin, const std::string& resolved);
+Provenance note_provenance(MPI_Comm comm, const SceneOrigin& origin, const OptionValues& resolved);
 
 /// Notes of the built model: the files that Gmsh opened for the meshes, and the modal bases that
 /// are kept in files, as they were taken up or written. Rank 0 reads. Throws UserError on every
@@ -58,10 +58,10 @@ void add_provenance(const Provenance& provenance, nlohmann::ordered_json& summar
 /// The options that a continued run has in common with the run before; `resolved`: those in force.
 /// On rank 0 also the contents of matrices brought in. Throws UserError on every rank alike.
 /// Collective.
-std::map<std::string, std::string> lasting_options(MPI_Comm comm, const std::string& resolved);
+std::map<std::string, std::string> lasting_options(MPI_Comm comm, const OptionValues& resolved);
 
 /// Identity of a run, with which a checkpoint is compared. Collective.
-RunIdentity identity_of(MPI_Comm comm, const std::string& resolved, const Model& model);
+RunIdentity identity_of(MPI_Comm comm, const OptionValues& resolved, const Model& model);
 
 /// The folder of results before the work: whether it can be used, and its content.
 
@@ -71,6 +71,6 @@ void try_folder(const std::string& option, const std::string& folder);
 
 /// One line where the folder holds results of other structures, meshes or motions than `resolved`
 /// tells, which this run replaces; none where a run is continued. Rank 0.
-std::vector<std::string> replaced_results(const Scene& scene, const std::string& resolved);
+std::vector<std::string> replaced_results(const Scene& scene, const OptionValues& resolved);
 
 }  // namespace pounding

@@ -241,7 +241,7 @@ void write_summary(const std::string& path, const FinishedRun& run) {
     facts.values["files"].push_back({{"name", file.name}, {"holds", file.holds}});
   }
   facts.add("options", Json::object());
-  for (const auto& [name, value] : resolved_values(run.resolved)) {
+  for (const auto& [name, value] : run.resolved) {
     facts.values["options"][name] = value;
   }
   write_whole_file(path, with_readable_texts(facts.values).dump(1) + '\n');

@@ -37,7 +37,7 @@ void print_restart(const Scene& scene, const Model& model, std::int64_t step);
 struct FinishedRun {
   const Provenance& provenance;
   const Scene& scene;
-  const std::string& resolved;  ///< options in force
+  const OptionValues& resolved;  ///< options in force
   const Model& model;
   const RunStatistics& statistics;
   const ImpactCatalogue& impacts;

@@ -78,7 +78,7 @@ void OptionReader::keep(std::string_view pattern, const Names& names) {
   owner->values.emplace(&row, value(pattern, names));
 }
 
-std::vector<std::pair<std::string, std::string>> OptionReader::in_force() const {
+OptionValues OptionReader::in_force() const {
   std::vector<std::pair<std::string, std::string>> options;
   for (const Owner& owner : in_force_) {
     for (const auto& [row, value] : owner.values) {

@@ -78,7 +78,7 @@ class OptionReader {
 
   const OptionsDatabase& database() const { return database_; }
   /// Options in force: owners in the order of reading, those of each in the order of the help.
-  std::vector<std::pair<std::string, std::string>> in_force() const;
+  OptionValues in_force() const;
 
   /// Reads an option into a member; a choice into its place among the words, of two into a flag.
   template <typename Value>

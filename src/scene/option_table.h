@@ -15,6 +15,8 @@ namespace pounding {
 
 /// Options as PETSc flattens them: name without the leading '-' -> value ("" for a bare flag).
 using OptionsDatabase = std::map<std::string, std::string>;
+/// Names and values of options in an order of their own.
+using OptionValues = std::vector<std::pair<std::string, std::string>>;
 
 /// A kind of owner of options.
 struct OptionOwner {

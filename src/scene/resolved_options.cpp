@@ -50,47 +50,23 @@ bool is_file(const std::string& name, const Scene& scene) {
 
 }  // namespace
 
-std::string resolved_yaml(const OptionReader& options) {
-  std::string text =
-      "# All options in force, defaults included; running this file repeats the run.\n";
-  for (const auto& [name, value] : options.in_force()) text += yaml_line(name, value);
+OptionValues resolved_values(const OptionReader& options) {
+  OptionValues values = options.in_force();
   for (const auto& [name, value] : options.database()) {
-    if (is_petsc_option(name)) text += yaml_line(name, value);
-  }
-  return text;
-}
-
-std::vector<std::pair<std::string, std::string>> resolved_values(const std::string& yaml) {
-  std::vector<std::pair<std::string, std::string>> values;
-  std::istringstream lines(yaml);
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t colon = line.find(": ");
-    if (line.empty() || line[0] == '#' || colon == std::string::npos) continue;
-    std::string value = line.substr(colon + 2);
-    if (value.size() >= 2 && value.front() == '"' && value.back() == '"') {
-      value = value.substr(1, value.size() - 2);
-      // A backslash precedes a quote, another backslash, n, t, or x and two digits.
-      for (std::size_t at = value.find('\\'); at != std::string::npos;
-           at = value.find('\\', at + 1)) {
-        if (value.compare(at, 2, "\\x") == 0) {
-          value.replace(at, 4, 1,
-                        static_cast<char>(std::stoi(value.substr(at + 2, 2), nullptr, 16)));
-        } else {
-          value.erase(at, 1);
-          if (value[at] == 'n' || value[at] == 't') value[at] = value[at] == 'n' ? '\n' : '\t';
-        }
-      }
-    }
-    std::string name = line.substr(0, colon);
-    if (name.size() >= 2 && name.front() == '"') name = name.substr(1, name.size() - 2);
-    values.emplace_back(name, value);
+    if (is_petsc_option(name)) values.emplace_back(name, value);
   }
   return values;
 }
 
-std::vector<std::pair<std::string, std::string>> mesh_options(
-    const std::vector<std::pair<std::string, std::string>>& in_force, const Scene& scene) {
-  std::vector<std::pair<std::string, std::string>> options;
+std::string resolved_yaml(const OptionValues& resolved) {
+  std::string text =
+      "# All options in force, defaults included; running this file repeats the run.\n";
+  for (const auto& [name, value] : resolved) text += yaml_line(name, value);
+  return text;
+}
+
+OptionValues mesh_options(const OptionValues& in_force, const Scene& scene) {
+  OptionValues options;
   for (const auto& [name, value] : in_force) {
     const bool counts =
         !may_differ(name, Comparison::pieces) && !is_of_motion(name) && !is_file(name, scene);

@@ -9,18 +9,16 @@
 
 namespace pounding {
 
-/// Resolved options: all that `options` has read, defaults included, then those of PETSc and SLEPc,
-/// as flat YAML: one `name: "value"` per line. Read back, it gives the same scene.
-std::string resolved_yaml(const OptionReader& options);
+/// Resolved options: all that `options` has read, defaults included, then those of PETSc and SLEPc.
+OptionValues resolved_values(const OptionReader& options);
 
-/// Name and value of each line of such a text.
-std::vector<std::pair<std::string, std::string>> resolved_values(const std::string& yaml);
+/// Resolved options as flat YAML: one `name: "value"` per line. Read back, it gives the same scene.
+std::string resolved_yaml(const OptionValues& resolved);
 
 /// Options in force, with their values, that the cut meshes of a scene may depend on: all but those
 /// that surely leave them as they are, and in place of those of the motion the directions in which
 /// the scene is shaken. The files of the meshes count by their content, not by their names, and are
 /// left out.
-std::vector<std::pair<std::string, std::string>> mesh_options(
-    const std::vector<std::pair<std::string, std::string>>& in_force, const Scene& scene);
+OptionValues mesh_options(const OptionValues& in_force, const Scene& scene);
 
 }  // namespace pounding

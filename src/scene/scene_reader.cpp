@@ -84,7 +84,7 @@ class SceneReader {
     }
     scene_.mesh_options = mesh_options(options_.in_force(), scene_);
     check_pieces();
-    return {scene_, resolved_yaml(options_), stiffness_factors_, ensemble_};
+    return {scene_, resolved_values(options_), stiffness_factors_, ensemble_};
   }
 
  private:

@@ -9,7 +9,7 @@ namespace pounding {
 
 struct ReadScene {
   Scene scene;
-  std::string resolved;  ///< all options in force, defaults included, as YAML that reads back alike
+  OptionValues resolved;                  ///< all options in force, see resolved_values
   std::vector<double> stiffness_factors;  ///< per structure; those at full order have them already
   std::string ensemble;                   ///< table of runs to be made at once; empty: one run
 };

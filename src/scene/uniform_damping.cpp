@@ -88,8 +88,8 @@ class Fit {
     }
   }
 
-  /// Remez: errors of +-r, sign by sign, at the points of the alternation, by Newton's method with r
-  /// as one more unknown.
+  /// Remez: errors of +-r, sign by sign, at the points of the alternation, by Newton's method with
+  /// r as one more unknown.
   void equalise_ripple() {
     const std::size_t n = unknowns_.size();
     std::vector<double> best = unknowns_;
