@@ -127,17 +127,15 @@ class JointDoubts {
     const Vector3& normal = report_.normal;
     double behind = -1e300;
     double ahead = 1e300;
-    BoundingBox face;
-    BoundingBox other;
+    const GlobalMesh& mesh = mesh_of(contact_.secondary);
+    const GlobalMesh& other_mesh = mesh_of(contact_.primary);
+    const BoundingBox face = bounding_box(mesh, nodes_of(contact_.secondary));
+    const BoundingBox other = bounding_box(other_mesh, nodes_of(contact_.primary));
     for (const GlobalIndex node : nodes_of(contact_.secondary)) {
-      const Vector3 x = mesh_of(contact_.secondary).position(node);
-      behind = std::max(behind, dot(normal, x));
-      face.include(x);
+      behind = std::max(behind, dot(normal, mesh.position(node)));
     }
     for (const GlobalIndex node : nodes_of(contact_.primary)) {
-      const Vector3 x = mesh_of(contact_.primary).position(node);
-      ahead = std::min(ahead, dot(normal, x));
-      other.include(x);
+      ahead = std::min(ahead, dot(normal, other_mesh.position(node)));
     }
     const double margin =
         1e-3 * (ahead - behind) + std::max(report_.half_thickness[0], report_.half_thickness[1]);

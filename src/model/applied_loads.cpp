@@ -232,23 +232,18 @@ class LoadMaker {
   double extent_ = 0;
 };
 
-int structure_of(const Scene& scene, const Load& load) {
-  const auto found = std::ranges::find(scene.structures, load.structure, &Structure::name);
-  return static_cast<int>(found - scene.structures.begin());
-}
-
 }  // namespace
 
 std::vector<NodalLoad> find_loads(const Scene& scene, std::span<const GlobalMesh> meshes) {
   std::vector<NodalLoad> loads;
   for (const Load& load : scene.loads) {
-    const int s = structure_of(scene, load);
+    const std::size_t s = structure_number(scene, load.structure);
     try {
       loads.push_back(LoadMaker(load, scene.structures[s], meshes[s]).make());
     } catch (const ElementError& error) {
       throw UserError("load " + load.name + ": " + error.what());
     }
-    loads.back().structure = s;
+    loads.back().structure = static_cast<int>(s);
   }
   return loads;
 }

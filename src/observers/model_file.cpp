@@ -28,73 +28,50 @@ std::int32_t number_of(const std::string& name, std::vector<std::string>& names)
   return static_cast<std::int32_t>(names.size());
 }
 
-/// Adds the properties that regions give the cells of a structure.
-class CellValues {
- public:
-  CellValues(Hdf5File& file, const Structure& structure, const CellTable& cells, XdmfGrid& grid)
-      : file_(file), structure_(structure), cells_(cells), grid_(grid) {}
-
-  void add_number(const std::string& name,
-                  const std::function<std::int32_t(const Region&)>& number) {
-    std::vector<std::int32_t> values;
-    for (const std::int32_t r : cells_.region) values.push_back(number(structure_.regions[r]));
-    const std::string path = structure_.name + "/" + name;
-    file_.write_integers(path, 0, values);
-    grid_.cell_values.push_back({name, path, true, {values.size()}});
-  }
-
-  void add(const std::string& name, const std::function<double(const Region&)>& value) {
-    add_vectors(name, 0, [&](const Region& region) { return Vector3{value(region), 0, 0}; });
-  }
-
-  /// `columns`: 3, or 0 for numbers.
-  void add_vectors(const std::string& name, std::size_t columns,
-                   const std::function<Vector3(const Region&)>& value) {
-    std::vector<double> values;
-    for (const std::int32_t r : cells_.region) {
-      const Vector3 vector = value(structure_.regions[r]);
-      values.insert(values.end(), vector.begin(), vector.begin() + (columns == 0 ? 1 : 3));
-    }
-    const std::string path = structure_.name + "/" + name;
-    file_.write_array(path, columns, values);
-    XdmfArray array{name, path, false, {cells_.count()}};
-    if (columns > 0) array.shape.push_back(columns);
-    grid_.cell_values.push_back(array);
-  }
-
- private:
-  Hdf5File& file_;
-  const Structure& structure_;
-  const CellTable& cells_;
-  XdmfGrid& grid_;
-};
-
 struct Names {
   std::vector<std::string> materials;
   std::vector<std::string> sections;
 };
 
+/// Adds the properties that regions give the cells of a structure.
 void add_properties(Hdf5File& file, const Structure& structure, const CellTable& cells,
                     Names& names, XdmfGrid& grid) {
-  CellValues values(file, structure, cells, grid);
-  values.add_number("material", [&](const Region& region) {
+  const auto add_number = [&](const std::string& name, const auto& number) {
+    std::vector<std::int32_t> values;
+    for (const std::int32_t r : cells.region) values.push_back(number(structure.regions[r]));
+    add_numbers(file, structure.name, name, values, grid.cell_values);
+  };
+  const auto add = [&](const std::string& name, const auto& row, std::size_t columns = 0) {
+    std::vector<double> values;
+    for (const std::int32_t r : cells.region) {
+      const auto of_cell = row(structure.regions[r]);
+      values.insert(values.end(), of_cell.begin(), of_cell.end());
+    }
+    const std::string path = structure.name + "/" + name;
+    file.write_array(path, columns, values);
+    XdmfArray array{name, path, false, {cells.count()}};
+    if (columns > 0) array.shape.push_back(columns);
+    grid.cell_values.push_back(array);
+  };
+  add_number("material", [&](const Region& region) {
     return has_extent(region.element) ? number_of(region.material.name, names.materials) : 0;
   });
-  values.add_number("section", [&](const Region& region) {
+  add_number("section", [&](const Region& region) {
     return region.section ? number_of(region.section->name, names.sections) : 0;
   });
-  values.add("thickness", [](const Region& region) { return region.thickness; });
-  values.add("area", [](const Region& region) {
-    return region.section ? region.section->area : region.area;
+  add("thickness", [](const Region& region) { return std::array{region.thickness}; });
+  add("area", [](const Region& region) {
+    return std::array{region.section ? region.section->area : region.area};
   });
-  values.add("young", [](const Region& region) { return region.material.young; });
-  values.add("density", [](const Region& region) { return region.material.density; });
-  values.add("mass", [](const Region& region) { return region.mass; });
+  add("young", [](const Region& region) { return std::array{region.material.young}; });
+  add("density", [](const Region& region) { return std::array{region.material.density}; });
+  add("mass", [](const Region& region) { return std::array{region.mass}; });
   const auto add_springs = [&](const char* name, bool spread) {
-    values.add_vectors(name, 3, [&](const Region& region) {
+    const auto stiffness = [spread](const Region& region) {
       if ((region.spread != Spread::none) != spread) return Vector3{0, 0, 0};
       return Vector3{region.stiffness[0], region.stiffness[1], region.stiffness[2]};
-    });
+    };
+    add(name, stiffness, 3);
   };
   add_springs("spring_stiffness", false);
   if (std::ranges::any_of(structure.regions,
@@ -178,8 +155,7 @@ XdmfGrid write_marks(Hdf5File& file, const std::string& name, const std::string&
   grid.topology = {"topology", folder + "topology", true, {marks.topology.size()}};
   file.write_array(grid.geometry.path, 3, marks.points);
   file.write_integers(grid.topology.path, 0, marks.topology);
-  grid.cell_values.push_back({number, folder + number, true, {grid.cells}});
-  file.write_integers(folder + number, 0, marks.numbers);
+  add_numbers(file, "marks/" + name, number, marks.numbers, grid.cell_values);
   if (!marks.gaps.empty()) {
     grid.cell_values.push_back({"initial_gap", folder + "initial_gap", false, {grid.cells}});
     file.write_array(folder + "initial_gap", 0, marks.gaps);

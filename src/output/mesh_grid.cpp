@@ -18,15 +18,14 @@ std::vector<std::int32_t> whole(const std::vector<double>& values) {
   return {values.begin(), values.end()};
 }
 
-/// Writes whole numbers per node or cell and adds them to the grid.
-void add_numbers(Hdf5File& file, const std::string& structure, const std::string& name,
+}  // namespace
+
+void add_numbers(Hdf5File& file, const std::string& folder, const std::string& name,
                  const std::vector<std::int32_t>& values, std::vector<XdmfArray>& arrays) {
-  const std::string path = structure + "/" + name;
+  const std::string path = folder + "/" + name;
   file.write_integers(path, 0, values);
   arrays.push_back({name, path, true, {values.size()}});
 }
-
-}  // namespace
 
 XdmfGrid write_mesh(Hdf5File* file, const Mesh& mesh, const CellTable& cells, std::size_t structure,
                     const MeshLabels& labels) {

@@ -32,6 +32,11 @@ struct MeshLabels {
 XdmfGrid write_mesh(Hdf5File* file, const Mesh& mesh, const CellTable& cells, std::size_t structure,
                     const MeshLabels& labels);
 
+/// Writes whole numbers per node or cell to a folder of a file, and adds them to those of a grid.
+/// Rank 0.
+void add_numbers(Hdf5File& file, const std::string& folder, const std::string& name,
+                 const std::vector<std::int32_t>& values, std::vector<XdmfArray>& arrays);
+
 /// Names behind their numbers from 1, "1 left:slab, 2 left:wall", as a note of a grid has them.
 std::string numbered(const std::vector<std::string>& names);
 

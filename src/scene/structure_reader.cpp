@@ -123,17 +123,17 @@ void read_step_target(OptionReader& options, Structure& structure) {
 
 /// The axial forces at rest belong to beams and bars whose mass nobody scales by their stiffness.
 void check_p_delta(const OptionReader& options, const Structure& structure) {
-  constexpr std::string_view pattern = "<structure>_p_delta";
   if (!structure.p_delta) return;
-  options.refuse_if(!structure.matrices.empty(), pattern, {structure.name},
-                    "not with -<structure>_matrices, which hold it or not");
-  options.refuse_if(structure.mass_scaling > 0, pattern, {structure.name},
-                    "not with -<structure>_mass_scaling or _time_step_target");
-  const bool has_any = std::ranges::any_of(structure.regions, [](const Region& region) {
+  const auto refuse_if = [&](bool wrong, const char* why) {
+    options.refuse_if(wrong, "<structure>_p_delta", {structure.name}, why);
+  };
+  refuse_if(!structure.matrices.empty(), "not with -<structure>_matrices, which hold it or not");
+  refuse_if(structure.mass_scaling > 0, "not with -<structure>_mass_scaling or _time_step_target");
+  const auto bears = [](const Region& region) {
     return is_beam(region.element) || region.element == ElementType::bar;
-  });
-  options.refuse_if(!has_any, pattern, {structure.name},
-                    "the structure has no beams or bars, whose axial forces it is about");
+  };
+  refuse_if(std::ranges::none_of(structure.regions, bears),
+            "the structure has no beams or bars, whose axial forces it is about");
 }
 
 /// Hexahedra alone have so many numbers that it pays.

@@ -49,8 +49,7 @@ StopSide stop_side(const Scene& scene, std::span<const GlobalMesh> meshes, const
   const ContactSide& side = name == "secondary" ? contact.secondary : contact.primary;
   StopSide found;
   if (side.is_wall()) return found;
-  const auto structure = std::ranges::find(scene.structures, side.structure, &Structure::name);
-  found.structure = static_cast<int>(structure - scene.structures.begin());
+  found.structure = static_cast<int>(structure_number(scene, side.structure));
   found.mesh = &meshes[static_cast<std::size_t>(found.structure)];
   const auto group = found.mesh->groups.find(side.group);
   refuse_if(group == found.mesh->groups.end(),
