@@ -38,10 +38,6 @@ std::vector<Model> models_of(std::span<const MemberScene* const> members,
   return models;
 }
 
-const std::vector<double>& displacement_of_supports(const CdLagrange& stepper) {
-  return stepper.state().supports.displacement;
-}
-
 const std::vector<double>& velocity_of_supports(const CdLagrange& stepper) {
   return stepper.state().supports.velocity;
 }
@@ -97,7 +93,8 @@ bool MemberBatch::run(const std::function<bool()>& stopped) {
 void MemberBatch::step(std::int64_t n) {
   const bool records = recorder_.due(n);
   if (records || passes_.due(n)) {
-    const std::vector<BatchValue>& supports = motion_of_supports(displacement_of_supports);
+    const std::vector<BatchValue>& supports = motion_of_supports(
+        [](const CdLagrange& of) -> auto& { return of.state().supports.displacement; });
     const double time = static_cast<double>(n) * shared_.time_step;
     if (passes_.due(n)) passes_.look(states_, supports, n, time);
     if (records) recorder_.take_displacements(states_, supports);

@@ -66,10 +66,7 @@ std::vector<std::vector<SpectrumPoint>> response_spectra(std::span<const double>
                            : peak_displacements(acceleration, time_step, oscillators, after);
   std::vector<std::vector<SpectrumPoint>> spectra(damping_ratios.size());
   for (std::size_t i = 0; i < oscillators.size(); ++i) {
-    const double frequency = frequencies[i / spectra.size()];
-    const double omega = 2 * std::numbers::pi * frequency;
-    spectra[i % spectra.size()].push_back(
-        {frequency, peaks[i], omega * peaks[i], omega * omega * peaks[i]});
+    spectra[i % spectra.size()].push_back(point_of(frequencies[i / spectra.size()], peaks[i]));
   }
   return spectra;
 }

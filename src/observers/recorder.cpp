@@ -233,10 +233,6 @@ std::vector<double> Recorder::gather_rows(std::size_t rows, std::vector<int>& of
 
 void Recorder::start(const CdLagrange& stepper, const SavedState* continued) {
   if (continued != nullptr) return take_over(*continued);
-  take_start(stepper);
-}
-
-void Recorder::take_start(const CdLagrange& stepper) {
   put(stepper, &StructureState::velocity, stepper.state().supports.velocity, 3);
   std::vector<int> offsets;
   const std::vector<double> gathered = gather_rows(1, offsets);

@@ -99,8 +99,6 @@ class Recorder final : public Observer {
   /// Writes a quantity of the state into the record at hand, `offset` values into each node.
   void put(const CdLagrange& stepper, std::vector<double> StructureState::*quantity,
            std::span<const double> supports, std::size_t offset);
-  /// The velocities that a run starts with.
-  void take_start(const CdLagrange& stepper);
   void take_over(const SavedState& saved);
   void name_channels();
   RecordColumns base_columns() const;
