@@ -7,7 +7,6 @@
 #include <set>
 
 #include "common/error.h"
-#include "common/facts.h"
 #include "common/integer_sets.h"
 #include "common/matrix3.h"
 

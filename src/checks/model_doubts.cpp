@@ -6,7 +6,6 @@
 #include <set>
 
 #include "common/error.h"
-#include "common/facts.h"
 #include "common/matrix3.h"
 #include "mesh/mesh.h"
 

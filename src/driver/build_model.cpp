@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
-#include "checks/model_doubts.h"
 #include "checks/warnings.h"
 #include "common/error.h"
 #include "common/parallel.h"

@@ -13,7 +13,6 @@
 #include "io/matrix_market.h"
 #include "io/new_file.h"
 #include "system/damping_matrix.h"
-#include "system/links.h"
 
 namespace pounding {
 namespace {

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <functional>
 #include <numeric>
-#include <optional>
 #include <set>
 
 #include "common/error.h"

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "common/profile.h"
 #include "mesh/global_mesh.h"

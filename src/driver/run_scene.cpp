@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
 
 #include "checks/run_doubts.h"
 #include "common/error.h"

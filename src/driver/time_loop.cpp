@@ -1,7 +1,6 @@
 #include "driver/time_loop.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 
 #include "common/error.h"

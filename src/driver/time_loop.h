@@ -4,14 +4,12 @@
 #include <cstdint>
 #include <optional>
 #include <signal.h>
-#include <span>
 #include <string>
 
 #include <mpi.h>
 
 #include "model/model.h"
 #include "model/model_scheme.h"
-#include "observers/kinds.h"
 #include "observers/run_statistics.h"
 #include "output/checkpoint.h"
 

@@ -5,11 +5,9 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
-#include <utility>
 
 #include "common/memory.h"
 #include "common/parallel.h"
-#include "dynamics/state.h"
 
 namespace pounding {
 namespace {

@@ -1,6 +1,5 @@
 #include "dynamics/state.h"
 
-#include <algorithm>
 #include <string>
 
 #include "common/memory.h"

@@ -1,6 +1,5 @@
 #include "elements/force_rows.h"
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 

@@ -18,7 +18,6 @@
 #include "io/hdf5_reader.h"
 #include "io/schema.h"
 #include "scene/option_values.h"
-#include "scene/resolved_options.h"
 
 namespace pounding {
 namespace {

@@ -2,12 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
-#include "common/error.h"
 #include "common/row_products.h"
-#include "driver/time_loop.h"
 #include "motion/response_spectrum.h"
 #include "observers/floor_spectra.h"
 #include "observers/kinds.h"

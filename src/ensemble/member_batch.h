@@ -12,10 +12,7 @@
 #include "ensemble/batch_passes.h"
 #include "ensemble/coordinate_rows.h"
 #include "ensemble/member_scene.h"
-#include "mesh/mesh.h"
-#include "mesh/probe_set.h"
 #include "observers/observed_run.h"
-#include "observers/run_statistics.h"
 
 namespace pounding {
 

@@ -5,7 +5,6 @@
 
 #include "common/error.h"
 #include "dynamics/batch_step.h"
-#include "interactions/pairing/gap_field.h"
 #include "modal/reduced_system.h"
 #include "model/start_at_rest.h"
 #include "model/time_step.h"

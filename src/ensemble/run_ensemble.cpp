@@ -22,7 +22,6 @@
 #include "fidelity/fidelity_climb.h"
 #include "io/new_file.h"
 #include "model/time_step.h"
-#include "observers/floor_spectra.h"
 #include "observers/forces.h"
 #include "observers/observed_run.h"
 #include "observers/run_progress.h"

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <memory>
 #include <numbers>
-#include <string>
 #include <vector>
 
 #include "common/error.h"

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "common/array_reductions.h"
-#include "interactions/pairing/interface.h"
 
 namespace pounding::interactions {
 

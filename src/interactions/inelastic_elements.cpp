@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "common/parallel.h"
-#include "elements/element_traits.h"
 #include "system/law_forces.h"
 #include "system/support_shapes.h"
 

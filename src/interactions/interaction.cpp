@@ -1,7 +1,6 @@
 #include "interactions/interaction.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

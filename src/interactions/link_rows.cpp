@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "interactions/dashpot_modes.h"
-#include "interactions/structure_links.h"
 #include "solvers/law_solver.h"
 #include "system/support_shapes.h"
 

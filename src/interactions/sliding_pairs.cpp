@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "interactions/pairing/contact_face.h"
-#include "interactions/pairing/interface.h"
 
 namespace pounding::interactions {
 namespace {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "io/hdf5_file.h"
 #include "io/hdf5_reader.h"
 

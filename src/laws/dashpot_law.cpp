@@ -1,6 +1,5 @@
 #include "laws/dashpot_law.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "laws/hysteresis_path.h"
-
 namespace pounding::interactions {
 namespace {
 

@@ -1,7 +1,6 @@
 #include "laws/law_of.h"
 
 #include <utility>
-#include <vector>
 
 #include "laws/dashpot_law.h"
 #include "laws/tension_law.h"

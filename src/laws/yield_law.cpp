@@ -1,7 +1,5 @@
 #include "laws/yield_law.h"
 
-#include <cmath>
-
 namespace pounding::interactions {
 
 void YieldLaw::yield(double now, double kept, std::span<double> memory) const {

@@ -11,7 +11,6 @@
 #include "common/matrix3.h"
 #include "elements/element_traits.h"
 #include "mesh/facet_point.h"
-#include "mesh/global_mesh.h"
 
 namespace pounding {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <sstream>
 
 #include "common/error.h"
 #include "scene/support_reader.h"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "mesh/global_mesh.h"
 #include "scene/scene.h"
 

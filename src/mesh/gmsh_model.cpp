@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <set>
-#include <stdexcept>
 #include <sys/mman.h>
 #include <unistd.h>
 

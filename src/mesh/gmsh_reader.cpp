@@ -6,6 +6,7 @@
 #include <set>
 
 #include "common/error.h"
+#include "mesh/element_checks.h"
 #include "mesh/geometry_file.h"
 #include "mesh/gmsh_process.h"
 #include "mesh/mesh_builder.h"

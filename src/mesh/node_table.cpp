@@ -1,7 +1,6 @@
 #include "mesh/node_table.h"
 
 #include <algorithm>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <tuple>

@@ -4,8 +4,6 @@
 #include <deque>
 #include <limits>
 #include <map>
-#include <set>
-#include <sstream>
 
 #include "common/error.h"
 #include "common/integer_sets.h"

@@ -1,7 +1,6 @@
 #include "mesh/rigid_nodes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 

@@ -11,7 +11,6 @@
 #include "common/error.h"
 #include "common/matrix3.h"
 #include "elements/element_traits.h"
-#include "mesh/global_mesh.h"
 #include "scene/option_values.h"
 
 namespace pounding {

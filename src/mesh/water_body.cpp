@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "common/error.h"
-#include "common/integer_sets.h"
 #include "common/matrix3.h"
 #include "mesh/facet_point.h"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <sstream>
-#include <string>
 #include <utility>
 
 #include "common/error.h"

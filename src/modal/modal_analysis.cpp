@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 #include <optional>
 
@@ -10,7 +9,6 @@
 #include "common/matrix3.h"
 #include "common/parallel.h"
 #include "common/types.h"
-#include "mesh/location.h"
 #include "modal/eigen_solver.h"
 #include "modal/shifted_solver.h"
 #include "system/admissible_motions.h"

@@ -18,7 +18,6 @@
 #include "modal/modal_analysis.h"
 #include "modal/orthonormal_space.h"
 #include "modal/shifted_solver.h"
-#include "modal/static_loads.h"
 #include "modal/water_coordinates.h"
 #include "system/admissible_motions.h"
 #include "system/support_shapes.h"

@@ -1,6 +1,5 @@
 #include "modal/shifted_solver.h"
 
-#include <array>
 #include <cmath>
 #include <map>
 #include <optional>

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "common/parallel.h"
 #include "modal/eigen_solver.h"
-#include "modal/orthonormal_space.h"
 #include "system/load_shapes.h"
 #include "system/support_shapes.h"
 

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "common/profile.h"
 #include "interactions/pairing/absorbing_faces.h"
 #include "interactions/pairing/interface.h"
 #include "mesh/connectivity.h"

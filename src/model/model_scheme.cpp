@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -13,7 +12,6 @@
 #include "dynamics/state.h"
 #include "interactions/link_rows.h"
 #include "stability/energy_norm.h"
-#include "system/links.h"
 
 namespace pounding {
 namespace {

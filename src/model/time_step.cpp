@@ -4,9 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <sstream>
 #include <utility>
-#include <vector>
 
 #include "common/error.h"
 #include "common/facts.h"
@@ -14,7 +12,6 @@
 #include "interactions/filler_rows.h"
 #include "interactions/soil_rows.h"
 #include "modal/reduced_system.h"
-#include "model/model.h"
 #include "stability/stable_time_step.h"
 #include "system/links.h"
 

@@ -1,7 +1,5 @@
 #include "observers/base_motion.h"
 
-#include <numeric>
-
 namespace pounding {
 
 DisplacementSum::DisplacementSum(std::size_t structure, std::span<const TracePoint> points,

@@ -8,7 +8,6 @@
 #include "mesh/mesh.h"
 #include "mesh/probe_set.h"
 #include "system/linear_system.h"
-#include "system/trace.h"
 
 namespace pounding {
 

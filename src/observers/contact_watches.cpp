@@ -2,7 +2,6 @@
 #include <span>
 
 #include "common/saved_state.h"
-#include "io/csv_file.h"
 #include "observers/impact_catalogue.h"
 #include "observers/member_result.h"
 #include "observers/observed_run.h"

@@ -1,6 +1,5 @@
 #include "observers/field_writer.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 

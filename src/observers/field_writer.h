@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "io/new_file.h"
-#include "mesh/mesh.h"
 #include "observers/field_plan.h"
 #include "observers/observed_run.h"
 #include "output/file_blocks.h"

@@ -4,11 +4,9 @@
 #include <cmath>
 
 #include "common/error.h"
-#include "common/facts.h"
 #include "common/facts_of.h"
 #include "common/parallel.h"
 #include "io/csv_file.h"
-#include "motion/accelerogram.h"
 #include "motion/oscillator_step.h"
 #include "motion/signal_treatment.h"
 #include "scene/option_table.h"

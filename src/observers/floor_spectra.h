@@ -8,7 +8,6 @@
 #include "motion/ground_motion.h"
 #include "motion/response_spectrum.h"
 #include "motion/synthetic.h"
-#include "observers/observed_run.h"
 #include "observers/recorder.h"
 #include "scene/scene.h"
 

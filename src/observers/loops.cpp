@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <compare>
-#include <cstdio>
 #include <functional>
 #include <limits>
 #include <set>
@@ -16,11 +14,9 @@
 #include "common/matrix3.h"
 #include "common/parallel.h"
 #include "common/types.h"
-#include "io/csv_file.h"
 #include "model/element_middle.h"
 #include "observers/observed_run.h"
 #include "observers/run_statistics.h"
-#include "scene/law_kinds.h"
 #include "system/links.h"
 
 namespace pounding {

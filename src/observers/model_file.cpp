@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <functional>
 #include <optional>
 
-#include "common/error.h"
 #include "common/facts.h"
 #include "common/integer_sets.h"
-#include "common/matrix3.h"
 #include "common/parallel.h"
 #include "interactions/pairing/interface.h"
 #include "io/hdf5_file.h"

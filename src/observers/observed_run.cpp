@@ -1,6 +1,5 @@
 #include "observers/observed_run.h"
 
-#include <cmath>
 #include <filesystem>
 #include <limits>
 

@@ -9,7 +9,6 @@
 #include "dynamics/state.h"
 #include "io/hdf5_file.h"
 #include "io/hdf5_reader.h"
-#include "mesh/mesh.h"
 #include "mesh/probe_set.h"
 #include "observers/base_motion.h"
 #include "observers/observed_run.h"

@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
-#include <string>
 #include <sys/ioctl.h>
 #include <unistd.h>
 

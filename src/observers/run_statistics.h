@@ -9,13 +9,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <mpi.h>
 
 #include "common/facts.h"
-#include "common/matrix3.h"
 #include "common/profile.h"
 #include "dynamics/energy_balance.h"
 #include "interactions/filler_rows.h"
@@ -23,7 +21,6 @@
 #include "motion/spectrum_shape.h"
 #include "observers/floor_spectra.h"
 #include "observers/impact_catalogue.h"
-#include "observers/recorder.h"
 
 namespace pounding {
 

@@ -6,7 +6,6 @@
 #include "interactions/contact_operator.h"
 #include "interactions/interface_rows.h"
 #include "interactions/pairing/interface.h"
-#include "io/csv_file.h"
 #include "observers/observed_run.h"
 #include "observers/run_statistics.h"
 #include "system/trace.h"

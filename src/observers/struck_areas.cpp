@@ -7,7 +7,6 @@
 
 #include "common/parallel.h"
 #include "common/saved_state.h"
-#include "io/csv_file.h"
 #include "observers/member_result.h"
 #include "observers/observed_run.h"
 #include "observers/run_statistics.h"

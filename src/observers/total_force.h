@@ -7,7 +7,6 @@
 #include "interactions/inelastic_elements.h"
 #include "interactions/soil_rows.h"
 #include "interactions/structure_links.h"
-#include "mesh/force_places.h"
 #include "mesh/mesh.h"
 #include "scene/load.h"
 #include "system/element_forces.h"

@@ -7,7 +7,6 @@
 #include "dynamics/state.h"
 #include "interactions/contact_problem.h"
 #include "model/model.h"
-#include "observers/observed_run.h"
 
 /// Stops runs whose numbers cannot be trusted, at every line of the energy ledger.
 namespace pounding {

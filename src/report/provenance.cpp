@@ -8,7 +8,6 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <numbers>
 #include <string_view>
 #include <unistd.h>
@@ -23,7 +22,6 @@
 #include "scene/option_table.h"
 #include "scene/option_values.h"
 #include "scene/options_database.h"
-#include "scene/resolved_options.h"
 #include "system/matrix_system.h"
 
 namespace pounding {

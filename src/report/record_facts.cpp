@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "common/facts_of.h"
 #include "report/report.h"

@@ -11,7 +11,6 @@
 #include "io/schema.h"
 #include "motion/response_spectrum.h"
 #include "observers/kinds.h"
-#include "scene/resolved_options.h"
 
 namespace pounding {
 namespace {

@@ -7,7 +7,6 @@
 #include "elements/element_traits.h"
 #include "report/report.h"
 #include "scene/pool_reader.h"
-#include "scene/soil_file.h"
 #include "scene/spring_reader.h"
 
 namespace pounding {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numbers>
-#include <string_view>
 
 namespace pounding {
 namespace {

@@ -4,7 +4,6 @@
 #include <initializer_list>
 #include <set>
 
-#include "scene/option_blocks.h"
 #include "scene/option_values.h"
 
 namespace pounding {

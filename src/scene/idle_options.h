@@ -5,7 +5,6 @@
 
 #include "scene/option_reader.h"
 #include "scene/scene.h"
-#include "scene/unknown_options.h"
 
 namespace pounding {
 

@@ -1,6 +1,5 @@
 #include "scene/option_reader.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "common/error.h"

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "elements/rigid_tank.h"
-#include "scene/option_values.h"
 
 namespace pounding {
 namespace {

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "scene/option_reader.h"
 #include "scene/scene.h"

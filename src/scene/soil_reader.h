@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "scene/option_reader.h"
 #include "scene/scene.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "scene/hysteresis_reader.h"
-#include "scene/option_table.h"
 
 namespace pounding {
 namespace {

@@ -1,12 +1,10 @@
 #include "scene/structure_reader.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
-#include <map>
 #include <set>
 
 #include "common/error.h"

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "motion/response_spectrum.h"
 #include "motion/signal_treatment.h"
 
 namespace pounding {

@@ -1,7 +1,6 @@
 #include "stability/resolved_motion.h"
 
 #include <algorithm>
-#include <limits>
 #include <numbers>
 
 namespace pounding {

@@ -1,19 +1,15 @@
 #include "statics/assembled_statics.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
-#include <optional>
 
 #include "common/dense_matrix.h"
 #include "common/error.h"
 #include "common/facts.h"
 #include "common/parallel.h"
-#include "statics/unilateral_rows.h"
 #include "system/factor_plan.h"
 #include "system/law_forces.h"
-#include "system/linear_system.h"
 
 namespace pounding {
 namespace {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <vector>
 
 #include "common/parallel.h"
 #include "stiffness/element_loop.h"

@@ -7,7 +7,6 @@
 
 #include "mesh/element_properties.h"
 #include "stiffness/single_stiffness.h"
-#include "stiffness/strains/hexahedron_strains.h"
 
 namespace pounding::stiffness {
 namespace {

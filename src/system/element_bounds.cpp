@@ -7,13 +7,11 @@
 #include <cstring>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "common/dense_matrix.h"
 #include "common/parallel.h"
 #include "elements/measured_costs.h"
 #include "mesh/location.h"
-#include "mesh/mesh.h"
 #include "stiffness/element_loop.h"
 #include "system/mass_scaling.h"
 #include "system/slivers.h"

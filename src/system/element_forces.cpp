@@ -11,7 +11,6 @@
 #include "mesh/element_properties.h"
 #include "mesh/halo.h"
 #include "mesh/location.h"
-#include "mesh/mesh.h"
 #include "stiffness/element_loop.h"
 #include "system/each_element.h"
 #include "system/support_shapes.h"

@@ -9,7 +9,6 @@
 #include "elements/geometric_stiffness.h"
 #include "elements/measured_costs.h"
 #include "mesh/element_properties.h"
-#include "mesh/location.h"
 #include "stiffness/element_loop.h"
 #include "stiffness/element_stiffness.h"
 #include "stiffness/stiffness.h"

@@ -1,25 +1,19 @@
 #include "system/inelastic_laws.h"
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "common/error.h"
 #include "common/parallel.h"
-#include "elements/beam2.h"
 #include "elements/force_rows.h"
 #include "elements/local_frame.h"
 #include "laws/cracking_shell.h"
-#include "laws/element_law.h"
-#include "mesh/mesh.h"
 #include "scene/law_kinds.h"
-#include "scene/scene.h"
 #include "system/each_element.h"
 #include "system/motion_laws.h"
 

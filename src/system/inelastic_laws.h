@@ -1,12 +1,10 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "laws/element_law.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
-#include "system/linear_system.h"
 
 namespace pounding {
 

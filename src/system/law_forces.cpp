@@ -1,11 +1,8 @@
 #include "system/law_forces.h"
 
 #include <algorithm>
-#include <memory>
 #include <optional>
 
-#include "common/parallel.h"
-#include "system/each_element.h"
 #include "system/element_forces.h"
 #include "system/trace.h"
 

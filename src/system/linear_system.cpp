@@ -1,8 +1,5 @@
 #include "system/linear_system.h"
 
-#include <algorithm>
-#include <span>
-
 #include "common/petsc.h"
 
 namespace pounding {

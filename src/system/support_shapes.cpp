@@ -1,7 +1,5 @@
 #include "system/support_shapes.h"
 
-#include <algorithm>
-
 #include "common/matrix3.h"
 #include "system/each_element.h"
 

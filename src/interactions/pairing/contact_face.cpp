@@ -1,8 +1,6 @@
 #include "interactions/pairing/contact_face.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 
 #include "interactions/pairing/facet_backing.h"

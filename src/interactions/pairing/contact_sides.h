@@ -2,7 +2,6 @@
 
 #include <span>
 #include <string>
-#include <vector>
 
 #include "interactions/pairing/contact_face.h"
 #include "scene/scene.h"

@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <utility>
 
 #include "common/error.h"
-#include "interactions/pairing/interface.h"
 #include "mesh/facet_overlap.h"
 #include "mesh/followed_facets.h"
 

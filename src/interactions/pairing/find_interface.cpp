@@ -15,7 +15,6 @@
 #include "interactions/pairing/facet_finder.h"
 #include "interactions/pairing/gap_field.h"
 #include "interactions/pairing/gap_survey.h"
-#include "interactions/pairing/interface.h"
 #include "interactions/pairing/stop_rows.h"
 
 namespace pounding::interactions {

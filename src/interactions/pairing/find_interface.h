@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
 #include <span>
-#include <vector>
 
 #include "interactions/pairing/interface.h"
 #include "mesh/global_mesh.h"

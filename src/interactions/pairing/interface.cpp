@@ -1,12 +1,9 @@
 #include "interactions/pairing/interface.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <tuple>
-
-#include "common/matrix3.h"
 
 namespace pounding::interactions {
 namespace {

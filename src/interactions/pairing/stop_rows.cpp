@@ -1,7 +1,6 @@
 #include "interactions/pairing/stop_rows.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <sstream>
 
@@ -9,8 +8,6 @@
 #include "common/matrix3.h"
 #include "interactions/pairing/contact_sides.h"
 #include "interactions/pairing/gap_field.h"
-#include "interactions/pairing/interface.h"
-#include "mesh/global_mesh.h"
 
 namespace pounding::interactions {
 namespace {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "motion/records/record_text.h"
-#include "motion/records/record_unit.h"
 #include "scene/scene.h"
 
 namespace pounding {

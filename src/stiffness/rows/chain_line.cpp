@@ -1,6 +1,5 @@
 #include "stiffness/rows/chain_line.h"
 
-#include <cstddef>
 #include <utility>
 
 #include "common/wide_lanes.h"

@@ -1,6 +1,5 @@
 #include "stiffness/shells/shell_kernel.h"
 
-#include <array>
 #include <cstddef>
 
 #include "common/wide_lanes.h"
