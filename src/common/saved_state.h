@@ -165,4 +165,28 @@ class StateKeeper {
   bool known_;
 };
 
+/// Objects as rows of numbers. `members(object, take)` calls `take` with the members that make a
+/// row.
+template <typename Object, typename Members>
+std::vector<double> to_rows(const std::vector<Object>& objects, const Members& members) {
+  std::vector<double> numbers;
+  for (const Object& object : objects) {
+    members(object,
+            [&](const auto&... values) { (numbers.push_back(static_cast<double>(values)), ...); });
+  }
+  return numbers;
+}
+
+/// Brings the numbers back into as many objects.
+template <typename Object, typename Members>
+void from_rows(std::span<const double> numbers, std::vector<Object>& objects,
+               const Members& members) {
+  auto next = numbers.begin();
+  for (Object& object : objects) {
+    members(object, [&](auto&... values) {
+      ((values = static_cast<std::remove_reference_t<decltype(values)>>(*next++)), ...);
+    });
+  }
+}
+
 }  // namespace pounding

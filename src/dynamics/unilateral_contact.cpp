@@ -23,7 +23,7 @@ UnilateralContact::UnilateralContact(MPI_Comm comm, interactions::ContactProblem
     : problem_(problem),
       watch_(std::move(watch)),
       state_(state),
-      counts_(problem.root() == rank_of(comm)) {
+      is_root_(problem.root() == rank_of(comm)) {
   for (std::size_t s = 0; s < state.structures.size(); ++s) {
     const std::size_t dofs = problem_.trace(s).dofs().size();
     before_.emplace_back(dofs);
@@ -42,12 +42,14 @@ void UnilateralContact::attach(std::span<interactions::SteppedStructure* const> 
 void UnilateralContact::begin(const interactions::Step& step) {
   interface_known_ = problem_.member() && (step.look_at_gap || watch_.due(step.number));
   touching_ = false;
+  may_touch_ = false;
   if (interface_known_) detect_contact(step);
 }
 
 void UnilateralContact::push(const interactions::Step& step) {
+  if (!takes_part()) return;
+  solve_impulse(step);  // 0 <= lambda _|_ H lambda + L v_free >= 0   on A
   if (!touching_) return;
-  solve_impulse(step);     // 0 <= lambda _|_ H lambda + L v_free >= 0   on A
   correct_velocity(step);  // v+ = v_free + M^-1 L^T lambda,   u_{n+1} = u_n + dt v+
 }
 
@@ -68,22 +70,45 @@ void UnilateralContact::detect_contact(const interactions::Step& step) {
   }
   problem_.gather_displacements();
   touching_ = problem_.detect_contact();
-  for (std::size_t s = 0; touching_ && s < before_.size(); ++s) {
+  const auto [gap, touched] = agree(step.number);
+  for (std::size_t s = 0; takes_part() && s < before_.size(); ++s) {
     problem_.set_velocity_before(s, step.structures[s]->velocity().data(),
                                  step.supports.velocity_before);
     step.structures[s]->remember(problem_.trace(s).dofs(), before_[s]);
   }
   if (!touching_) {
     problem_.clear_impulse();
-    if (!watch_.needs_look(step.number)) return;
-    if (watch_.measures()) measure(step);
+    if (!may_touch_ && !watch_.needs_look(step.number)) return;
+    if (!may_touch_ && watch_.measures()) measure(step);
   }
-  watch_.looked(step.number, problem_.smallest_gap() - problem_.gap_tolerance(), touching_);
+  watch_.looked(step.number, gap - problem_.gap_tolerance(), touched);
+}
+
+std::pair<double, bool> UnilateralContact::agree(std::int64_t step) {
+  std::array<double, 2> found{problem_.smallest_gap(), touching_ ? -1.0 : 0.0};
+  const bool alone = problem_.alike();
+  const bool waits = watch_.can_wait(step);
+  if (waits && !alone) problem_.reduce(MPI_MIN, found);
+  may_touch_ = found[1] < 0 || !(waits || alone);
+  return {found[0], found[1] < 0};
+}
+
+void UnilateralContact::agree_on_last_touch() {
+  if (!problem_.member() || problem_.alike()) return;
+  std::array<double, 1> earliest{-static_cast<double>(watch_.last_touch())};
+  problem_.reduce(MPI_MIN, earliest);
+  watch_.set_last_touch(static_cast<std::int64_t>(-earliest[0]));
+}
+
+void UnilateralContact::energies_known(std::int64_t step, std::span<const StructureEnergy> energies,
+                                       std::span<const double> round_off) {
+  agree_on_last_touch();
+  watch_.energies_known(step, energies, round_off);
 }
 
 void UnilateralContact::measure(const interactions::Step& step) {
   for (const interactions::SteppedStructure* structure : step.structures) structure->bring_state();
-  problem_.add_over_members(watch_.measure(state_.structures));
+  problem_.reduce(MPI_SUM, watch_.measure(state_.structures));
 }
 
 void UnilateralContact::solve_impulse(const interactions::Step& step) {
@@ -93,7 +118,7 @@ void UnilateralContact::solve_impulse(const interactions::Step& step) {
     problem_.set_free_velocity(s, step.structures[s]->velocity().data(), step.supports.velocity);
   }
   problem_.gather_velocities();
-  problem_.solve_impulse();
+  if (touching_) problem_.solve_impulse();
 }
 
 void UnilateralContact::correct_velocity(const interactions::Step& step) {
@@ -113,14 +138,14 @@ void UnilateralContact::finish(const interactions::Step& step) {
   for (std::size_t s = 0; !supports.empty() && s < before_.size(); ++s) {
     step.ledger[s]->contact_support_input = -problem_.support_work(s, supports);
   }
-  if (!counts_) return;
   step.ledger.front()->contact_work = problem_.total_work();
-  step.ledger.front()->friction_loss = problem_.friction().total_loss();
+  step.ledger.front()->friction_loss = problem_.total_friction_loss();
 }
 
 void UnilateralContact::keep(const StateKeeper& state) {
-  if (state.puts() && !counts_) return;
-  watch_.keep(state);
+  if (state.puts() && !problem_.member()) return;
+  if (state.puts()) agree_on_last_touch();
+  if (is_root_ || !state.puts()) watch_.keep(state);
   problem_.keep(state);
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <mpi.h>
@@ -105,6 +106,14 @@ class GapWatch {
   void looked(std::int64_t step, double clearance, bool touching);
 
   bool due(std::int64_t step) const { return step >= next_look_; }
+  /// A look at `step` that finds all open can lead to steps without a look. The same on all ranks
+  /// that agree on the last touch.
+  bool can_wait(std::int64_t step) const {
+    return possible_ && step > 0 && (!needs_energy_ || energy_step_ > last_touch_);
+  }
+  /// The last step in which an impulse acted, as far as this rank knows.
+  std::int64_t last_touch() const { return last_touch_; }
+  void set_last_touch(std::int64_t step) { last_touch_ = step; }
   std::int64_t next_look() const { return next_look_; }
   /// Whether a look that finds nothing closed is worth `measure` and `looked`: one that was made
   /// for another reason, before it was due, leaves the last bound in force where to measure costs
@@ -137,8 +146,12 @@ class GapWatch {
 ///     0 <= lambda _|_ H lambda + L v_free >= 0   on A                          solve_impulse
 ///     v_{n+1/2} = v_free + M^-1 L^T lambda,      u_{n+1} = u_n + dt v_{n+1/2}  correct_velocity
 ///
-/// They are events of -log_view under these names. The interface is gathered where a gap can close
+/// They are events of -log_view under these names. The interface is looked at where a gap can close
 /// (GapWatch) or a look is asked for. The last interaction of a step.
+///
+/// Ranks see their own rows. They agree on the smallest gap of all in looks after which steps
+/// without a look may follow; after an impulse, until the energies are known again, they look in
+/// every step and bring each other velocities whether they touch or not.
 class UnilateralContact final : public interactions::Interaction {
  public:
   /// `problem` and `state`, that of the structures in the step, must outlive this object.
@@ -158,15 +171,25 @@ class UnilateralContact final : public interactions::Interaction {
   void finish(const interactions::Step& step) override;
   void keep(const StateKeeper& state) override;
 
-  GapWatch& watch() { return watch_; }
+  /// See GapWatch. Collective over the members of the interface.
+  void energies_known(std::int64_t step, std::span<const StructureEnergy> energies,
+                      std::span<const double> round_off);
   /// This rank holds the gaps and impulses of the current step.
   bool interface_known() const { return interface_known_; }
-  bool touching() const { return touching_; }
+  bool touching() const { return touching_; }  ///< rows that this rank holds
+  /// Some rank of the interface may be touching; the same on all of them.
+  bool may_touch() const { return may_touch_; }
   /// Steps so far in which the interface was looked at; members of the interface only.
   std::int64_t looks() const { return looks_; }
 
  private:
   void detect_contact(const interactions::Step& step);
+  /// Finds whether some rank may touch. Returns the smallest gap [m] and whether there is an
+  /// impulse: of all ranks where steps without a look may follow, else of this one.
+  std::pair<double, bool> agree(std::int64_t step);
+  void agree_on_last_touch();
+  /// This rank touches, or brings others that may touch its velocities.
+  bool takes_part() const { return touching_ || (may_touch_ && problem_.exchanges()); }
   /// Brings the state to the bound of the gap rates.
   void measure(const interactions::Step& step);
   void solve_impulse(const interactions::Step& step);
@@ -181,13 +204,14 @@ class UnilateralContact final : public interactions::Interaction {
   interactions::ContactProblem& problem_;
   GapWatch watch_;
   const State& state_;
-  bool counts_;  ///< this rank adds the contact work to the ledger
+  bool is_root_;  ///< of the interface
   /// Per structure, the dofs that move its interface: before the step, and their velocity in it.
   std::vector<interactions::Before> before_;
   std::vector<std::vector<double>> velocity_;
   Events events_;
   bool interface_known_ = false;
   bool touching_ = false;
+  bool may_touch_ = false;
   std::int64_t looks_ = 0;
 };
 

@@ -126,7 +126,7 @@ SteppedWindow::Motion SteppedWindow::run(int parts) const {
   const double began = MPI_Wtime();
   motion.velocities =
       run_window(window_, inherited, record_stride(scene_, model_), model_.time_step, step, means,
-                 scheme, [&] { add_impulses(comm_, scheme, motion.impulse); });
+                 scheme, [&] { add_impulses(scheme, motion.impulse); });
   motion.seconds = MPI_Wtime() - began;
   MPI_Bcast(&motion.seconds, 1, MPI_DOUBLE, 0, comm_);
   reduce_over_ranks(comm_, MPI_SUM, motion.impulse);
@@ -147,10 +147,10 @@ void leave_outputs(Scene& scene) {
   scene.export_matrices.clear();
 }
 
-void add_impulses(MPI_Comm comm, ModelScheme& scheme, double& sum) {
-  if (scheme.contact() == nullptr || scheme.contact()->root() != rank_of(comm)) return;
+void add_impulses(ModelScheme& scheme, double& sum) {
   if (!scheme.rows_act()) return;
-  for (const double impulse : scheme.row_actions().impulses) sum += impulse;
+  const std::span<const double> impulses = scheme.row_actions().impulses;
+  for (const int row : scheme.contact()->counted()) sum += impulses[row];
 }
 
 }  // namespace pounding

@@ -51,6 +51,6 @@ class SteppedWindow {
 void leave_outputs(Scene& scene);
 
 /// Adds the impulses of the step just made to `sum`, on the root of its contacts.
-void add_impulses(MPI_Comm comm, ModelScheme& scheme, double& sum);
+void add_impulses(ModelScheme& scheme, double& sum);
 
 }  // namespace pounding

@@ -78,7 +78,7 @@ SeenWindow see_window(MPI_Comm comm, const Scene& scene, const Model& model, Win
   const auto note = [&](ModelScheme& scheme) {
     const std::int64_t step = scheme.stepper().state().step - 1;
     if (step == window.first) scheme.stepper().keep(StateKeeper::to(seen.state));
-    if (step > window.first && step <= window.last) add_impulses(comm, scheme, seen.impulse);
+    if (step > window.first && step <= window.last) add_impulses(scheme, seen.impulse);
   };
   seen.velocities = run_reduced(comm, scene, model, *model.motion, note);
   reduce_over_ranks(comm, MPI_SUM, seen.impulse);

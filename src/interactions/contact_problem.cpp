@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "common/array_reductions.h"
+#include "common/parallel.h"
 #include "interactions/delassus.h"
 
 namespace pounding::interactions {
@@ -16,6 +18,10 @@ constexpr double correction_threshold = 1e-12;
 
 /// Gap rates that are round-off, relative to the largest free one so far.
 constexpr double rate_roundoff = 1e-14;
+
+/// Components that follow each other are counted by the same rank, so that their values share
+/// cache lines.
+constexpr std::size_t counted_at_once = 64;
 
 void add(std::span<const double> values, std::span<double> sum) {
   for (std::size_t i = 0; i < values.size(); ++i) sum[i] += values[i];
@@ -54,8 +60,11 @@ ContactProblem::ContactProblem(MPI_Comm comm, const Interface& interface,
 
 void ContactProblem::build_delassus() {
   diagonal_.clear();
+  may_act_.clear();
   for (int row = 0; row < rows(); ++row) {
     diagonal_.push_back(delassus_entry(interface_.rows(), interface_.compliance(), row, row));
+    // A row without mass on either side has nothing to move, and a spring gives way.
+    may_act_.push_back(diagonal_.back() > 0 && !constraints_[row].filler.is_spring() ? 1 : 0);
   }
   find_components();
 }
@@ -89,36 +98,90 @@ double ContactProblem::row_compliance(int row, std::size_t structure) const {
   return std::max(sum, 0.0);
 }
 
+std::vector<char> ContactProblem::find_held(std::span<const std::vector<int>> components,
+                                            std::span<const std::vector<int>> row_dofs) {
+  held_.clear();
+  counted_.clear();
+  if (!member()) return std::vector<char>(components.size(), 0);
+  const int me = rank_of(comm());
+  std::vector<int> first(components.size(), 0);  // and minus the last member that holds each
+  std::vector<int> last(components.size(), 0);
+  std::set<int> wanted;
+  alike_ = true;
+  for (std::size_t c = 0; !sliding_.any() && c < components.size(); ++c) {
+    bool holds = row_dofs[components[c].front()].empty() && me == 0;  // nothing of it moves
+    for (const int row : components[c]) {
+      holds = holds ||
+              std::ranges::any_of(row_dofs[row], [this](int dof) { return interface_.knows(dof); });
+    }
+    first[c] = holds ? me : members();
+    last[c] = holds ? -me : members();
+    alike_ = alike_ && holds;
+    for (const int row : components[c]) {
+      if (holds) wanted.insert(row_dofs[row].begin(), row_dofs[row].end());
+    }
+  }
+  std::vector<char> held(components.size(), 1);
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    held[c] = first[c] < members() ? 1 : 0;
+    if (held[c] != 0) held_.insert(held_.end(), components[c].begin(), components[c].end());
+  }
+  std::ranges::sort(held_);
+  if (!sliding_.any()) {
+    int alike = alike_ ? 1 : 0;
+    reduce_over_ranks(comm(), MPI_MIN, first, last, alike);
+    alike_ = alike != 0;
+    interface_.want(std::vector<int>(wanted.begin(), wanted.end()));
+  }
+  for (std::size_t c = 0; c < components.size(); ++c) {  // in turns: both sides have their share
+    if (me != (c / counted_at_once % 2 == 0 ? first[c] : -last[c])) continue;
+    counted_.insert(counted_.end(), components[c].begin(), components[c].end());
+  }
+  std::ranges::sort(counted_);
+  return held;
+}
+
 void ContactProblem::find_components() {
   components_.clear();
+  lone_.clear();
   friction_.forget_components();
   coupled_rows_ = 0;
-  std::vector<std::vector<int>> row_groups;
+  std::vector<std::vector<int>> row_dofs, row_groups;
   for (int row = 0; row < rows(); ++row) {
-    std::vector<int>& groups = row_groups.emplace_back();
-    const auto add_groups = [&](int operator_row) {
-      for (const int dof : interface_.rows().row_dofs(operator_row)) {
-        groups.push_back(interface_.compliance().group_of(static_cast<std::size_t>(dof)));
-      }
+    std::vector<int>& dofs = row_dofs.emplace_back();
+    const auto add_dofs = [&](int operator_row) {
+      const auto more = interface_.rows().row_dofs(operator_row);
+      dofs.insert(dofs.end(), more.begin(), more.end());
     };
-    add_groups(row);
-    if (!friction_.has_friction(row)) continue;
-    add_groups(friction_.tangent(row));
-    add_groups(friction_.tangent(row) + 1);
+    add_dofs(row);
+    if (friction_.has_friction(row)) {
+      add_dofs(friction_.tangent(row));
+      add_dofs(friction_.tangent(row) + 1);
+    }
+    std::vector<int>& groups = row_groups.emplace_back(dofs);
+    for (int& dof : groups) dof = interface_.compliance().group_of(static_cast<std::size_t>(dof));
   }
   DelassusPattern pattern(interface_.rows(), interface_.compliance());
   std::vector<int> place(interface_.rows().rows(), -1);
   std::size_t largest = 1;
   std::size_t most_entries = 0;
-  for (std::vector<int>& rows : coupled_components(row_groups, interface_.rows().dofs())) {
-    Component& component = components_.emplace_back(Component{std::move(rows), {}, -1});
-    const std::size_t size = component.rows.size();
+  std::vector<std::vector<int>> all = coupled_components(row_groups, interface_.rows().dofs());
+  const std::vector<char> held = find_held(all, row_dofs);
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    const std::size_t size = all[c].size();
     if (size > 1) coupled_rows_ += static_cast<int>(size);
-    if (std::ranges::any_of(component.rows, [&](int row) { return friction_.has_friction(row); })) {
+    if (held[c] == 0) continue;
+    const bool slides =
+        std::ranges::any_of(all[c], [&](int row) { return friction_.has_friction(row); });
+    if (size == 1 && !slides) {
+      lone_.push_back(all[c].front());
+      continue;
+    }
+    Component& component = components_.emplace_back(Component{std::move(all[c]), {}, -1});
+    if (slides) {
       component.frictional = static_cast<int>(friction_.add(component.rows, pattern));
       continue;
     }
-    if (size == 1) continue;
     for (std::size_t i = 0; i < size; ++i) place[component.rows[i]] = static_cast<int>(i);
     for (const int row : component.rows) {
       for (const int column : pattern.coupled_with({&row, 1})) {
@@ -134,9 +197,7 @@ void ContactProblem::find_components() {
   active_indices_.reserve(largest);
   active_number_.reserve(largest);
   matrix_.reserve(largest, most_entries);
-  rate_.resize(largest);
-  solution_.resize(largest);
-  increment_.resize(largest);
+  for (auto* const room : {&rate_, &solution_, &increment_}) room->resize(largest);
   if (largest > 1) lcp_ = std::make_unique<CoupledLcp>(largest, most_entries);
 }
 
@@ -145,7 +206,7 @@ void ContactProblem::gather_displacements() {
   if (carried_ != nullptr) add(carried_->displacement, displacement_);
   if (sliding_.any() && sliding_.find(displacement_, constraints_)) take_new_pairs();
   smallest_gap_ = std::numeric_limits<double>::max();
-  for (int row = 0; row < rows(); ++row) {
+  for (const int row : held_) {
     const std::size_t r = row;
     gap_[r] = initial_gap_[r] + interface_.rows().apply(row, displacement_);
     smallest_gap_ = std::min(smallest_gap_, gap_[r]);
@@ -155,11 +216,9 @@ void ContactProblem::gather_displacements() {
 
 bool ContactProblem::detect_contact() {
   bool any = false;
-  for (std::size_t r = 0; r < gap_.size(); ++r) {
-    // A row without mass on either side has nothing to move, and a spring gives way.
-    const bool may_act = diagonal_[r] > 0 && !constraints_[r].filler.is_spring();
-    active_[r] = gap_[r] <= gap_tolerance_ && may_act ? 1 : 0;
-    any = any || active_[r] != 0;
+  for (const int row : held_) {
+    active_[row] = gap_[row] <= gap_tolerance_ ? may_act_[row] : 0;
+    any = any || active_[row] != 0;
   }
   return any;
 }
@@ -178,6 +237,20 @@ void ContactProblem::solve_with_friction(const Component& component) {
       static_cast<std::size_t>(component.frictional), active_, {velocities_.data(), dofs},
       {velocities_.data() + dofs, dofs}, impulse_, work_, dof_impulse_);
   note_residual(solution.residual, solution.free_rate);
+}
+
+void ContactProblem::solve_lone_rows() {
+  const std::size_t dofs = displacement_.size();
+  const std::span<const double> before(velocities_.data(), dofs);
+  const std::span<const double> free(velocities_.data() + dofs, dofs);
+  for (const int row : lone_) {
+    if (active_[row] == 0) continue;
+    const double closing = -interface_.rows().apply(row, free);
+    if (!(closing > 0)) continue;
+    impulse_[row] = closing / diagonal_[row];
+    work_[row] = 0.5 * impulse_[row] * interface_.rows().apply(row, before);
+    interface_.rows().add_transposed(row, impulse_[row], dof_impulse_);
+  }
 }
 
 void ContactProblem::solve_component(const Component& component) {
@@ -246,6 +319,7 @@ void ContactProblem::correct_component(const Component& component) {
     }
   }
   lcp_->correct({rate_.data(), n}, {solution_.data(), n}, {increment_.data(), n});
+  incremented_ = true;
   for (std::size_t i = 0; i < n; ++i) {
     interface_.rows().add_transposed(component.rows[active_indices_[i]], increment_[i],
                                      dof_increment_);
@@ -253,7 +327,7 @@ void ContactProblem::correct_component(const Component& component) {
 }
 
 void ContactProblem::clear_impulse() {
-  previous_ = impulse_;
+  if (!components_.empty()) previous_ = impulse_;
   std::fill(impulse_.begin(), impulse_.end(), 0.0);
   std::fill(work_.begin(), work_.end(), 0.0);
   friction_.clear();
@@ -262,7 +336,9 @@ void ContactProblem::clear_impulse() {
 void ContactProblem::solve_impulse() {
   clear_impulse();
   std::fill(dof_impulse_.begin(), dof_impulse_.end(), 0.0);
-  std::fill(dof_increment_.begin(), dof_increment_.end(), 0.0);
+  if (incremented_) std::fill(dof_increment_.begin(), dof_increment_.end(), 0.0);
+  incremented_ = false;
+  solve_lone_rows();
   for (const Component& component : components_) solve_component(component);
   const std::span<const double> velocity_before(velocities_.data(), displacement_.size());
   for (const Component& component : components_) {
@@ -276,9 +352,8 @@ void ContactProblem::solve_impulse() {
 }
 
 void ContactProblem::add_velocity_change(std::size_t structure, double* velocity) {
-  for (const std::vector<double>* impulse : {&dof_impulse_, &dof_increment_}) {
-    interface_.add_velocity_change(structure, *impulse, velocity);
-  }
+  interface_.add_velocity_change(structure, dof_impulse_, velocity);
+  if (incremented_) interface_.add_velocity_change(structure, dof_increment_, velocity);
 }
 
 void ContactProblem::add_dof_impulses(std::span<double> sum) const {
@@ -295,7 +370,19 @@ double ContactProblem::support_work(std::size_t structure, std::span<const doubl
   return work;
 }
 
+double ContactProblem::sum_of_counted(std::span<const double> values) const {
+  double sum = 0;
+  for (const int row : counted_) sum += values[row];
+  return sum;
+}
+
 void ContactProblem::keep(const StateKeeper& state) {
+  if (state.puts() && members() > 1) {
+    share_rows(comm(), counted_, 1, impulse_);
+    share_rows(comm(), counted_, 3, friction_.kept());
+    reduce_over_ranks(comm(), MPI_MAX, largest_residual_, largest_rate_);
+    if (rank_of(comm()) != 0) return;
+  }
   state.table("contact_impulse", impulse_);
   state.numbers("contact_largest_residual", largest_residual_, largest_rate_);
   friction_.keep(state);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <numeric>
 #include <span>
 #include <vector>
 
@@ -16,8 +15,7 @@
 
 namespace pounding::interactions {
 
-/// The unilateral contact problem of one step, gathered at the ranks that know the interface and
-/// solved there by each of them alike:
+/// The unilateral contact problem of one step, solved where the nodes of its rows are:
 ///
 ///     A = { i : g_i(u_n) <= g_tol },     0 <= lambda _|_ H lambda + L v_free >= 0   on A
 ///
@@ -27,6 +25,10 @@ namespace pounding::interactions {
 /// coupled rows by CoupledLcp, component by component; components with friction have tangential
 /// impulses beside the normal ones (see FrictionalContact). Nothing allocates after construction,
 /// but where sliding pairs are found anew: then L and H are built again.
+///
+/// A component, a lone row above all, is held by every rank that knows one of its dofs. These solve
+/// it alike, to the bit, from values that they bring each other, so that no answer is sent. One of
+/// them counts it: there its results are added up. Sliding pairs are held by all members.
 class ContactProblem {
  public:
   /// Collective over `comm`. `gap_tolerance` [m].
@@ -39,6 +41,13 @@ class ContactProblem {
   bool member() const { return interface_.member(); }
   int root() const { return interface_.root(); }
   int members() const { return interface_.members(); }
+  MPI_Comm comm() const { return interface_.comm(); }  ///< of the members; null elsewhere
+  /// Rows of this rank, ascending, whose results are added up here: each is counted by one member.
+  std::span<const int> counted() const { return counted_; }
+  /// Every member holds all rows. The same on all of them.
+  bool alike() const { return alike_; }
+  /// Values travel between this rank and others.
+  bool exchanges() const { return interface_.exchanges(); }
   /// Constraints, friction apart.
   int rows() const { return static_cast<int>(initial_gap_.size()); }
   int coupled_rows() const { return coupled_rows_; }
@@ -67,7 +76,7 @@ class ContactProblem {
   /// Gathers the displacements, finds sliding pairs anew and computes the gaps. Members only,
   /// collective over them.
   void gather_displacements();
-  /// Active set; true if it is not empty.
+  /// Active set among the rows that this rank holds; true if it is not empty.
   bool detect_contact();
   /// v_{n-1/2} and v_free over the owned dofs of the structure, after the displacements of both
   /// have been gathered; `supports`: those of the supports likewise.
@@ -91,19 +100,23 @@ class ContactProblem {
   /// [J]: that of the points that this rank knows.
   double support_work(std::size_t structure, std::span<const double> velocity);
 
-  /// Gaps of the faces in the last gather, per row; below zero where they are crushed. Members
-  /// only.
+  /// Results per row, of those that this rank holds. Gaps of the faces in the last gather, below
+  /// zero where they are crushed. Members only.
   const std::vector<double>& gaps() const { return crushes_ ? face_gap_ : gap_; }  ///< [m]
   const std::vector<double>& impulses() const { return impulse_; }                 ///< [N s]
   const std::vector<double>& works() const { return work_; }  ///< 1/2 lambda L v- [J]
   double smallest_gap() const { return smallest_gap_; }
-  /// Contact work 1/2 lambda^T L v- of the last solve, that of friction apart [J].
-  double total_work() const { return std::accumulate(work_.begin(), work_.end(), 0.0); }
+  /// Contact work 1/2 lambda^T L v- of the last solve, that of friction apart, and the loss of
+  /// friction [J]: of the rows that this rank counts.
+  double total_work() const { return sum_of_counted(work_); }
+  double total_friction_loss() const {
+    return friction_.has_any() ? sum_of_counted(friction_.losses()) : 0;
+  }
   const FrictionalContact& friction() const { return friction_; }
   /// Points that contacts move, the same on every rank.
   const std::vector<InterfaceDof>& dof_list() const { return interface_.rows().dof_list(); }
   /// Adds the impulses L^T lambda of the last solve, friction's included, to `sum` [N s], per point
-  /// of dof_list(). Members only.
+  /// of dof_list() that this rank knows. Members only.
   void add_dof_impulses(std::span<double> sum) const;
   double largest_residual() const { return largest_residual_; }
   double gap_tolerance() const { return gap_tolerance_; }
@@ -111,10 +124,11 @@ class ContactProblem {
   std::vector<double> row_force(int row, std::size_t structure, LocalIndex owned_dofs) const;
   /// L M^-1 L^T of a row with only one structure's columns [1/kg]; the same on all ranks.
   double row_compliance(int row, std::size_t structure) const;
-  /// Adds the values of all members up. Members only, collective over them.
-  void add_over_members(std::span<double> values) { interface_.add_over_members(values); }
+  /// See InterfaceGather. Members only, collective over them.
+  void reduce(MPI_Op operation, std::span<double> values) { interface_.reduce(operation, values); }
 
   /// The impulses of the last solve, from which the LCP starts, and the largest residual.
+  /// Collective over the members where it puts them away.
   void keep(const StateKeeper& state);
 
  private:
@@ -129,6 +143,11 @@ class ContactProblem {
   void build_delassus();
   void take_new_pairs();
   void find_components();
+  /// Which components this rank holds, and the rows that it counts.
+  std::vector<char> find_held(std::span<const std::vector<int>> components,
+                              std::span<const std::vector<int>> row_dofs);
+  double sum_of_counted(std::span<const double> values) const;
+  void solve_lone_rows();
   void solve_component(const Component& component);
   void solve_with_friction(const Component& component);
   void solve_coupled(const Component& component);
@@ -145,7 +164,12 @@ class ContactProblem {
   double gap_tolerance_;
   std::vector<double> initial_gap_;
   std::vector<double> diagonal_;  ///< H_ii
-  std::vector<Component> components_;
+  std::vector<char> may_act_;     ///< per row
+  std::vector<int> held_;         ///< rows, ascending
+  std::vector<int> counted_;
+  bool alike_ = true;
+  std::vector<int> lone_;              ///< held rows without friction that no other row feels
+  std::vector<Component> components_;  ///< the other ones that are held
   int coupled_rows_ = 0;
   const Carried* carried_ = nullptr;  ///< null: nothing beside the structures
   std::vector<double> displacement_;  ///< per interface dof
@@ -159,6 +183,7 @@ class ContactProblem {
   std::vector<char> active_;
   std::vector<double> dof_impulse_;    ///< L^T lambda
   std::vector<double> dof_increment_;  ///< L^T of the correction
+  bool incremented_ = false;           ///< there is one
   double smallest_gap_ = 0;
   double largest_residual_ = 0;
   double largest_rate_ = 0;  ///< of the free gap rates so far [m/s]

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "common/array_reductions.h"
@@ -156,10 +155,6 @@ FrictionalContact::Solution FrictionalContact::solve(
     loss_[row] = -twice / 2;
   }
   return {result.residual, largest_magnitude({rate_.data(), n})};
-}
-
-double FrictionalContact::total_loss() const {
-  return std::accumulate(loss_.begin(), loss_.end(), 0.0);
 }
 
 void FrictionalContact::keep(const StateKeeper& state) {

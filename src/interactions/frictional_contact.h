@@ -55,10 +55,11 @@ class FrictionalContact {
   const std::vector<Vector3>& tangential_impulses() const { return across_; }  ///< [N s]
   const std::vector<double>& slip_rates() const { return slip_; }  ///< |v_t+| in contact [m/s]
   const std::vector<double>& losses() const { return loss_; }      ///< -1/2 lambda_t (v_t- + v_t+)
-  double total_loss() const;                                       ///< [J]
 
   /// The tangential impulses of the last solve, from which the next one starts.
   void keep(const StateKeeper& state);
+  /// The numbers that are kept, three per row.
+  std::span<double> kept() { return {impulse_.data()->data(), 3 * impulse_.size()}; }
 
  private:
   struct Point {

@@ -1,14 +1,15 @@
 #include "interactions/interface_rows.h"
 
 #include <algorithm>
+#include <set>
 
 #include "common/parallel.h"
 
 namespace pounding::interactions {
 namespace {
 
-/// Values that are added up through common memory; more travel in a message.
-constexpr std::size_t most_added = 64;
+/// Values that are reduced through common memory; more travel in a message.
+constexpr std::size_t most_reduced = 64;
 
 }  // namespace
 
@@ -19,81 +20,113 @@ InterfaceGather::InterfaceGather(MPI_Comm comm, std::span<const int> mine, bool 
   MPI_Allreduce(&counts, &members_, 1, MPI_INT, MPI_SUM, comm);
   MPI_Comm_split(comm, mine.empty() ? MPI_UNDEFINED : 0, rank_of(comm), &comm_);
   if (!member()) return;
-  const std::size_t members = members_;
-  counts_.resize(members);
-  lengths_.resize(members);
-  offsets_.resize(members);
-  const int count = static_cast<int>(mine.size());
-  MPI_Allgather(&count, 1, MPI_INT, counts_.data(), 1, MPI_INT, comm_);
-  int total = 0;
-  for (std::size_t m = 0; m < members; ++m) {
-    offsets_[m] = total;
-    total += counts_[m];
+  const std::vector<int> own(mine.begin(), mine.end());
+  const std::vector<int> sizes = gather_rows(comm_, std::vector<int>{static_cast<int>(own.size())});
+  const std::vector<int> all = gather_rows(comm_, own);
+  auto next = all.begin();
+  for (const int size : sizes) {
+    known_.emplace_back(next, next + size);
+    next += size;
   }
-  order_.resize(total);
-  MPI_Allgatherv(mine.data(), count, MPI_INT, order_.data(), counts_.data(), offsets_.data(),
-                 MPI_INT, comm_);
   if (common_memory && members_ > 1) {
-    shared_ = std::make_unique<SharedExchange>(
-        comm_, std::max(mine.size() * static_cast<std::size_t>(max_fields), most_added));
-    if (!shared_->works()) shared_.reset();
+    shared_ = std::make_unique<SharedExchange>(comm_, own.size() * max_fields);
+    sums_ = std::make_unique<SharedExchange>(comm_, most_reduced);
+    if (!shared_->works() || !sums_->works()) {
+      shared_.reset();
+      sums_.reset();
+    }
   }
-  buffer_.resize(shared_ ? 0 : static_cast<std::size_t>(total * max_fields));
+  want(all);
 }
 
 InterfaceGather::~InterfaceGather() {
   if (member()) MPI_Comm_free(&comm_);
 }
 
-/// Puts values of the gathered dofs from `first` on in their places.
-void InterfaceGather::spread(int fields, std::size_t first, std::size_t end, const double* values,
-                             std::span<double> all) const {
-  const std::size_t dofs = order_.size();
-  for (std::size_t i = first; i < end; ++i) {
-    for (std::size_t f = 0; f < static_cast<std::size_t>(fields); ++f) {
-      all[f * dofs + static_cast<std::size_t>(order_[i])] = *values++;
+void InterfaceGather::want(std::span<const int> dofs) {
+  const std::set<int> wanted(dofs.begin(), dofs.end());
+  std::vector<Partner> others;
+  for (int m = 0; m < members_; ++m) {
+    Partner& other = others.emplace_back(Partner{m, {}, {}, {}, {}, {}});
+    for (std::size_t k = 0; m != rank_of(comm_) && k < known_[m].size(); ++k) {
+      if (!wanted.contains(known_[m][k])) continue;
+      other.dofs.push_back(known_[m][k]);
+      other.places.push_back(static_cast<int>(k));
     }
   }
+  partners_.clear();
+  for (int turn = 0; turn < members_; ++turn) {  // every pair once, each with itself too
+    const int with = (turn - rank_of(comm_) + members_) % members_;
+    Partner& other = others[with];
+    int give = static_cast<int>(other.places.size()), take = 0;
+    MPI_Sendrecv(&give, 1, MPI_INT, with, 0, &take, 1, MPI_INT, with, 0, comm_, MPI_STATUS_IGNORE);
+    other.wants.resize(take);
+    MPI_Sendrecv(other.places.data(), give, MPI_INT, with, 0, other.wants.data(), take, MPI_INT,
+                 with, 0, comm_, MPI_STATUS_IGNORE);
+    if (give + take == 0) continue;
+    other.taken.resize(shared_ ? 0 : max_fields * other.places.size());
+    other.sent.resize(shared_ ? 0 : max_fields * other.wants.size());
+    partners_.push_back(std::move(other));
+  }
+  requests_.resize(2 * partners_.size());
+}
+
+void InterfaceGather::exchange_messages(int fields, std::span<const double> mine) {
+  const auto width = static_cast<std::size_t>(fields);
+  for (std::size_t p = 0; p < partners_.size(); ++p) {
+    Partner& other = partners_[p];
+    MPI_Irecv(other.taken.data(), fields * static_cast<int>(other.places.size()), MPI_DOUBLE,
+              other.rank, 0, comm_, &requests_[2 * p]);
+    double* next = other.sent.data();
+    for (const int place : other.wants) next = std::copy_n(&mine[width * place], width, next);
+    MPI_Isend(other.sent.data(), fields * static_cast<int>(other.wants.size()), MPI_DOUBLE,
+              other.rank, 0, comm_, &requests_[2 * p + 1]);
+  }
+  MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
 }
 
 void InterfaceGather::gather(int fields, std::span<const double> mine, std::span<double> all) {
-  if (members_ == 1) {
-    spread(fields, 0, order_.size(), mine.data(), all);
-    return;
-  }
+  const auto width = static_cast<std::size_t>(fields);
+  const std::size_t dofs = all.size() / width;
   if (shared_) {
     shared_->publish(mine);
-    std::size_t first = 0;
-    for (int m = 0; m < members_; ++m) {
-      const std::size_t end = first + static_cast<std::size_t>(counts_[m]);
-      spread(fields, first, end, shared_->wait_for(m), all);
-      first = end;
+  } else {
+    exchange_messages(fields, mine);
+  }
+  const std::vector<int>& own = known_[rank_of(comm_)];
+  for (std::size_t f = 0; f < width; ++f) {
+    for (std::size_t k = 0; k < own.size(); ++k) all[f * dofs + own[k]] = mine[width * k + f];
+  }
+  for (const Partner& other : partners_) {
+    const double* const theirs = shared_ ? shared_->wait_for(other.rank) : other.taken.data();
+    for (std::size_t k = 0; k < other.dofs.size(); ++k) {
+      const double* const values = theirs + width * (shared_ ? other.places[k] : k);
+      for (std::size_t f = 0; f < width; ++f) all[f * dofs + other.dofs[k]] = values[f];
     }
-    return;
   }
-  int total = 0;
-  for (std::size_t m = 0; m < counts_.size(); ++m) {
-    lengths_[m] = counts_[m] * fields;
-    offsets_[m] = total;
-    total += lengths_[m];
-  }
-  MPI_Allgatherv(mine.data(), static_cast<int>(mine.size()), MPI_DOUBLE, buffer_.data(),
-                 lengths_.data(), offsets_.data(), MPI_DOUBLE, comm_);
-  spread(fields, 0, order_.size(), buffer_.data(), all);
 }
 
-void InterfaceGather::add(std::span<double> values) {
+void InterfaceGather::reduce(MPI_Op operation, std::span<double> values) {
   if (members_ == 1) return;
-  if (shared_ && values.size() <= most_added) {
-    shared_->publish(values);
-    std::fill(values.begin(), values.end(), 0.0);
-    for (int m = 0; m < members_; ++m) {
-      const double* const theirs = shared_->wait_for(m);
-      for (std::size_t i = 0; i < values.size(); ++i) values[i] += theirs[i];
+  if (!sums_ || values.size() > most_reduced) return reduce_over_ranks(comm_, operation, values);
+  sums_->publish(values);
+  for (int m = 0; m < members_; ++m) {
+    const double* const theirs = sums_->wait_for(m);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double together =
+          operation == MPI_SUM ? values[i] + theirs[i] : std::min(values[i], theirs[i]);
+      values[i] = m == 0 ? theirs[i] : together;
     }
-    return;
   }
-  reduce_over_ranks(comm_, MPI_SUM, values);
+}
+
+void share_rows(MPI_Comm comm, std::span<const int> counted, std::size_t width,
+                std::span<double> values) {
+  if (comm == MPI_COMM_NULL || size_of(comm) == 1) return;
+  std::vector<double> own(values.size(), 0.0);
+  for (const int row : counted) std::copy_n(&values[width * row], width, &own[width * row]);
+  reduce_over_ranks(comm, MPI_SUM, own);
+  std::ranges::copy(own, values.begin());
 }
 
 std::vector<std::vector<int>> dofs_by_structure(const ContactOperator& contact,

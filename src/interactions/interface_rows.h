@@ -14,10 +14,11 @@
 
 namespace pounding::interactions {
 
-/// Brings the values of all interface dofs to every rank that knows one. Those ranks form a
-/// communicator of their own; the others never take part. Since values travel, not partial sums,
-/// results from them do not depend on the partition. On one node they travel through common memory,
-/// else in messages.
+/// Brings values of interface dofs to the ranks that want them: at first all of them to every rank
+/// that knows one. Those ranks form a communicator of their own; the others never take part. Since
+/// values travel, not partial sums, results from them do not depend on the partition. On one node
+/// they travel through common memory, else in messages, between ranks that want something of each
+/// other alone.
 class InterfaceGather {
  public:
   /// `mine`: interface dofs whose values this rank knows, in the order of its values; each is known
@@ -32,30 +33,51 @@ class InterfaceGather {
   /// The lowest member, in ranks of the communicator given.
   int root() const { return root_; }
   int members() const { return members_; }
+  MPI_Comm comm() const { return comm_; }  ///< of the members; null elsewhere
+
+  /// Takes the values of these dofs alone from now on, and of those that this rank knows.
+  /// Collective over the members.
+  void want(std::span<const int> dofs);
+  /// Values go to other members, or come from them.
+  bool exchanges() const { return !partners_.empty(); }
 
   /// Gathers `fields` values per known dof. `mine`: shape (known, fields); `all`: shape
-  /// (fields, interface dofs). Collective over the members. Allocates nothing.
+  /// (fields, interface dofs), of which those that are not wanted are left alone. Collective over
+  /// the members. Allocates nothing.
   void gather(int fields, std::span<const double> mine, std::span<double> all);
 
-  /// Sums over the members, in place. Collective over them.
-  void add(std::span<double> values);
+  /// Reduces over the members by MPI_SUM or MPI_MIN, in place. Collective over them.
+  void reduce(MPI_Op operation, std::span<double> values);
 
   static constexpr int max_fields = 2;
 
  private:
-  void spread(int fields, std::size_t first, std::size_t end, const double* values,
-              std::span<double> all) const;
+  /// A member that wants values of this one, or has some that this one wants.
+  struct Partner {
+    int rank = 0;
+    std::vector<int> dofs;      ///< that are taken from it
+    std::vector<int> places;    ///< of these among its known dofs
+    std::vector<int> wants;     ///< places among the known dofs here
+    std::vector<double> taken;  ///< messages: values of both
+    std::vector<double> sent;
+  };
+
+  void exchange_messages(int fields, std::span<const double> mine);
 
   std::unique_ptr<SharedExchange> shared_;  ///< null: messages
+  std::unique_ptr<SharedExchange> sums_;    ///< for `reduce`, where all wait for all
   MPI_Comm comm_ = MPI_COMM_NULL;
   int root_ = 0;
   int members_ = 0;
-  std::vector<int> counts_;   ///< dofs per member
-  std::vector<int> order_;    ///< interface dof of each gathered one
-  std::vector<int> lengths_;  ///< values per member in the current gather
-  std::vector<int> offsets_;
-  std::vector<double> buffer_;
+  std::vector<std::vector<int>> known_;  ///< per member, its interface dofs
+  std::vector<Partner> partners_;
+  std::vector<MPI_Request> requests_;
 };
+
+/// Brings `width` values per row to every rank of `comm` from the one that counts the row;
+/// `counted`: rows of this rank. Collective.
+void share_rows(MPI_Comm comm, std::span<const int> counted, std::size_t width,
+                std::span<double> values);
 
 /// The dofs of an operator that belong to each of some structures, in its order.
 std::vector<std::vector<int>> dofs_by_structure(const ContactOperator& contact,
@@ -88,6 +110,11 @@ class InterfaceRows {
   bool member() const { return gather_.member(); }  ///< this rank knows a dof of some row
   int root() const { return gather_.root(); }       ///< the lowest member
   int members() const { return gather_.members(); }
+  MPI_Comm comm() const { return gather_.comm(); }
+  bool exchanges() const { return gather_.exchanges(); }
+  /// This rank knows the dof.
+  bool knows(int dof) const { return known_point_[dof] >= 0; }
+  void want(std::span<const int> dofs) { gather_.want(dofs); }  ///< see InterfaceGather
   std::size_t structure_of(std::size_t dof) const {
     return static_cast<std::size_t>(operator_.dof_list()[dof].structure);
   }
@@ -102,12 +129,13 @@ class InterfaceRows {
   /// carry along.
   void set_points(std::size_t structure, std::span<const double> points,
                   std::span<const double> supports);
-  /// Gathers the fields that were set: shape (fields, dofs). Members only, collective over them.
+  /// Gathers the fields that were set: shape (fields, dofs), as far as dofs are wanted. Members
+  /// only, collective over them.
   void gather(std::size_t fields, std::span<double> values);
   /// owned += f (row of L T)^T over the dofs of a structure that this rank owns. Local.
   void add_force(int row, double f, std::size_t structure, std::span<double> owned) const;
-  /// Adds the values of all members up. Members only, collective over them.
-  void add_over_members(std::span<double> values) { gather_.add(values); }
+  /// See InterfaceGather. Members only, collective over them.
+  void reduce(MPI_Op operation, std::span<double> values) { gather_.reduce(operation, values); }
 
   /// v += M^-1 T^T f over the dofs of the structure's trace, f [N s] over the dofs of the rows.
   void add_velocity_change(std::size_t structure, std::span<const double> impulses,

@@ -15,7 +15,7 @@ inline constexpr int modes = 1;        ///< modes.h5
 inline constexpr int model = 1;        ///< model.h5
 inline constexpr int ensemble = 1;     ///< ensemble.h5
 inline constexpr int basis = 4;        ///< of a reduced structure
-inline constexpr int checkpoint = 14;  ///< checkpoint.h5
+inline constexpr int checkpoint = 15;  ///< checkpoint.h5
 
 /// Attributes of the file: `schema` and the `program` that wrote it.
 void write(Hdf5File& file, int number);

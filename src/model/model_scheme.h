@@ -69,26 +69,32 @@ class ModelScheme {
   std::span<interactions::InelasticElements* const> inelastic(std::size_t structure) const {
     return inelastic_[structure];
   }
-  /// Impulses act in the step just made.
+  /// Impulses act in the step just made, on rows that this rank holds.
   bool touching() const { return unilateral_ != nullptr && unilateral_->touching(); }
-  /// Some row of the interface acts in it, hard contact, faces that are crushed or a stop that
-  /// gives way; on the root of the contacts.
-  bool rows_act() const { return touching() || (gives_way_ && fillers_->strikes()); }
+  /// Some row may act in it on some rank of the contacts; the same on all of them, false elsewhere.
+  bool rows_may_act() const {
+    return gives_way_ ? interface_known() : unilateral_ != nullptr && unilateral_->may_touch();
+  }
+  /// Some row that this rank counts may act in it, hard contact, faces that are crushed or a stop
+  /// that gives way; false where no contact is known.
+  bool rows_act() const {
+    return touching() || (gives_way_ && contact_->member() && fillers_->strikes());
+  }
   /// Impulses and works per row of the interface in the step just made.
   struct RowActions {
     std::span<const double> impulses;  ///< [N s]
     std::span<const double> works;     ///< [J]
   };
-  /// Rows of hard contact, of crushing and of stops that give way; on the root of the contacts.
+  /// Rows of hard contact, of crushing and of stops that give way, of those that this rank counts.
   RowActions row_actions();
-  /// This rank holds the gaps and impulses of that step.
+  /// This rank holds the gaps and impulses of its rows in that step.
   bool interface_known() const { return unilateral_ != nullptr && unilateral_->interface_known(); }
   /// See UnilateralContact; 0 without contacts.
   std::int64_t looks() const { return unilateral_ != nullptr ? unilateral_->looks() : 0; }
   /// See GapWatch::energies_known.
   void note_energies(std::int64_t step, std::span<const StructureEnergy> energies,
                      std::span<const double> round_off) {
-    if (unilateral_ != nullptr) unilateral_->watch().energies_known(step, energies, round_off);
+    if (unilateral_ != nullptr) unilateral_->energies_known(step, energies, round_off);
   }
   CdLagrange& stepper() { return *stepper_; }
   const CdLagrange& stepper() const { return *stepper_; }

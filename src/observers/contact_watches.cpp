@@ -14,18 +14,36 @@ const ResultFile impact_table{"impacts.csv", "the impacts of the contacts", impa
 const ResultFile point_table{"contact_points.csv", "the impulse of each pair of the contacts",
                              "contact,x,y,z,impulse"};
 
-/// The catalogue of a scene's contacts, still empty.
-ImpactCatalogue make_catalogue(const Scene& scene, const Model& model) {
+/// Per row of the interface.
+std::vector<int> contacts_of_rows(const Model& model) {
   std::vector<int> contacts;
+  for (const auto& constraint : model.interface.constraints) contacts.push_back(constraint.contact);
+  return contacts;
+}
+
+/// Rows of a rank times steps that the catalogue counts at a time, so that they stay in the caches.
+constexpr std::size_t counted_at_a_time = 16000;
+
+/// The catalogue of a scene's contacts, still empty.
+ImpactCatalogue make_catalogue(const ObservedRun& run) {
   std::vector<std::array<double, 2>> places;
-  for (const interactions::Constraint& constraint : model.interface.constraints) {
-    contacts.push_back(constraint.contact);
+  for (const interactions::Constraint& constraint : run.model.interface.constraints) {
     places.push_back(constraint.place);
   }
-  return {static_cast<int>(scene.contacts.size()),
-          std::move(contacts),
+  std::optional<CountedRows> counted;
+  if (const interactions::ContactProblem* const contact = run.scheme.contact()) {
+    const std::size_t members = contact->members();
+    const std::size_t steps = counted_at_a_time * members / places.size();
+    counted = {contact->comm(),
+               {contact->counted().begin(), contact->counted().end()},
+               members == 1 ? 1 : std::clamp(steps, std::size_t{4}, std::size_t{64}),
+               contact->friction().has_any()};
+  }
+  return {static_cast<int>(run.scene.contacts.size()),
+          contacts_of_rows(run.model),
           std::move(places),
-          {scene.impact_merge_time, scene.force_window, model.time_step}};
+          {run.scene.impact_merge_time, run.scene.force_window, run.model.time_step},
+          std::move(counted)};
 }
 
 /// Contact ratio of a mat on compression-only springs: the stiffness of those that are pressed over
@@ -65,15 +83,13 @@ constexpr auto least_gap_members = [](auto& pair, const auto& take) {
 class ImpactWatch final : public Observer {
  public:
   explicit ImpactWatch(const ObservedRun& run)
-      : run_(run),
-        root_(std::max(run.contact_root(), 0)),
-        catalogue_(make_catalogue(run.scene, run.model)) {}
-  /// Complete on the root of the contacts, after `finish` on every rank.
+      : run_(run), root_(std::max(run.contact_root(), 0)), catalogue_(make_catalogue(run)) {}
+  /// Complete after `finish`; before, some steps of several ranks may be missing.
   const ImpactCatalogue* impacts() const override { return &catalogue_; }
 
-  bool follows() const override { return run_.is_contact_root(); }
+  bool follows() const override { return run_.is_contact_member(); }
   void follow(const CdLagrange& stepper) override {
-    if (run_.scheme.rows_act()) add_contact(stepper);
+    if (run_.scheme.rows_may_act()) add_contact(stepper);
   }
 
   void finish(bool /*complete*/) override { catalogue_.finish(run_.comm, root_); }
@@ -120,8 +136,11 @@ class ImpactWatch final : public Observer {
  private:
   void add_contact(const CdLagrange& stepper) {
     const interactions::ContactProblem& contact = *run_.scheme.contact();
-    const auto [impulses, works] = run_.scheme.row_actions();
-    ContactStep step{contact.gaps(), impulses, works, {}, {}, {}};
+    ContactStep step;
+    if (run_.scheme.rows_act()) {
+      const auto [impulses, works] = run_.scheme.row_actions();
+      step = {contact.gaps(), impulses, works, {}, {}, {}};
+    }
     if (contact.friction().has_any()) {
       step.tangential_impulses = contact.friction().tangential_impulses();
       step.slip_rates = contact.friction().slip_rates();
@@ -193,13 +212,15 @@ class UpliftWatch final : public Observer {
 };
 
 /// Smallest gap at t_n and mean force over the interval of each contact, for the history; and how
-/// far the pairs have closed at the samples. On the root of the contacts.
+/// far the pairs have closed at the samples. Every rank looks at the rows that it counts.
 class ContactHistory final : public Observer {
  public:
   explicit ContactHistory(const ObservedRun& run)
       : run_(run),
         gap_stride_(gap_stride(run.scene, run.model)),
+        contact_of_(contacts_of_rows(run.model)),
         impulses_(run.scene.contacts.size(), 0.0),
+        smallest_(impulses_.size()),
         values_(2 * impulses_.size()),
         closings_(impulses_.size()),
         pairs_(run.model.interface.constraints.size()) {}
@@ -209,40 +230,44 @@ class ContactHistory final : public Observer {
     return {.gaps = stepper.state().step % gap_stride_ == 0};
   }
 
-  bool follows() const override { return run_.is_contact_root(); }
+  bool follows() const override { return run_.is_contact_member(); }
   void follow(const CdLagrange& /*stepper*/) override {
     if (!run_.scheme.rows_act()) return;
     const std::span<const double> impulses = run_.scheme.row_actions().impulses;
-    for (std::size_t row = 0; row < impulses.size(); ++row) {
-      impulses_[contact_of(row)] += impulses[row];
+    for (const int row : run_.scheme.contact()->counted()) {
+      impulses_[contact_of_[row]] += impulses[row];
     }
   }
 
   void observe(const CdLagrange& stepper) override {
-    if (!run_.is_contact_root()) return;
+    if (!run_.is_contact_member()) return;
     const bool known = run_.scheme.interface_known();
+    std::ranges::fill(smallest_, known ? std::numeric_limits<double>::max()
+                                       : std::numeric_limits<double>::quiet_NaN());
+    if (known) {
+      const std::span<const double> gaps = run_.scheme.contact()->gaps();
+      for (const int row : run_.scheme.contact()->counted()) {
+        smallest_[contact_of_[row]] = std::min(smallest_[contact_of_[row]], gaps[row]);
+        pairs_[row].note(gaps[row], stepper.time());
+        note_closing(static_cast<std::size_t>(row), gaps[row]);
+      }
+      run_.scheme.contact()->reduce(MPI_MIN, smallest_);
+    }
     for (std::size_t c = 0; c < impulses_.size(); ++c) {
-      values_[2 * c] =
-          known ? std::numeric_limits<double>::max() : std::numeric_limits<double>::quiet_NaN();
+      values_[2 * c] = run_.is_contact_root() ? smallest_[c] : 0;  // ranks add up
       values_[2 * c + 1] =
           impulses_[c] / (run_.model.time_step * record_stride(run_.scene, run_.model));
       impulses_[c] = 0;
     }
-    if (!known) return;
-    const std::span<const double> gaps = run_.scheme.contact()->gaps();
-    for (std::size_t row = 0; row < gaps.size(); ++row) {
-      double& smallest = values_[2 * contact_of(row)];
-      smallest = std::min(smallest, gaps[row]);
-      pairs_[row].note(gaps[row], stepper.time());
-      note_closing(row, gaps[row]);
-    }
   }
+  void finish(bool /*complete*/) override { share(); }
 
   void keep_state(const StateKeeper& state) override {
-    if (run_.contact_root() >= 0) {
-      state.known_if(run_.is_contact_root()).table("recorder_impulse", impulses_);
-    }
+    if (state.puts()) share();
     const StateKeeper own = state.known_if(rank_of(run_.comm) == std::max(run_.contact_root(), 0));
+    if (run_.is_contact_member()) {
+      keep_parts(own, run_.scheme.contact()->comm(), "recorder_impulse", impulses_);
+    }
     own.rows("joint_closings", closings_, closing_members);
     own.rows("pair_gaps", pairs_, least_gap_members);
   }
@@ -251,7 +276,7 @@ class ContactHistory final : public Observer {
     member.smallest_gap.assign(run_.scene.contacts.size(), std::numeric_limits<double>::infinity());
     member.pair_initial_gap = run_.model.start_gaps;
     for (std::size_t row = 0; row < pairs_.size(); ++row) {
-      double& smallest = member.smallest_gap[contact_of(row)];
+      double& smallest = member.smallest_gap[contact_of_[row]];
       smallest = std::min(smallest, pairs_[row].least_gap);
       member.pair_least_gap.push_back(pairs_[row].least_gap);
       member.pair_time.push_back(pairs_[row].time);
@@ -268,17 +293,28 @@ class ContactHistory final : public Observer {
   std::optional<RecordColumns> columns() const override {
     RecordColumns columns{"contacts", run_.contact_names(), {}, {}, {}};
     if (!columns.names.empty()) columns.quantities = {{"gap", "m"}, {"contact_force", "N"}};
-    if (run_.is_contact_root()) columns.take_all(values_);
+    if (run_.is_contact_member()) columns.take_all(values_);
     return columns;
   }
 
  private:
-  int contact_of(std::size_t row) const { return run_.model.interface.constraints[row].contact; }
+  /// Brings pairs and closings to all ranks of the contacts.
+  void share() {
+    if (!run_.is_contact_member()) return;
+    const interactions::ContactProblem& contact = *run_.scheme.contact();
+    std::vector<double> pairs = to_rows(pairs_, least_gap_members);
+    interactions::share_rows(contact.comm(), contact.counted(), 3, pairs);
+    from_rows(pairs, pairs_, least_gap_members);
+    for (JointClosing& joint : closings_) {
+      reduce_over_ranks(contact.comm(), MPI_MAX, joint.largest);
+      reduce_over_ranks(contact.comm(), MPI_MIN, joint.factor);
+    }
+  }
   void note_closing(std::size_t row, double gap) {
     const double start = run_.model.start_gaps[row];
     const double closing = start - gap;
     if (start == interactions::open_gap || gap == interactions::open_gap || !(closing > 0)) return;
-    JointClosing& joint = closings_[contact_of(row)];
+    JointClosing& joint = closings_[contact_of_[row]];
     joint.largest = std::max(joint.largest, closing);
     if (closing > least_share * start) {
       joint.factor = std::min(joint.factor, std::max(0.0, start) / closing);
@@ -287,7 +323,9 @@ class ContactHistory final : public Observer {
 
   ObservedRun run_;
   std::int64_t gap_stride_;       ///< steps between two samples of the gaps
-  std::vector<double> impulses_;  ///< per contact, since the last record [N s]
+  std::vector<int> contact_of_;   ///< per row
+  std::vector<double> impulses_;  ///< per contact, since the last record, of this rank [N s]
+  std::vector<double> smallest_;  ///< gap of each contact
   std::vector<double> values_;    ///< gap and force of each contact
   std::vector<JointClosing> closings_;
   std::vector<PairMotion> pairs_;  ///< per row, without displacements

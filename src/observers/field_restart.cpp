@@ -32,7 +32,13 @@ void FieldWriter::keep_state(const StateKeeper& state) {
   state.known_if(rank == 0).numbers("fields_frames", frames_);
   if (frames_ < 0) state.state().refuse_values("fields_frames");
   if (!impulses_.empty()) {
-    state.known_if(rank == impulse_root()).table("fields_impulse", impulses_);
+    std::vector<double> all(impulses_.size(), 0.0);
+    for (const StructureFields& fields : structures_) {
+      for (const auto& [value, place] : fields.contact) all[place] = impulses_[place];
+    }
+    if (state.puts()) reduce_over_ranks(run_.comm, MPI_SUM, all);
+    state.known_if(rank == 0).table("fields_impulse", all);
+    if (!state.puts()) impulses_ = std::move(all);
   }
   if (state.puts()) return flush();
   on_rank0(run_.comm, [&] {

@@ -106,8 +106,6 @@ class FieldWriter final : public Observer {
   /// Writes `fields.vtkhdf` of the frames so far. Rank 0.
   void list_for_vtk() const;
   double time_of(std::int64_t frame) const;
-  /// The rank that knows all impulses.
-  int impulse_root() const { return std::max(run_.contact_root(), 0); }
 
   ObservedRun run_;
   FieldSteps steps_;

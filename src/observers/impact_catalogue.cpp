@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <sstream>
 
 #include "common/error.h"
 #include "common/matrix3.h"
 #include "common/parallel.h"
+#include "interactions/interface_rows.h"
 #include "io/csv_file.h"
 #include "motion/records/record_text.h"
 
@@ -19,6 +22,19 @@ constexpr auto impact_members = [](auto& i, const auto& take) {
        i.max_penetration, i.place[0], i.place[1], i.contact_time, i.low_share[0], i.low_share[1],
        i.tangential_impulse, i.slip, i.friction_loss, i.window_force);
 };
+
+/// Numbers of an impact that add up over ranks, and numbers of which the largest counts.
+constexpr auto impact_parts = [](auto& i, const auto& take) {
+  take(i.points, i.energy_lost, i.place[0], i.place[1], i.low_share[0], i.low_share[1],
+       i.friction_loss);
+};
+constexpr auto impact_extremes = [](auto& i, const auto& take) { take(i.max_penetration, i.slip); };
+
+CountedRows all_rows(std::size_t rows) {
+  CountedRows counted{MPI_COMM_SELF, std::vector<int>(rows), 1, true};
+  std::iota(counted.rows.begin(), counted.rows.end(), 0);
+  return counted;
+}
 
 /// Per constraint and axis: 1 below the middle of the face of its contact, 0.5 at it, 0 above.
 std::vector<std::array<double, 2>> low_halves(std::size_t contacts,
@@ -58,10 +74,30 @@ void ImpactTotals::add(const Impact& impact) {
   friction_loss += impact.friction_loss;
 }
 
+void keep_parts(const StateKeeper& state, MPI_Comm comm, const std::string& name,
+                std::vector<double>& part) {
+  if (comm == MPI_COMM_NULL || part.empty()) return;
+  if (state.puts()) {
+    std::vector<double> all = gather_rows(comm, part);
+    return state.table(name, all, part.size());
+  }
+  const std::vector<double>& all = state.state().table(name, part.size());
+  const std::size_t rank = rank_of(comm);
+  const bool own = all.size() == part.size() * static_cast<std::size_t>(size_of(comm));
+  std::ranges::fill(part, 0.0);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (own ? i / part.size() == rank : rank == 0) part[i % part.size()] += all[i];
+  }
+}
+
 ImpactCatalogue::ImpactCatalogue(int contacts, std::vector<int> contact_of_row,
                                  std::vector<std::array<double, 2>> places,
-                                 const ImpactTimes& times)
-    : merge_time_(times.merge),
+                                 const ImpactTimes& times, std::optional<CountedRows> counted)
+    : counted_(counted ? std::move(*counted) : all_rows(contact_of_row.size())),
+      width_(counted_.friction ? width : tangential),
+      values_(counted_.steps * counted_.rows.size() * width_),
+      sums_(counted_.steps * static_cast<std::size_t>(contacts)),
+      merge_time_(times.merge),
       contact_of_row_(std::move(contact_of_row)),
       places_(std::move(places)),
       low_(low_halves(static_cast<std::size_t>(contacts), contact_of_row_, places_)),
@@ -69,71 +105,134 @@ ImpactCatalogue::ImpactCatalogue(int contacts, std::vector<int> contact_of_row,
       is_open_(static_cast<std::size_t>(contacts), 0),
       windows_(static_cast<std::size_t>(contacts),
                ForceWindow(times.force_window, times.time_step)),
-      step_impulse_(static_cast<std::size_t>(contacts), 0.0),
-      step_tangential_(static_cast<std::size_t>(contacts)),
       touched_(contact_of_row_.size(), 0),
       slipped_(contact_of_row_.size(), 0.0),
       row_impulses_(contact_of_row_.size(), 0.0) {
   impacts_.reserve(4096);
-}
-
-void ImpactCatalogue::add_friction(Impact& impact, std::size_t row, double duration,
-                                   const ContactStep& step) {
-  if (step.slip_rates.empty()) return;
-  for (std::size_t d = 0; d < 3; ++d) {
-    step_tangential_[contact_of_row_[row]][d] += step.tangential_impulses[row][d];
+  pending_.reserve(counted_.steps);
+  for (std::size_t i = 0; i < counted_.rows.size(); ++i) {
+    const std::size_t contact = contact_of_row_[counted_.rows[i]];
+    if (stretches_.empty() || stretches_.back().contact != contact) {
+      stretches_.push_back({contact, i, i});
+    }
+    stretches_.back().end = i + 1;
   }
-  impact.friction_loss += step.friction_losses[row];
-  slipped_[row] += duration * step.slip_rates[row];
-  impact.slip = std::max(impact.slip, slipped_[row]);
 }
 
 void ImpactCatalogue::add_step(double time, double duration, const ContactStep& step) {
-  const std::span<const double> impulses = step.impulses;
-  std::fill(step_impulse_.begin(), step_impulse_.end(), 0.0);
-  std::fill(step_tangential_.begin(), step_tangential_.end(), Vector3{});
-  for (std::size_t row = 0; row < impulses.size(); ++row) {
-    step_impulse_[contact_of_row_[row]] += impulses[row];
-    row_impulses_[row] += impulses[row];
+  const bool acts = !step.impulses.empty();
+  double* next = values_.data() + pending_.size() * counted_.rows.size() * width_;
+  pending_.push_back({time, duration, acts});
+  for (std::size_t i = 0; acts && i < counted_.rows.size(); ++i, next += width_) {
+    const int row = counted_.rows[i];
+    next[gap] = step.gaps[row];
+    next[impulse] = step.impulses[row];
+    next[work] = step.works[row];
+    if (width_ < width) continue;
+    const bool slides = !step.slip_rates.empty();
+    for (std::size_t d = 0; d < 3; ++d) {
+      next[tangential + d] = slides ? step.tangential_impulses[row][d] : 0;
+    }
+    next[slip_rate] = slides ? step.slip_rates[row] : 0;
+    next[friction_loss] = slides ? step.friction_losses[row] : 0;
   }
+  if (pending_.size() == counted_.steps) flush();
+}
+
+void ImpactCatalogue::flush() {
+  if (pending_.empty()) return;
+  const std::size_t contacts = open_.size();
+  std::ranges::fill(sums_, StepSum{});
+  for (std::size_t k = 0; k < pending_.size(); ++k) {
+    if (pending_[k].acts) add_up(k);
+  }
+  if (size_of(counted_.comm) > 1) {
+    const std::size_t numbers = pending_.size() * contacts * std::tuple_size_v<StepSum>;
+    reduce_over_ranks(counted_.comm, MPI_SUM, std::span(sums_.data()->data(), numbers));
+  }
+  for (std::size_t k = 0; k < pending_.size(); ++k) {
+    open_episodes(pending_[k], std::span(sums_).subspan(k * contacts, contacts));
+    if (pending_[k].acts) count(k);
+  }
+  pending_.clear();
+}
+
+void ImpactCatalogue::add_up(std::size_t step) {
+  for (const auto& [contact, begin, end] : stretches_) {
+    StepSum& of_contact = sums_[step * open_.size() + contact];
+    StepSum sum = of_contact;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double* const of_row = values(step, i);
+      sum[0] += of_row[impulse];
+      row_impulses_[counted_.rows[i]] += of_row[impulse];
+      if (width_ < width || !(of_row[impulse] > 0)) continue;
+      for (std::size_t d = 0; d < 3; ++d) sum[1 + d] += of_row[tangential + d];
+    }
+    of_contact = sum;
+  }
+}
+
+void ImpactCatalogue::open_episodes(const Pending& step, std::span<const StepSum> sums) {
+  const double end = step.time + step.duration;
   for (std::size_t c = 0; c < open_.size(); ++c) {
-    if (!(step_impulse_[c] > 0)) continue;
-    if (is_open_[c] != 0 && time - open_[c].end > merge_time_) close(c);
+    const auto& [pressed, x, y, z] = sums[c];
+    if (!(pressed > 0)) continue;
+    if (is_open_[c] != 0 && step.time - open_[c].end > merge_time_) close(c);
     if (is_open_[c] == 0) {
       is_open_[c] = 1;
       open_[c] = Impact{};
       open_[c].contact = static_cast<int>(c);
       windows_[c].reset();
-      open_[c].start = time;
+      open_[c].start = step.time;
     }
-    open_[c].end = time + duration;
-    open_[c].contact_time += duration;
-    open_[c].impulse += step_impulse_[c];
-    open_[c].peak_force = std::max(open_[c].peak_force, step_impulse_[c] / duration);
-    windows_[c].add(time, time + duration, step_impulse_[c]);
+    open_[c].end = end;
+    open_[c].contact_time += step.duration;
+    open_[c].impulse += pressed;
+    open_[c].peak_force = std::max(open_[c].peak_force, pressed / step.duration);
+    windows_[c].add(step.time, end, pressed);
     open_[c].window_force = windows_[c].largest();
+    // Points that push against each other are no force of the contact: a block at rest has none.
+    open_[c].tangential_impulse += norm({x, y, z});
   }
-  for (std::size_t row = 0; row < impulses.size(); ++row) {
-    Impact& impact = open_[contact_of_row_[row]];
-    if (!(impulses[row] > 0) && is_open_[contact_of_row_[row]] != 0) {
-      impact.energy_lost -= step.works[row];  // of a spring that has just let go
-    }
-    if (impulses[row] > 0) {
+}
+
+void ImpactCatalogue::count(std::size_t step) {
+  for (const auto& [contact, begin, end] : stretches_) {
+    const bool is_open = is_open_[contact] != 0;
+    Impact impact = open_[contact];  // a copy, whose sums stay in registers
+    for (std::size_t i = begin; i < end; ++i) {
+      const double* const of_row = values(step, i);
+      if (!(of_row[impulse] > 0)) {
+        if (is_open) impact.energy_lost -= of_row[work];  // of a spring that has just let go
+        continue;
+      }
+      const int row = counted_.rows[i];
       impact.points += touched_[row] != 0 ? 0 : 1;
       touched_[row] = 1;
-      impact.energy_lost -= step.works[row];
-      impact.max_penetration = std::max(impact.max_penetration, -step.gaps[row]);
-      add_friction(impact, row, duration, step);
+      impact.energy_lost -= of_row[work];
+      impact.max_penetration = std::max(impact.max_penetration, -of_row[gap]);
+      if (width_ == width) {
+        impact.friction_loss += of_row[friction_loss];
+        slipped_[row] += pending_[step].duration * of_row[slip_rate];
+        impact.slip = std::max(impact.slip, slipped_[row]);
+      }
       for (std::size_t axis = 0; axis < 2; ++axis) {
-        impact.place[axis] += impulses[row] * places_[row][axis];
-        impact.low_share[axis] += impulses[row] * low_[row][axis];
+        impact.place[axis] += of_row[impulse] * places_[row][axis];
+        impact.low_share[axis] += of_row[impulse] * low_[row][axis];
       }
     }
+    open_[contact] = impact;
   }
-  // Points that push against each other are no force of the contact: a block at rest has none.
-  for (std::size_t c = 0; c < open_.size(); ++c) {
-    if (step_impulse_[c] > 0) open_[c].tangential_impulse += norm(step_tangential_[c]);
-  }
+}
+
+void ImpactCatalogue::merge(std::vector<Impact>& impacts) const {
+  if (counted_.comm == MPI_COMM_NULL || size_of(counted_.comm) == 1) return;
+  std::vector<double> parts = to_rows(impacts, impact_parts);
+  std::vector<double> extremes = to_rows(impacts, impact_extremes);
+  reduce_over_ranks(counted_.comm, MPI_SUM, parts);
+  reduce_over_ranks(counted_.comm, MPI_MAX, extremes);
+  from_rows(parts, impacts, impact_parts);
+  from_rows(extremes, impacts, impact_extremes);
 }
 
 int ImpactCatalogue::open_count() const {
@@ -141,7 +240,9 @@ int ImpactCatalogue::open_count() const {
 }
 
 void ImpactCatalogue::close(std::size_t contact) {
-  Impact impact = open_[contact];
+  std::vector<Impact> closed{open_[contact]};
+  merge(closed);
+  Impact& impact = closed.front();
   for (std::size_t axis = 0; axis < 2; ++axis) {
     impact.place[axis] /= impact.impulse;
     impact.low_share[axis] /= impact.impulse;
@@ -156,30 +257,45 @@ void ImpactCatalogue::close(std::size_t contact) {
 }
 
 void ImpactCatalogue::finish(MPI_Comm comm, int root) {
+  flush();
   for (std::size_t c = 0; c < open_.size(); ++c) {
     if (is_open_[c] != 0) close(c);
   }
+  interactions::share_rows(counted_.comm, counted_.rows, 1, row_impulses_);
   broadcast_values(comm, root, impacts_, row_impulses_);
   std::stable_sort(impacts_.begin(), impacts_.end(),
                    [](const Impact& a, const Impact& b) { return a.start < b.start; });
 }
 
 void ImpactCatalogue::keep(const StateKeeper& state) {
-  const auto flags = [&](const char* name, std::vector<char>& all) {
-    std::vector<double> numbers(all.begin(), all.end());
-    state.table(name, numbers);
-    std::ranges::transform(numbers, all.begin(),
-                           [](double value) { return static_cast<char>(value != 0); });
-  };
+  if (state.puts() && counted_.comm == MPI_COMM_NULL) return;
+  if (state.puts()) flush();
+  std::vector<Impact> open = open_;
+  std::vector<double> touched(touched_.begin(), touched_.end());
+  if (state.puts()) {
+    merge(open);
+    for (std::vector<double>* const rows : {&touched, &slipped_, &row_impulses_}) {
+      interactions::share_rows(counted_.comm, counted_.rows, 1, *rows);
+    }
+  }
   const auto unknown = [&](const Impact& impact) {
     return impact.contact < 0 || impact.contact >= static_cast<int>(open_.size());
   };
   state.list("impacts", impacts_, impact_members);
-  state.rows("impacts_open", open_, impact_members);
+  state.rows("impacts_open", open, impact_members);
   if (std::ranges::any_of(impacts_, unknown)) state.state().refuse_values("impacts");
-  if (std::ranges::any_of(open_, unknown)) state.state().refuse_values("impacts_open");
-  flags("impacts_is_open", is_open_);
-  flags("impacts_touched_rows", touched_);
+  if (std::ranges::any_of(open, unknown)) state.state().refuse_values("impacts_open");
+  if (!state.puts()) open_ = std::move(open);
+  std::vector<double> parts = to_rows(open_, impact_parts);
+  keep_parts(state, counted_.comm, "impacts_open_parts", parts);
+  from_rows(parts, open_, impact_parts);
+  const auto flags = [&](const char* name, std::vector<double> numbers, std::vector<char>& all) {
+    state.table(name, numbers);
+    std::ranges::transform(numbers, all.begin(),
+                           [](double value) { return static_cast<char>(value != 0); });
+  };
+  flags("impacts_is_open", {is_open_.begin(), is_open_.end()}, is_open_);
+  flags("impacts_touched_rows", std::move(touched), touched_);
   state.table("impacts_slipped_rows", slipped_);
   state.table("impacts_impulse_rows", row_impulses_);
   for (std::size_t c = 0; c < windows_.size(); ++c) {
@@ -240,56 +356,6 @@ std::vector<NamedWindow> read_impact_windows(const std::string& path) {
     windows.push_back({std::string(words[0]), *start, *end});
   }
   return windows;
-}
-
-ForceWindow::ForceWindow(double length, double time_step) : length_(length) {
-  constexpr double most = 1e6;  // more would only be allocated when they come
-  steps_.reserve(2 * static_cast<std::size_t>(std::min(most, std::ceil(length / time_step) + 3)));
-}
-
-double ForceWindow::at(const Step& step, double time) {
-  const double share = (time - step.start) / (step.end - step.start);
-  return step.before + std::clamp(share, 0.0, 1.0) * (step.after - step.before);
-}
-
-void ForceWindow::add(double start, double end, double impulse) {
-  const bool any = first_ < steps_.size();
-  const double last = any ? steps_.back().end : start;
-  const double before = any ? steps_.back().after : 0.0;
-  const Step step{start, end, before, before + impulse};
-  // The impulse over time is a polygon, so that the largest rise within a length begins or ends
-  // where a step does. Times that begin with a step and end in this one, or since the last:
-  double most = 0;
-  for (std::size_t i = first_; i < steps_.size() && steps_[i].start + length_ <= end; ++i) {
-    if (steps_[i].start + length_ <= last) continue;
-    most = std::max(most, at(step, steps_[i].start + length_) - steps_[i].before);
-  }
-  while (first_ < steps_.size() && steps_[first_].end <= end - length_) ++first_;
-  if (first_ == steps_.size() || steps_.size() == steps_.capacity()) {
-    steps_.erase(steps_.begin(), steps_.begin() + static_cast<std::ptrdiff_t>(first_));
-    first_ = 0;
-  }
-  steps_.push_back(step);
-  most = std::max(most, step.after - at(steps_[first_], end - length_));  // that end with it
-  largest_ = std::max(largest_, most / length_);
-}
-
-void ForceWindow::reset() {
-  steps_.clear();
-  first_ = 0;
-  largest_ = 0;
-}
-
-void ForceWindow::keep(const std::string& name, const StateKeeper& state) {
-  std::vector<Step> rows{{largest_, 0, 0, 0}};
-  rows.insert(rows.end(), steps_.begin() + static_cast<std::ptrdiff_t>(first_), steps_.end());
-  state.list(name, rows, [](auto& step, const auto& take) {
-    take(step.start, step.end, step.before, step.after);
-  });
-  if (rows.empty()) state.state().refuse_values(name);
-  largest_ = rows[0].start;
-  first_ = 0;
-  steps_.assign(rows.begin() + 1, rows.end());
 }
 
 }  // namespace pounding

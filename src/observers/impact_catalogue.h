@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,43 +11,9 @@
 
 #include "common/saved_state.h"
 #include "common/types.h"
+#include "observers/force_window.h"
 
 namespace pounding {
-
-/// Largest force of a contact over a stated time: the largest impulse within any time of that
-/// length over the length, the impulse of a step being spread evenly over it. Unlike the largest
-/// impulse of one step over the step it has a limit as the step goes to zero.
-class ForceWindow {
- public:
-  /// `length` of the time [s]; steps last `time_step` at most but for round-off, which bounds the
-  /// memory taken here.
-  ForceWindow(double length, double time_step);
-
-  /// A step from `start` to `end` [s] with `impulse` > 0 [N s]; steps in order, those without
-  /// impulse left out.
-  void add(double start, double end, double impulse);
-  /// Over all times since `reset` [N].
-  double largest() const { return largest_; }
-  void reset();
-
-  /// A table of the largest force and the steps that still count.
-  void keep(const std::string& name, const StateKeeper& state);
-
- private:
-  /// A step with an impulse; the impulse of all since `reset` at its two ends [N s].
-  struct Step {
-    double start = 0;
-    double end = 0;
-    double before = 0;
-    double after = 0;
-  };
-  static double at(const Step& step, double time);
-
-  double length_;
-  std::vector<Step> steps_;  ///< those from first_ on end within the length before the last end
-  std::size_t first_ = 0;
-  double largest_ = 0;
-};
 
 /// One contact episode: from its first to its last impulse, pauses shorter than the merge time
 /// included.
@@ -102,20 +69,38 @@ struct ImpactTotals {
   void add(const Impact& impact);
 };
 
-/// Collects the impacts on the rank that knows the interface.
+/// Rows that a rank counts in a catalogue, and the ranks that count together.
+struct CountedRows {
+  MPI_Comm comm = MPI_COMM_SELF;  ///< null: this rank counts none
+  std::vector<int> rows;
+  std::size_t steps = 1;  ///< that they count at a time
+  bool friction = false;
+};
+
+/// This rank's part of numbers that add up over ranks, as its row of a table; where there were fewer
+/// or more ranks the first takes all rows. Collective over `comm`, which may be null.
+void keep_parts(const StateKeeper& state, MPI_Comm comm, const std::string& name,
+                std::vector<double>& part);
+
+/// Collects the impacts, on every rank the part of the rows that it counts. Ranks add up the
+/// impulses of the contacts in each step, some steps at a time.
 class ImpactCatalogue {
  public:
-  /// `contact_of_row`, `places`: contact and tangential position of each constraint.
+  /// `contact_of_row`, `places`: contact and tangential position of each constraint. Without
+  /// `counted` this rank counts all rows alone.
   ImpactCatalogue(int contacts, std::vector<int> contact_of_row,
-                  std::vector<std::array<double, 2>> places, const ImpactTimes& times);
+                  std::vector<std::array<double, 2>> places, const ImpactTimes& times,
+                  std::optional<CountedRows> counted = {});
 
-  /// One step of length `duration` at `time` [s].
+  /// One step of length `duration` at `time` [s]; empty arrays if no row acts here. Collective over
+  /// the ranks that count.
   void add_step(double time, double duration, const ContactStep& step);
-  /// Closes open episodes, and brings the list from rank `root` to every rank, sorted by start.
-  /// Collective.
+  /// Closes open episodes, and brings the list from rank `root`, which counts, to all ranks, sorted
+  /// by start. Collective.
   void finish(MPI_Comm comm, int root);
 
-  /// Closed and open episodes, known to the rank that knows the interface.
+  /// Closed and open episodes; `state`: known to the first of the ranks that count. Collective over
+  /// these where it puts.
   void keep(const StateKeeper& state);
 
   const std::vector<Impact>& impacts() const { return impacts_; }
@@ -126,10 +111,41 @@ class ImpactCatalogue {
   ImpactTotals totals() const;
 
  private:
+  /// A step that is not counted yet.
+  struct Pending {
+    double time = 0;
+    double duration = 0;
+    bool acts = false;  ///< some row here
+  };
+  /// Counted rows of one contact that follow each other.
+  struct Stretch {
+    std::size_t contact = 0;
+    std::size_t begin = 0;
+    std::size_t end = 0;
+  };
+  /// Values of a row in a pending step, with friction all of them.
+  enum Value { gap, impulse, work, tangential, slip_rate = tangential + 3, friction_loss, width };
+  /// Sums over the rows of a contact in a pending step: the impulse and that of friction.
+  using StepSum = std::array<double, 4>;
+
   int open_count() const;
   void close(std::size_t contact);
-  void add_friction(Impact& impact, std::size_t row, double duration, const ContactStep& step);
-
+  const double* values(std::size_t step, std::size_t row) const {
+    return &values_[width_ * (step * counted_.rows.size() + row)];
+  }
+  /// Counts the pending steps.
+  void flush();
+  void add_up(std::size_t step);
+  void open_episodes(const Pending& step, std::span<const StepSum> sums);
+  void count(std::size_t step);
+  /// Makes those of this rank whole.
+  void merge(std::vector<Impact>& impacts) const;
+  CountedRows counted_;
+  std::vector<Stretch> stretches_;
+  std::size_t width_;
+  std::vector<Pending> pending_;
+  std::vector<double> values_;  ///< shape (steps, counted rows, width)
+  std::vector<StepSum> sums_;   ///< shape (steps, contacts)
   double merge_time_;
   std::vector<int> contact_of_row_;
   std::vector<std::array<double, 2>> places_;
@@ -137,8 +153,6 @@ class ImpactCatalogue {
   std::vector<Impact> open_;                ///< per contact
   std::vector<char> is_open_;               ///< per contact
   std::vector<ForceWindow> windows_;        ///< per contact
-  std::vector<double> step_impulse_;        ///< per contact, of the current step
-  std::vector<Vector3> step_tangential_;    ///< likewise, of friction
   std::vector<char> touched_;               ///< per row, in the open episode
   std::vector<double> slipped_;             ///< per row, path in the open episode [m]
   std::vector<double> row_impulses_;        ///< per row, of the whole run [N s]

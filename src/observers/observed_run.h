@@ -39,8 +39,11 @@ struct ObservedRun {
   std::string path(const std::string& name) const { return scene.output + "/" + name; }
   /// A file beside the checkpoint that this run continues; empty for a new run.
   std::string continued_path(const std::string& name) const;
-  /// The rank that knows gaps and impulses, -1 without contacts.
+  /// The lowest rank that knows gaps and impulses, -1 without contacts.
   int contact_root() const { return scheme.contact() != nullptr ? scheme.contact()->root() : -1; }
+  bool is_contact_member() const {
+    return scheme.contact() != nullptr && scheme.contact()->member();
+  }
   bool is_contact_root() const { return rank_of(comm) == contact_root(); }
   std::vector<std::string> contact_names() const { return names_of(scene.contacts); }
   /// The first step from `step` on with a record of the history.

@@ -46,7 +46,7 @@ class ProgressWatch final : public Observer {
   void observe(const CdLagrange& stepper) override {
     const double no_gap = std::numeric_limits<double>::max();
     std::array<double, 2> now{no_gap, 0};  // smallest gap, minus the number of impacts
-    if (run_.is_contact_root()) {
+    if (run_.is_contact_member()) {
       now = {run_.scheme.contact()->smallest_gap(), -static_cast<double>(impacts_.episodes())};
     }
     reduce_over_ranks(run_.comm, MPI_MIN, now);

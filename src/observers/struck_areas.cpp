@@ -66,8 +66,8 @@ void find_near(const interactions::Patch& patch, const std::array<double, 2>& si
 /// The mean is one over four neighbouring blocks of steps, together as long as `force_window`, or
 /// over as many steps as that has, of the impulses of hard contact, stops and crushed strips. The
 /// force of a row is spread evenly over its patch, so that the largest sum over all places is one
-/// of a window two of whose sides are those of patches. On the root of the contacts; after `finish`
-/// on every rank.
+/// of a window two of whose sides are those of patches. Every rank adds the rows up that it counts;
+/// all ranks of the contacts look alike. After `finish` on every rank.
 class StruckAreas final : public Observer {
  public:
   explicit StruckAreas(const ObservedRun& run) : run_(run) {
@@ -82,31 +82,33 @@ class StruckAreas final : public Observer {
     found_.resize(run.scene.contacts.size() * windows_.size() * width);
   }
 
-  bool follows() const override { return run_.is_contact_root(); }
+  bool follows() const override { return run_.is_contact_member(); }
   void follow(const CdLagrange& stepper) override {
-    if (!run_.scheme.rows_act()) return;
-    const std::span<const double> impulses = run_.scheme.row_actions().impulses;
+    if (!run_.scheme.rows_may_act()) return;
+    const std::size_t rows = run_.model.interface.constraints.size();
     const auto begin_of = [&](std::int64_t block) {
-      return impulses_.begin() + block % blocks_ * std::ssize(impulses);
+      return impulses_.begin() + block % blocks_ * static_cast<std::int64_t>(rows);
     };
     const std::int64_t now = (stepper.state().step - 1) / steps_;
     if (now != block_) {
       look();
       for (std::int64_t next = std::max(block_ + 1, now - blocks_ + 1); next <= now; ++next) {
-        std::fill_n(begin_of(next), impulses.size(), 0.0);
+        std::fill_n(begin_of(next), rows, 0.0);
       }
       block_ = now;
     }
-    std::ranges::transform(impulses, std::span(begin_of(now), impulses.size()), begin_of(now),
-                           std::plus());
+    if (!run_.scheme.rows_act()) return;
+    const std::span<const double> impulses = run_.scheme.row_actions().impulses;
+    for (const int row : run_.scheme.contact()->counted()) begin_of(now)[row] += impulses[row];
   }
 
   void finish(bool complete) override {
-    if (complete && run_.is_contact_root()) look();
+    if (complete && run_.is_contact_member()) look();
     broadcast_values(run_.comm, run_.contact_root(), found_);
   }
 
   void keep_state(const StateKeeper& state) override {
+    if (state.puts() && run_.is_contact_member()) impulses_ = all_impulses();
     const StateKeeper own = state.known_if(run_.is_contact_root());
     own.table("struck_impulses", impulses_);
     own.numbers("struck_block", block_);
@@ -134,13 +136,26 @@ class StruckAreas final : public Observer {
   static constexpr double more = 1 + 1e-9;  ///< a force that is larger by less is the same
   static constexpr double slightly_more = 1 + 5e-10;  ///< beyond the round-off of a sum
 
-  /// Looks at the blocks that are there.
+  /// Impulses of all ranks in each block.
+  std::vector<double> all_impulses() const {
+    const interactions::ContactProblem& contact = *run_.scheme.contact();
+    std::vector<double> all = impulses_;
+    const std::size_t rows = run_.model.interface.constraints.size();
+    for (std::size_t at = 0; at < all.size(); at += rows) {
+      interactions::share_rows(contact.comm(), contact.counted(), 1,
+                               std::span(all).subspan(at, rows));
+    }
+    return all;
+  }
+
+  /// Looks at the blocks that are there. Collective over the ranks of the contacts.
   void look() {
     const auto& rows = run_.model.interface.constraints;
+    const std::vector<double> impulses = all_impulses();
     std::vector<std::vector<Pressed>> pressed(run_.scene.contacts.size());
     for (std::size_t row = 0; row < rows.size(); ++row) {
       double impulse = 0;
-      for (std::size_t at = row; at < impulses_.size(); at += rows.size()) impulse += impulses_[at];
+      for (std::size_t at = row; at < impulses.size(); at += rows.size()) impulse += impulses[at];
       if (impulse > 0) pressed[rows[row].contact].push_back({&rows[row], impulse / duration()});
     }
     for (std::size_t w = 0; w < windows_.size(); ++w) {

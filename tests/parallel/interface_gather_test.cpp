@@ -49,12 +49,52 @@ TEST_P(InterfaceGathered, EveryMemberGetsAllValuesInEveryTurn) {
     }
     if (turn % 7 == 0) {
       std::vector<double> sums(turn % 2 == 0 ? 5 : 100, rank_of(comm) + 1.0);
-      gather.add(sums);
+      gather.reduce(MPI_SUM, sums);
       const int members = gather.members();
       for (const double sum : sums) wrong += sum != members * (members + 1) / 2;
     }
   }
   EXPECT_EQ(wrong, 0);
+}
+
+/// A rank takes the values that it wants and its own, and no others, also where some want nothing.
+TEST_P(InterfaceGathered, MembersTakeWhatTheyWant) {
+  const MPI_Comm comm = PETSC_COMM_WORLD;
+  constexpr int dofs = 37;
+  const std::vector<int> mine = dofs_of(rank_of(comm), size_of(comm), dofs);
+  interactions::InterfaceGather gather(comm, mine, GetParam());
+  if (!gather.member()) return;
+  std::vector<int> wanted;  // of the last member nothing
+  for (int dof = rank_of(comm); rank_of(comm) + 1 < gather.members() && dof < dofs; dof += 3) {
+    wanted.push_back(dof);
+  }
+  gather.want(wanted);
+  EXPECT_EQ(gather.exchanges(), gather.members() > 1);
+  std::vector<char> comes(dofs, 0);
+  for (const int dof : mine) comes[dof] = 1;
+  for (const int dof : wanted) comes[dof] = 1;
+  int wrong = 0;
+  for (int turn = 0; turn < 3000; ++turn) {
+    const int fields = 1 + turn % interactions::InterfaceGather::max_fields;
+    std::vector<double> known;
+    for (const int dof : mine) {
+      for (int field = 0; field < fields; ++field) known.push_back(value(turn, field, dof));
+    }
+    std::vector<double> all(static_cast<std::size_t>(fields * dofs), -1.0);
+    gather.gather(fields, known, all);
+    for (int i = 0; i < fields * dofs; ++i) {
+      const int dof = i % dofs;
+      wrong += all[i] != (comes[dof] != 0 ? value(turn, i / dofs, dof) : -1.0);
+    }
+    std::vector<double> least{static_cast<double>(turn - rank_of(comm))};
+    if (turn % 5 == 0) {
+      gather.reduce(MPI_MIN, least);
+      wrong += least[0] != turn + 1 - gather.members();
+    }
+  }
+  EXPECT_EQ(wrong, 0);
+  gather.want({});
+  EXPECT_FALSE(gather.exchanges());
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, InterfaceGathered, testing::Values(true, false),

@@ -350,7 +350,7 @@ class Refusals(RestartCase):
             file.attrs["version"] = 3.0
 
         self.refuse(self.copy(lambda file: file.attrs.modify("schema", 99.0)), ["schema 99", "written by pounding "])
-        self.refuse(self.copy(of_version_3), ["of schema 3, written by pounding ", "reads schema 14", "start anew"])
+        self.refuse(self.copy(of_version_3), ["of schema 3, written by pounding ", "reads schema 15", "start anew"])
 
     def test_missing_part(self):
         def remove(file):
