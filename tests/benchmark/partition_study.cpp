@@ -1,5 +1,5 @@
 // What METIS makes of the pair of buildings of storey_pair.h for any number of parts, none of which
-// is run: loads, halos, neighbours, contact gather. Serial.
+// is run: loads, halos, neighbours, rows of contact. Serial.
 //
 //   partition_study CELLS_PER_METRE PARTS...
 //
@@ -9,7 +9,8 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <numeric>
+#include <map>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -37,7 +38,38 @@ Json spread(const std::vector<PartLoad>& loads, long (*value)(const PartLoad&)) 
           {"mean", static_cast<double>(total) / static_cast<double>(loads.size())}};
 }
 
-Json describe(const std::vector<PartLoad>& loads, const std::vector<long>& contact_dofs) {
+/// What a part has of the interface: rows with a node in it, and its own dofs in those of them that
+/// have one elsewhere as well, which it sends to so many parts.
+struct ContactLoad {
+  long rows = 0;
+  long sent = 0;
+  std::set<int> partners;
+};
+
+/// Of all parts, every row on its own.
+std::vector<ContactLoad> contact_loads(const interactions::Interface& interface,
+                                       const Partition& partition, int parts) {
+  std::vector<ContactLoad> loads(static_cast<std::size_t>(parts));
+  for (const interactions::Constraint& constraint : interface.constraints) {
+    std::map<int, long> dofs;  // per owner
+    for (const interactions::ConstraintTerm& term : constraint.terms) {
+      ++dofs[partition.node_owner[static_cast<std::size_t>(term.structure)]
+                                 [static_cast<std::size_t>(term.node)]];
+    }
+    for (const auto& [owner, count] : dofs) {
+      ContactLoad& load = loads[static_cast<std::size_t>(owner)];
+      ++load.rows;
+      if (dofs.size() == 1) continue;
+      load.sent += count;
+      for (const auto& other : dofs) {
+        if (other.first != owner) load.partners.insert(other.first);
+      }
+    }
+  }
+  return loads;
+}
+
+Json describe(const std::vector<PartLoad>& loads, const std::vector<ContactLoad>& contact) {
   Json json;
   json["dofs_per_part"] = spread(loads, [](const PartLoad& load) { return load.dofs; });
   json["elements_per_part"] = spread(loads, [](const PartLoad& load) { return load.elements; });
@@ -45,11 +77,13 @@ Json describe(const std::vector<PartLoad>& loads, const std::vector<long>& conta
   json["sent"] = spread(loads, [](const PartLoad& load) { return load.sent; });
   json["neighbours"] = spread(loads, [](const PartLoad& load) { return load.neighbours; });
   json["messages"] = spread(loads, [](const PartLoad& load) { return load.messages; });
-  json["contact_dofs_per_part"] = {
-      {"largest", *std::ranges::max_element(contact_dofs)},
-      {"mean", static_cast<double>(std::accumulate(contact_dofs.begin(), contact_dofs.end(), 0L)) /
-                   static_cast<double>(contact_dofs.size())}};
-  json["contact_members"] = std::ranges::count_if(contact_dofs, [](long dofs) { return dofs > 0; });
+  const auto largest = [&](const auto& of) { return std::ranges::max(contact, {}, of); };
+  json["contact_rows_per_part"] = largest(&ContactLoad::rows).rows;
+  json["contact_dofs_sent"] = largest(&ContactLoad::sent).sent;
+  const auto partners = [](const ContactLoad& load) { return load.partners.size(); };
+  json["contact_partners"] = partners(largest(partners));
+  json["contact_members"] =
+      std::ranges::count_if(contact, [](const ContactLoad& load) { return load.rows > 0; });
   return json;
 }
 
@@ -59,17 +93,9 @@ Json study(const StoreyPair& pair, int parts) {
       partition_meshes(pair.meshes, interactions::facing_nodes(pair.interface), parts);
   const std::chrono::duration<double> lasted = std::chrono::steady_clock::now() - start;
   const std::vector<PartLoad> loads = part_loads(pair.meshes, partition);
-  std::vector<long> contact_dofs(static_cast<std::size_t>(parts), 0);
   long dofs = 0;
   std::size_t elements = 0;
   for (const GlobalMesh& mesh : pair.meshes) elements += mesh.regions[0].tags.size();
-  for (const interactions::Constraint& constraint : pair.interface.constraints) {
-    for (const interactions::ConstraintTerm& term : constraint.terms) {
-      const int owner = partition.node_owner[static_cast<std::size_t>(term.structure)]
-                                            [static_cast<std::size_t>(term.node)];
-      ++contact_dofs[static_cast<std::size_t>(owner)];
-    }
-  }
   for (const PartLoad& load : loads) {
     dofs += load.dofs;
   }
@@ -80,7 +106,7 @@ Json study(const StoreyPair& pair, int parts) {
             {"edge_cut", partition.edge_cut},
             {"cost_imbalance", partition.imbalance},
             {"partition_seconds", lasted.count()}};
-  json.update(describe(loads, contact_dofs));
+  json.update(describe(loads, contact_loads(pair.interface, partition, parts)));
   return json;
 }
 

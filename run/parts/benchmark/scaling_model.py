@@ -4,12 +4,12 @@ Added up for the part that has most of each, nothing overlapping:
 
     compute   work x cost(work) x c, work = elements held x dofs per element of the mesh
     halo      messages x time of one message of the mean length
-    gather    log2(members) latencies and the interface's values once, u, v-, v_free of each dof
-    rows      every member looks at every constraint
+    rows      constraints with a node in the part
+    exchange  u and then v-, v_free of its dofs in constraints that another part holds as well, to each of those parts
 
 cost: seconds per dof of a block that fits one rank, measured with all cores busy (with one busy
 for one part); c brings the model to the measured step of one rank, and is 1 without one. Loads, halos
-and members are those of METIS partitions.
+and constraints are those of METIS partitions.
 """
 
 import json
@@ -24,7 +24,7 @@ from pounding.runs import ending_with_us
 
 from .workers import SOURCE, MeasuringError, storey_cells, with_environment
 
-GATHERED = 3 * 8  # per dof of the interface [B]
+SHARED = 3 * 8  # per dof of a shared constraint [B]
 
 
 @dataclass
@@ -93,11 +93,9 @@ class Model:
         curve = self.alone if part["parts"] == 1 else self.busy
         messages = part["messages"]["largest"]
         exchanged = 8 * max(part["sent"]["largest"], part["received"]["largest"])
-        members = part["contact_members"]
-        interface = part["contact_dofs_per_part"]["mean"] * part["parts"] * GATHERED
         times = {"compute": self.factor * curve.step(work),
                  "halo": messages * self.messages.time(exchanged / messages) if messages else 0.0,
-                 "gather": math.ceil(math.log2(members)) * self.messages.latency
-                 + interface / self.messages.bandwidth if members > 1 else 0.0,
-                 "rows": part["contact_rows"] * self.row_seconds}
+                 "exchange": 2 * part["contact_partners"] * self.messages.latency
+                 + part["contact_dofs_sent"] * SHARED / self.messages.bandwidth,
+                 "rows": part["contact_rows_per_part"] * self.row_seconds}
         return {**times, "step": sum(times.values())}

@@ -9,7 +9,7 @@ from pounding.files import write_text
 from .machine import Machine
 from .scaling_model import Messages
 
-PARTS = ("compute", "halo", "gather", "rows")
+PARTS = ("compute", "halo", "exchange", "rows")
 
 
 def measured_rows(points: list) -> list:
@@ -55,7 +55,7 @@ def modelled_rows(studies: list, points: list) -> list:
                 "largest_neighbours": part["neighbours"]["largest"],
                 "mean_neighbours": part["neighbours"]["mean"],
                 "contact_rows": part["contact_rows"], "contact_members": part["contact_members"],
-                "largest_contact_dofs": part["contact_dofs_per_part"]["largest"]})
+                "largest_contact_rows": part["contact_rows_per_part"]})
     return rows
 
 
@@ -73,9 +73,9 @@ def modelled_table(rows: list) -> str:
     head = ["dofs", "parts", "dofs of the largest part", "elements held, largest over ideal", "ghost dofs, mean",
             "neighbours, mean", "messages [µs]", "contact [µs]", "step [µs]", "efficiency", "measured [µs]"]
     cells = [[row["dofs"], row["ranks"], row["largest_dofs"], row["imbalance"], row["mean_halo"], row["mean_neighbours"],
-              row["halo_microseconds"], row["gather_microseconds"] + row["rows_microseconds"],
+              row["halo_microseconds"], row["exchange_microseconds"] + row["rows_microseconds"],
               row["microseconds_per_step"], row["efficiency"], row["measured_microseconds"]] for row in rows]
-    return markdown("Modelled: two buildings of three storeys, the interface gathered in every step", head, cells)
+    return markdown("Modelled: two buildings of three storeys, the interface looked at in every step", head, cells)
 
 
 def machine_table(machine: Machine, messages: Messages) -> str:
@@ -91,7 +91,7 @@ NOTES = """\
 - `apart`: every rank a model of its own, nothing exchanged; `pair`: the two buildings of the model below.
 - Medians over the rounds in which the ranks had their cores (multiply-adds at 0.9 of the ideal), over all where no
   round was quiet. All points of a case take turns.
-- The modelled times add up compute, halo, gather and constraints of the part that has most of each, with nothing
+- The modelled times add up compute, halo and constraints of the part that has most of each, with nothing
   overlapping, at this machine's cost per dof and its messages (within one machine, unless latency and bandwidth are
   given). They are an estimate, not a measurement; where the same mesh was run, the last column has it.
 """

@@ -38,7 +38,7 @@ class Bench:
                     {number: brick(cells) for number in ranks}, dofs_per_rank * sum(ranks), "-apart")
 
     def pair(self, dofs: int, ranks: list) -> None:
-        """The pair of buildings, the interface gathered in every step."""
+        """The pair of buildings, the interface looked at in every step."""
         n = storey_cells(dofs)
         self._group("pair", f"two buildings, {n} bricks per metre",
                     {number: ["-storeys", n] for number in ranks}, dofs * len(ranks))
