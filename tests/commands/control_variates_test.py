@@ -65,6 +65,12 @@ class ClosedProblem(unittest.TestCase):
     def test_a_model_between_gains_more(self):
         self.check([BOTH, 120, 600], [0.99, 0.9], [20, 2, 0.2], 4.5, (True, False)[:1 + bool(os.environ.get("POUNDING_ALL"))])
 
+    def test_draws_that_all_hit(self):
+        """Models that never differ may do so as often as eight draws allow: 1 - .025^(1/8), as for counts."""
+        found = control.probability(control.Draws([np.ones((8, 1)), np.ones((40, 1))], None, [20, 1]))
+        self.assertAlmostEqual(found.low[0], 0.025 ** (1 / 8), delta=1e-12)
+        self.assertEqual(found.high[0], 1)
+
     def test_indicators_of_normals(self):
         for rho, expected in ((0.95, 0.77), (0.98, 0.855), (0.99, 0.9), (0.0, 0.0)):
             self.assertAlmostEqual(float(control.exceeding_together(0.84, np.array(rho))), expected, delta=3e-3)

@@ -14,6 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
+from . import binomial_interval
+
 
 @dataclass(frozen=True)
 class Estimate:
@@ -129,9 +131,10 @@ def mean(draws: Draws, confidence: float = 0.95) -> Estimate:
 
 
 def probability(draws: Draws, confidence: float = 0.95) -> Estimate:
-    """Mean of the indicators of an event, 0 and 1; the interval of models that never differ is as if one draw of two more did."""
-    m = len(draws.full)
-    found = _mean(draws, confidence, (m + 1) / (m + 2) ** 2)
+    """Mean of the indicators of an event, 0 and 1; models that never differ in the draws of the dear one may do so as often as Clopper and
+    Pearson's interval allows."""
+    m, differ = len(draws.full), binomial_interval(0, len(draws.full), confidence)[1]
+    found = _mean(draws, confidence, m * (differ / stats.t.ppf(0.5 + confidence / 2, m - len(draws.slopes(_slope)))) ** 2)
     low, value, high = (np.clip(one, 0, 1) for one in (found.low, found.value, found.high))
     return Estimate(value, low, high, found.correlation, found.gain)
 
