@@ -77,8 +77,8 @@ struct CountedRows {
   bool friction = false;
 };
 
-/// This rank's part of numbers that add up over ranks, as its row of a table; where there were fewer
-/// or more ranks the first takes all rows. Collective over `comm`, which may be null.
+/// This rank's part of numbers that add up over ranks, as its row of a table; where there were
+/// fewer or more ranks the first takes all rows. Collective over `comm`, which may be null.
 void keep_parts(const StateKeeper& state, MPI_Comm comm, const std::string& name,
                 std::vector<double>& part);
 
