@@ -50,7 +50,7 @@ class SteppedWindow {
 /// A scene to be built anew beside its run, at a time step of its own: no outputs but probes.
 void leave_outputs(Scene& scene);
 
-/// Adds the impulses of the step just made to `sum`, on the root of its contacts.
+/// Adds the impulses of the step just made to `sum`: those of rows that this rank counts.
 void add_impulses(ModelScheme& scheme, double& sum);
 
 }  // namespace pounding
