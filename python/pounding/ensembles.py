@@ -56,8 +56,6 @@ class Ensemble:
         return self.frequency, self.pseudo_acceleration[:, self.channels.index(channel), places[0]]
 
 
-
-
 def load_ensemble(folder) -> Ensemble:
     """The ensemble in a result folder, finished or not."""
     path = Path(folder) / "ensemble.h5"

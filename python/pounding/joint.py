@@ -94,8 +94,6 @@ def by_elevation(outcomes, elevations=None, members=None, built=None, torsion: f
     return rows
 
 
-
-
 def write(folder: Path, runs: dict) -> None:
     """joint_by_elevation.csv. `runs`: name of what was run, as with and without pounding -> its rows."""
     write_csv(Path(folder) / TABLE, [{"runs": name, **row} for name, rows in runs.items() for row in rows])

@@ -373,8 +373,6 @@ def text_of(one: Matched, about: str) -> str:
     return f"# {about}\ntime s,acceleration m/s2\n" + "".join(f"{time:.9g},{value:.12g}\n" for time, value in rows)
 
 
-
-
 def arguments(parser: argparse.ArgumentParser) -> argparse.ArgumentParser:
     """Options of the command."""
     parser.add_argument("rules", metavar="RULES", type=Path, help="table of rules whose targets are matched")

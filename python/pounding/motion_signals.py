@@ -113,8 +113,6 @@ def correlation(one: Signal, other: Signal, shift: float = 0.0) -> tuple:
     return float(found[worst]), float(lags[worst] * one.step)
 
 
-
-
 def _ask(words: list, program: Path | None) -> None:
     done = subprocess.run([str(program or program_of("pounding-spectra")), *map(str, words)], capture_output=True, text=True,
                           check=False)

@@ -201,7 +201,6 @@ void choose_time_step(const Scene& scene, const StepLimits& limits, Model& model
   }
   constexpr double most_steps = 1e12;
   refuse_if(scene.end_time / model.time_step > most_steps,
-
             sentence("option -end_time {} s: {} steps of {} s, above {}; give a shorter time{}",
                      {scene.end_time, scene.end_time / model.time_step, model.time_step, most_steps,
                       (scene.time_step > 0 ? ", or a longer -time_step" : "")}));

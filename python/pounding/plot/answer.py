@@ -312,8 +312,6 @@ def html(run: Result, twin: Result | None, why: str) -> str:
     return answer_box(lines, touched(run), command) if lines else ""
 
 
-
-
 def _across(result: Result, name: str | None) -> tuple:
     """The direction across a joint, in which it closes; every one if nothing tells it."""
     normal = result.summary.get("contacts", {}).get(name, {}).get("normal") if name else None

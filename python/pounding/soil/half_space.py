@@ -106,8 +106,6 @@ def impedances(mats: list, ground: Ground, frequencies, cells: int = 8) -> Imped
     return Impedances(numpy.asarray(frequencies, float), (matrix + matrix.transpose(0, 2, 1)) / 2)
 
 
-
-
 def read(path: Path) -> Impedances:
     """Impedances of the mats and the ground of a YAML file. Throws UserError or OSError."""
     reader = Reader(load(path), path, "", ("ground", "mats", "frequencies", "cells"))

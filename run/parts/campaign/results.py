@@ -17,8 +17,6 @@ IMPACT_HEAD = ["case", "floor", "impacts", "contact [ms]: median", "longest", "i
 AT_AN_END = 0.9  # share of the impulse in one half of the face that counts as a hit of that end
 
 
-
-
 @dataclass
 class CaseResult:
     """`spectra`: channel -> pseudo-acceleration [m/s2] at `frequency` [Hz]; `treated`: the same by
