@@ -72,6 +72,37 @@ class SavedState {
   std::map<DofKey, std::vector<double>> dofs_;
 };
 
+/// Rows of numbers of `count` objects: `members(i, take)` calls `take` with the members of object i
+/// that make a row.
+template <typename Members>
+std::vector<double> numbers_of(std::size_t count, const Members& members) {
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < count; ++i) {
+    members(i,
+            [&](const auto&... values) { (numbers.push_back(static_cast<double>(values)), ...); });
+  }
+  return numbers;
+}
+
+/// Objects as rows of numbers; `members(object, take)` likewise.
+template <typename Object, typename Members>
+std::vector<double> to_rows(const std::vector<Object>& objects, const Members& members) {
+  return numbers_of(objects.size(),
+                    [&](std::size_t i, const auto& take) { members(objects[i], take); });
+}
+
+/// Brings the numbers back into as many objects.
+template <typename Object, typename Members>
+void from_rows(std::span<const double> numbers, std::vector<Object>& objects,
+               const Members& members) {
+  auto next = numbers.begin();
+  for (Object& object : objects) {
+    members(object, [&](auto&... values) {
+      ((values = static_cast<std::remove_reference_t<decltype(values)>>(*next++)), ...);
+    });
+  }
+}
+
 /// Goes over the numbers of a state by their names, to put them into a saved state or to bring them
 /// back: their owner names them once.
 class StateKeeper {
@@ -149,10 +180,7 @@ class StateKeeper {
   template <typename Members>
   void rows_of(const std::string& name, std::size_t count, std::size_t columns,
                const Members& members) const {
-    std::vector<double> all;
-    for (std::size_t i = 0; i < count; ++i) {
-      members(i, [&](auto&... values) { (all.push_back(static_cast<double>(values)), ...); });
-    }
+    std::vector<double> all = numbers_of(count, members);
     table(name, all, count == 0 ? columns : all.size() / count);
     auto next = all.begin();
     for (std::size_t i = 0; !puts() && i < count; ++i) {
@@ -164,29 +192,5 @@ class StateKeeper {
   const SavedState* from_;
   bool known_;
 };
-
-/// Objects as rows of numbers. `members(object, take)` calls `take` with the members that make a
-/// row.
-template <typename Object, typename Members>
-std::vector<double> to_rows(const std::vector<Object>& objects, const Members& members) {
-  std::vector<double> numbers;
-  for (const Object& object : objects) {
-    members(object,
-            [&](const auto&... values) { (numbers.push_back(static_cast<double>(values)), ...); });
-  }
-  return numbers;
-}
-
-/// Brings the numbers back into as many objects.
-template <typename Object, typename Members>
-void from_rows(std::span<const double> numbers, std::vector<Object>& objects,
-               const Members& members) {
-  auto next = numbers.begin();
-  for (Object& object : objects) {
-    members(object, [&](auto&... values) {
-      ((values = static_cast<std::remove_reference_t<decltype(values)>>(*next++)), ...);
-    });
-  }
-}
 
 }  // namespace pounding
