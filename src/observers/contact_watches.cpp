@@ -94,7 +94,7 @@ class ImpactWatch final : public Observer {
 
   void finish(bool /*complete*/) override { catalogue_.finish(run_.comm, root_); }
   void keep_state(const StateKeeper& state) override {
-    catalogue_.keep(state.known_if(rank_of(run_.comm) == root_));
+    catalogue_.keep(state.known_if(rank_of(run_.comm) == root_), run_.comm, root_);
   }
 
   void keep(MemberResult& member) const override {
@@ -264,10 +264,9 @@ class ContactHistory final : public Observer {
 
   void keep_state(const StateKeeper& state) override {
     if (state.puts()) share();
-    const StateKeeper own = state.known_if(rank_of(run_.comm) == std::max(run_.contact_root(), 0));
-    if (run_.is_contact_member()) {
-      keep_parts(own, run_.scheme.contact()->comm(), "recorder_impulse", impulses_);
-    }
+    const int root = std::max(run_.contact_root(), 0);
+    keep_contact_sums(state, run_.comm, root, "recorder_impulse", impulses_);
+    const StateKeeper own = state.known_if(rank_of(run_.comm) == root);
     own.rows("joint_closings", closings_, closing_members);
     own.rows("pair_gaps", pairs_, least_gap_members);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <sstream>
@@ -74,20 +75,15 @@ void ImpactTotals::add(const Impact& impact) {
   friction_loss += impact.friction_loss;
 }
 
-void keep_parts(const StateKeeper& state, MPI_Comm comm, const std::string& name,
-                std::vector<double>& part) {
-  if (comm == MPI_COMM_NULL || part.empty()) return;
-  if (state.puts()) {
-    std::vector<double> all = gather_rows(comm, part);
-    return state.table(name, all, part.size());
-  }
-  const std::vector<double>& all = state.state().table(name, part.size());
-  const std::size_t rank = rank_of(comm);
-  const bool own = all.size() == part.size() * static_cast<std::size_t>(size_of(comm));
-  std::ranges::fill(part, 0.0);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (own ? i / part.size() == rank : rank == 0) part[i % part.size()] += all[i];
-  }
+void keep_contact_sums(const StateKeeper& state, MPI_Comm comm, int root, const std::string& name,
+                       std::vector<double>& part) {
+  if (part.empty()) return;
+  state.sums(name, part);
+  if (state.puts() || root == 0) return;
+  std::vector<double> of_first = part;  // all, where the number of ranks is another; else zeros
+  MPI_Bcast(of_first.data(), static_cast<int>(of_first.size()), MPI_DOUBLE, 0, comm);
+  if (rank_of(comm) != root) return;
+  std::ranges::transform(part, of_first, part.begin(), std::plus());
 }
 
 ImpactCatalogue::ImpactCatalogue(int contacts, std::vector<int> contact_of_row,
@@ -267,8 +263,7 @@ void ImpactCatalogue::finish(MPI_Comm comm, int root) {
                    [](const Impact& a, const Impact& b) { return a.start < b.start; });
 }
 
-void ImpactCatalogue::keep(const StateKeeper& state) {
-  if (state.puts() && counted_.comm == MPI_COMM_NULL) return;
+void ImpactCatalogue::keep(const StateKeeper& state, MPI_Comm comm, int root) {
   if (state.puts()) flush();
   std::vector<Impact> open = open_;
   std::vector<double> touched(touched_.begin(), touched_.end());
@@ -287,7 +282,7 @@ void ImpactCatalogue::keep(const StateKeeper& state) {
   if (std::ranges::any_of(open, unknown)) state.state().refuse_values("impacts_open");
   if (!state.puts()) open_ = std::move(open);
   std::vector<double> parts = to_rows(open_, impact_parts);
-  keep_parts(state, counted_.comm, "impacts_open_parts", parts);
+  keep_contact_sums(state, comm, root, "impacts_open_parts", parts);
   from_rows(parts, open_, impact_parts);
   const auto flags = [&](const char* name, std::vector<double> numbers, std::vector<char>& all) {
     state.table(name, numbers);

@@ -77,10 +77,11 @@ struct CountedRows {
   bool friction = false;
 };
 
-/// This rank's part of numbers that add up over ranks, as its row of a table; where there were
-/// fewer or more ranks the first takes all rows. Collective over `comm`, which may be null.
-void keep_parts(const StateKeeper& state, MPI_Comm comm, const std::string& name,
-                std::vector<double>& part);
+/// Sums of a saved state to which the ranks of the contacts have parts. Of a run on another number
+/// of ranks `root`, the lowest of them, gets all. Collective over `comm`, that of the run, where it
+/// brings them back.
+void keep_contact_sums(const StateKeeper& state, MPI_Comm comm, int root, const std::string& name,
+                       std::vector<double>& part);
 
 /// Collects the impacts, on every rank the part of the rows that it counts. Ranks add up the
 /// impulses of the contacts in each step, some steps at a time.
@@ -99,9 +100,9 @@ class ImpactCatalogue {
   /// by start. Collective.
   void finish(MPI_Comm comm, int root);
 
-  /// Closed and open episodes; `state`: known to the first of the ranks that count. Collective over
-  /// these where it puts.
-  void keep(const StateKeeper& state);
+  /// Closed and open episodes; `state`: known to the first of the ranks that count, `root`, among
+  /// those of the run. Collective over all of these.
+  void keep(const StateKeeper& state, MPI_Comm comm, int root);
 
   const std::vector<Impact>& impacts() const { return impacts_; }
   /// Impulse of each constraint in the run [N s]; after `finish` on every rank.

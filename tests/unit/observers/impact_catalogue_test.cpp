@@ -74,9 +74,9 @@ TEST(ImpactCatalogue, ContinuesAnOpenEpisode) {
     add(*catalogue, 2, 2, 4);
   }
   SavedState saved;
-  before.keep(StateKeeper::to(saved));
+  before.keep(StateKeeper::to(saved), MPI_COMM_SELF, 0);
   ImpactCatalogue after = make();
-  after.keep(StateKeeper::from(saved));
+  after.keep(StateKeeper::from(saved), MPI_COMM_SELF, 0);
   EXPECT_EQ(after.episodes(), 3);
   for (ImpactCatalogue* catalogue : {&whole, &after}) {
     add(*catalogue, 2.001, 5, 0);
