@@ -69,7 +69,7 @@ WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model, int spl
                     std::vector<std::vector<PoolOutline>>(count), splits};
   std::vector<const Structure*> structures;
   for (const Structure& structure : scene.structures) structures.push_back(&structure);
-  MeshReader reader(std::move(structures), scene.meshes.time_limit, splits);
+  MeshReader reader(std::move(structures), scene.meshes.time_limit, splits, scene.kept);
   for (std::size_t s = 0; s < count; ++s) {
     read_whole_mesh(comm, scene, s, reader, whole, model);
     check_mesh(scene, s, whole.meshes[s], model);

@@ -10,6 +10,7 @@
 #include "common/error.h"
 #include "common/facts.h"
 #include "fidelity/full_order_window.h"
+#include "mesh/kept_inputs.h"
 
 namespace pounding {
 namespace {
@@ -141,6 +142,7 @@ RunOutcome run_estimated(MPI_Comm comm, ReadScene read, const SceneOrigin& origi
                     "; leave it out");
   }
   const bool with_mesh = read.scene.certificate.mesh;
+  read.scene.kept = std::make_shared<KeptInputs>();
   return run_scene(comm, std::move(read), origin,
                    [=](const Scene& scene, const Model& model, const ImpactCatalogue& impacts,
                        const Recorder& recorder) {

@@ -84,10 +84,10 @@ std::vector<std::string> doubts_of(const Structure& structure, const RawAnswer& 
 /// A mesh being read; the error of its beginning, if there is one, belongs to its end.
 class MeshReader::Reading {
  public:
-  Reading(const Structure& structure, double time_limit, int splits)
-      : structure_(structure), splits_(structure.matrices.empty() ? splits : 0) {
+  Reading(const Structure& structure, double time_limit, int splits, KeptInputs* kept)
+      : structure_(structure), kept_(kept), splits_(structure.matrices.empty() ? splits : 0) {
     try {
-      run_ = begin_raw_mesh(structure, time_limit);
+      if (!is_kept()) run_ = begin_raw_mesh(structure, time_limit);
     } catch (...) {
       failure_ = std::current_exception();
     }
@@ -95,7 +95,9 @@ class MeshReader::Reading {
 
   MeshRead finish() {
     if (failure_) std::rethrow_exception(failure_);
-    RawAnswer answer = finish_raw_mesh(structure_, *run_);
+    RawAnswer answer =
+        run_ ? finish_raw_mesh(structure_, *run_) : kept_->meshes.at(structure_.name);
+    if (kept_ != nullptr && run_) kept_->meshes[structure_.name] = answer;
     merge_shared_elements(answer.mesh);
     const std::vector<std::string> doubts = doubts_of(structure_, answer);
     for (int i = 0; i < splits_; ++i) split_mesh(structure_, answer.mesh);
@@ -107,20 +109,27 @@ class MeshReader::Reading {
   }
 
  private:
+  bool is_kept() const { return kept_ != nullptr && kept_->meshes.contains(structure_.name); }
+
   const Structure& structure_;
+  KeptInputs* kept_;
   int splits_;
   std::unique_ptr<GmshRun> run_;
   std::exception_ptr failure_;
 };
 
-MeshReader::MeshReader(std::vector<const Structure*> structures, double time_limit, int splits)
-    : structures_(std::move(structures)), time_limit_(time_limit), splits_(splits) {}
+MeshReader::MeshReader(std::vector<const Structure*> structures, double time_limit, int splits,
+                       std::shared_ptr<KeptInputs> kept)
+    : structures_(std::move(structures)),
+      time_limit_(time_limit),
+      splits_(splits),
+      kept_(std::move(kept)) {}
 
 MeshReader::~MeshReader() = default;
 
 std::unique_ptr<MeshReader::Reading> MeshReader::begin(std::size_t s) const {
   if (s >= structures_.size()) return nullptr;
-  return std::make_unique<Reading>(*structures_[s], time_limit_, splits_);
+  return std::make_unique<Reading>(*structures_[s], time_limit_, splits_, kept_.get());
 }
 
 MeshRead MeshReader::next() {

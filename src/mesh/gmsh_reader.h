@@ -7,6 +7,7 @@
 
 #include "mesh/divide_beams.h"
 #include "mesh/global_mesh.h"
+#include "mesh/kept_inputs.h"
 #include "scene/scene.h"
 
 namespace pounding {
@@ -32,8 +33,10 @@ class MeshReader {
  public:
   /// `structures` in the order in which they are asked for, alive while this object is used;
   /// `time_limit`: of Gmsh for each [s]; `splits`: how often every element is split (split_mesh.h),
-  /// but for structures of matrices, which are for the nodes of their file.
-  MeshReader(std::vector<const Structure*> structures, double time_limit, int splits = 0);
+  /// but for structures of matrices, which are for the nodes of their file; `kept`, or null: meshes
+  /// that are not read again, to which these come.
+  MeshReader(std::vector<const Structure*> structures, double time_limit, int splits,
+             std::shared_ptr<KeptInputs> kept);
   MeshReader(const MeshReader&) = delete;
   MeshReader& operator=(const MeshReader&) = delete;
   ~MeshReader();
@@ -51,6 +54,7 @@ class MeshReader {
   std::vector<const Structure*> structures_;
   double time_limit_;
   int splits_;
+  std::shared_ptr<KeptInputs> kept_;
   std::size_t taken_ = 0;
   std::unique_ptr<Reading> ahead_;  ///< of the structure that is taken next
 };

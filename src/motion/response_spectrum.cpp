@@ -61,9 +61,10 @@ std::vector<std::vector<SpectrumPoint>> response_spectra(std::span<const double>
       oscillators.push_back(make_oscillator(2 * std::numbers::pi * frequency * time_step, ratio));
     }
   }
+  const bool rests = std::ranges::all_of(acceleration, [](double a) { return a == 0; });
   const std::vector<double> peaks =
-      acceleration.empty() ? std::vector<double>(oscillators.size(), 0.0)
-                           : peak_displacements(acceleration, time_step, oscillators, after);
+      rests ? std::vector<double>(oscillators.size(), 0.0)
+            : peak_displacements(acceleration, time_step, oscillators, after);
   std::vector<std::vector<SpectrumPoint>> spectra(damping_ratios.size());
   for (std::size_t i = 0; i < oscillators.size(); ++i) {
     spectra[i % spectra.size()].push_back(point_of(frequencies[i / spectra.size()], peaks[i]));

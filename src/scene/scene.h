@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -111,8 +112,12 @@ struct Certificate {
   }
 };
 
+struct KeptInputs;  // mesh/kept_inputs.h
+
 struct Scene {
   std::string title;
+  /// Inputs that models of this scene, built one after the other, share; null: each reads its own.
+  std::shared_ptr<KeptInputs> kept;
   Certificate certificate;
   FidelityClimb fidelity;
   /// Options that cut meshes depend on, see scene/resolved_options.h.
