@@ -17,7 +17,7 @@ sys.dont_write_bytecode = True
 from parts.benchmark import ensembles, instructions, scenes, workers  # noqa: E402
 from parts.benchmark.comparison import check_agreement  # noqa: E402
 from parts.benchmark.machine import Series  # noqa: E402
-from parts.benchmark.scaling_model import CostCurve, Messages, Model  # noqa: E402
+from parts.benchmark.scaling_model import CostCurve, Messages, Model, Network, undivided  # noqa: E402
 from parts.benchmark.workers import MeasuringError, block_cells, slab_cells, storey_dofs  # noqa: E402
 
 PROCESSORS = 2  # it measures on two ranks
@@ -193,22 +193,35 @@ class Shapes(unittest.TestCase):
 class Scaling(Measured):
     @program.long
     def test_measured_and_modelled_points(self):
-        rows, result = self.run_script("scaling", "--apart", "1000,3000", "--pair", 8000, "--parts", "2,4,8")
+        rows, result = self.run_script("scaling", "--apart", "1000,3000", "--pair", 8000, "--parts", "2,4,8",
+                                       "--large", "100k", "--large-parts", "8,16", "--cores", 4, "--latency", 1e-6)
         measured = [row for row in rows if row["source"] == "measured"]
         self.assertEqual([(row["kind"], int(row["ranks"])) for row in measured],
                          [(kind, ranks) for kind in ("pair", "apart", "apart")
                           for ranks in (1, 2)])
         for row in measured:
             self.assert_positive(row, "dofs", "microseconds_per_step", "speed_up", "efficiency")
-        modelled = [row for row in rows if row["source"] == "modelled"]
+        large = [row for row in rows if row["kind"] == "large"]
+        self.assertEqual([(int(row["ranks"]), int(row["divided"])) for row in large],
+                         [(32, 1), (128, 1), (32, 5), (128, 5), (8, 5), (16, 5)])
+        for row in large:
+            self.assertEqual(int(row["dofs"]), storey_dofs(20 if int(row["ranks"]) >= 32 else 5))
+            self.assert_positive(row, "between_microseconds", "mean_outer")
+            self.assertLess(float(row["overlapped_microseconds"]), float(row["microseconds_per_step"]))
+            self.assertEqual(int(row["contact_rows"]), 5103 if int(row["ranks"]) >= 32 else 378)
+        for whole, fives in zip(large[:2], large[2:4]):
+            for column in ("mean_held", "imbalance"):
+                self.assertAlmostEqual(float(fives[column]) / float(whole[column]), 1, delta=0.1)
+        modelled = [row for row in rows if row["source"] == "modelled" and row["kind"] == "pair"]
         self.assertEqual([int(row["ranks"]) for row in modelled], [1, 2, 4, 8])
         pair = {int(row["ranks"]): row for row in measured if row["kind"] == "pair"}
         self.assertEqual(int(pair[1]["dofs"]), storey_dofs(2))
         for row in modelled:
             parts = int(row["ranks"])
-            terms = [float(row[f"{name}_microseconds"]) for name in ("compute", "halo", "exchange", "rows")]
+            terms = [float(row[f"{name}_microseconds"])
+                     for name in ("compute", "within", "between", "exchange", "rows", "agreement")]
             self.assertAlmostEqual(sum(terms) / float(row["microseconds_per_step"]), 1, delta=1e-9)
-            self.assertEqual(terms[1] > 0, parts > 1)
+            self.assertEqual((terms[1] > 0, terms[2] > 0, terms[5] > 0), (parts > 1, parts > 4, parts > 1))
             self.assertEqual(row["dofs"], pair[1]["dofs"])
             self.assertEqual(row["measured_microseconds"],
                              pair[parts]["microseconds_per_step"] if parts in pair else "")
@@ -229,6 +242,10 @@ class Scaling(Measured):
             self.assertLessEqual(line["messages"]["largest"], 2 * line["neighbours"]["largest"])
             held = line["elements_per_part"]["mean"] * parts
             (self.assertGreater if parts > 1 else self.assertEqual)(held, line["elements"])
+            of_parts = line["of_parts"]
+            self.assertEqual(sum(of_parts["elements"]), round(held))
+            self.assertEqual(max(of_parts["rows"]), line["contact_rows_per_part"])
+            self.assertEqual(sum(of_parts["messages_away"]) > 0, parts > 4)
 
 
 class Parts(unittest.TestCase):
@@ -251,23 +268,37 @@ class Parts(unittest.TestCase):
 
     def test_the_model_by_hand(self):
         messages = Messages([{"bytes": [8, 1000, 2000], "seconds": [1e-6, 2e-6, 4e-6]},
-                             {"bytes": [8, 1000, 2000], "seconds": [3e-6, 2e-6, 4e-6]}], None, None)
-        self.assertAlmostEqual(messages.time(1500), 3e-6)
-        self.assertAlmostEqual(messages.time(20000), 1e-6 + 20000 / 5e8)
-        self.assertAlmostEqual(Messages([{"bytes": [8], "seconds": [1]}], 1e-5, 1e9).time(1e4), 2e-5)
+                             {"bytes": [8, 1000, 2000], "seconds": [3e-6, 2e-6, 4e-6]}])
+        self.assertAlmostEqual(float(messages.time(1500)), 3e-6)
+        self.assertAlmostEqual(float(messages.time(20000)), 4e-6 + 18000 / 5e8)
         curve = CostCurve([100, 10000], [1e-9, 3e-9])
-        self.assertAlmostEqual(curve.step(1000), 2e-6)
-        self.assertAlmostEqual(curve.step(10), 1e-8)
+        self.assertAlmostEqual(float(curve.step(1000)), 2e-6)
+        self.assertAlmostEqual(float(curve.step(10)), 1e-8)
         model = Model(curve, curve, messages, factor=2, row_seconds=1e-8)
-        part = {"parts": 4, "dofs": 3000, "elements": 900, "contact_rows": 50, "contact_partners": 3,
-                "elements_per_part": {"largest": 300, "mean": 250}, "messages": {"largest": 2},
-                "sent": {"largest": 200}, "received": {"largest": 250},
-                "contact_rows_per_part": 20, "contact_dofs_sent": 12}
-        times = model.predict(part)
+        part = {"parts": 4, "dofs": 3000, "elements": 900, "contact_rows": 50, "contact_members": 3, "of_parts": {
+            "elements": [300, 240, 240, 240], "inner": [200, 200, 200, 200], "sent": [200, 90, 90, 90],
+            "received": [250, 80, 80, 80], "messages": [2, 1, 1, 1], "sent_away": [125, 0, 0, 20],
+            "messages_away": [1, 0, 0, 1], "rows": [20, 20, 20, 0], "contact_sent": [12, 0, 0, 0],
+            "partners": [3, 0, 0, 0]}}
+        on_one_node = {**part, "of_parts": {**part["of_parts"], "sent_away": [0] * 4, "messages_away": [0] * 4}}
+        times = model.predict(on_one_node)
         self.assertAlmostEqual(times["compute"], 2 * 2e-6)
-        self.assertAlmostEqual(times["halo"], 2 * 2e-6)
+        self.assertAlmostEqual(times["within"], 2 * 2e-6)
+        self.assertEqual(times["between"], 0)
         self.assertAlmostEqual(times["exchange"], 2 * 3 * 1e-6 + 12 * 24 / 5e8)
         self.assertAlmostEqual(times["rows"], 20 * 1e-8)
+        self.assertAlmostEqual(times["agreement"], 2 * 1e-6 + 0.02 * 2 * 1e-6)
+        self.assertEqual(times["step"], times["overlapped"])
+        model.network = Network(1e-5, 1e9, 2)
+        times = model.predict(part)
+        self.assertAlmostEqual(times["within"], 2e-6)  # 1000 bytes
+        self.assertAlmostEqual(times["between"], 1e-5 + 8 * 125 / 1e9)
+        self.assertAlmostEqual(times["exchange"], 2 * 3 * 1e-5 + 12 * 24 / 1e9)
+        self.assertAlmostEqual(times["step"] - times["overlapped"], 2 * 2e-6 * 200 / 300)
+        self.assertEqual(undivided(part)["of_parts"]["inner"], [900])
+        alone = model.predict(undivided(part))
+        self.assertAlmostEqual(alone["step"], 2 * float(curve.step(3000)) + 50 * 1e-8)
+        self.assertAlmostEqual(alone["overlapped"], alone["step"])
 
 
 if __name__ == "__main__":

@@ -7,9 +7,9 @@ from pounding.tables import markdown, number, write_csv
 from pounding.files import write_text
 
 from .machine import Machine
-from .scaling_model import Messages
+from .scaling_model import Messages, undivided
 
-PARTS = ("compute", "halo", "exchange", "rows")
+PARTS = ("compute", "within", "between", "exchange", "rows", "agreement")
 
 
 def measured_rows(points: list) -> list:
@@ -33,25 +33,30 @@ def measured_rows(points: list) -> list:
 
 
 def modelled_rows(studies: list, points: list) -> list:
-    """`studies`: (case, Model, lines of the study) per mesh."""
     rows = []
-    for case, model, parts in studies:
-        single = model.predict(parts[0])["step"]
-        for part in parts:
-            times = model.predict(part)
-            found = [point for point in points if point.kind == "pair"
-                     and (point.case, point.ranks) == (case, part["parts"])]
+    for study in studies:
+        single = study.model.predict(undivided(study.parts[0]))["step"]
+        for part in study.parts:
+            times = study.model.predict(part)
+            ideal = part["elements"] / part["parts"]
+            found = [point for point in points if (point.kind, point.case, point.ranks)
+                     == (study.kind, study.case, part["parts"])]
             rows.append({
-                "source": "modelled", "kind": "pair", "case": case, "dofs": part["dofs"],
+                "source": "modelled", "kind": study.kind, "case": study.case, "dofs": part["dofs"],
                 "ranks": part["parts"], "microseconds_per_step": 1e6 * times["step"],
                 "nanoseconds_per_dof": 1e9 * times["step"] / part["dofs"],
                 "speed_up": single / times["step"],
                 "efficiency": single / times["step"] / part["parts"],
                 "beside_a_share_alone": times["alone"] / times["step"],
+                "overlapped_microseconds": 1e6 * times["overlapped"],
+                "overlapped_efficiency": single / times["overlapped"] / part["parts"],
+                "overlapped_beside_a_share_alone": times["alone"] / times["overlapped"],
                 **{f"{name}_microseconds": 1e6 * times[name] for name in PARTS},
                 "measured_microseconds": 1e6 * found[0].seconds.median if found else None,
-                "largest_dofs": part["dofs_per_part"]["largest"],
-                "imbalance": part["elements_per_part"]["largest"] * part["parts"] / part["elements"],
+                "divided": part["divided"], "largest_dofs": part["dofs_per_part"]["largest"],
+                "imbalance": part["elements_per_part"]["largest"] / ideal,
+                "mean_held": part["elements_per_part"]["mean"] / ideal,
+                "mean_outer": part["outer_per_part"]["mean"] / ideal,
                 "largest_halo": part["received"]["largest"], "mean_halo": part["received"]["mean"],
                 "largest_neighbours": part["neighbours"]["largest"],
                 "mean_neighbours": part["neighbours"]["mean"],
@@ -69,24 +74,48 @@ def measured_table(rows: list) -> str:
     return markdown("Measured", head, cells)
 
 
+def contact_of(row: dict) -> float:
+    """Time of constraints, and of what ranks agree on [µs]."""
+    return sum(row[f"{name}_microseconds"] for name in ("exchange", "rows", "agreement"))
+
+
 def modelled_table(rows: list) -> str:
     """Parts of the time and the largest of everything are in table.csv."""
     head = ["dofs", "parts", "dofs of the largest part", "elements held, largest over ideal", "ghost dofs, mean",
             "neighbours, mean", "messages [µs]", "contact [µs]", "step [µs]", "efficiency",
             "beside an equal share alone", "measured [µs]"]
     cells = [[row["dofs"], row["ranks"], row["largest_dofs"], row["imbalance"], row["mean_halo"],
-              row["mean_neighbours"], row["halo_microseconds"],
-              row["exchange_microseconds"] + row["rows_microseconds"], row["microseconds_per_step"],
-              row["efficiency"], row["beside_a_share_alone"], row["measured_microseconds"]] for row in rows]
+              row["mean_neighbours"], row["within_microseconds"] + row["between_microseconds"], contact_of(row),
+              row["overlapped_microseconds"], row["overlapped_efficiency"], row["overlapped_beside_a_share_alone"],
+              row["measured_microseconds"]] for row in rows if row["kind"] == "pair"]
     return markdown("Modelled: two buildings of three storeys, the interface looked at in every step", head, cells)
+
+
+def large_table(studies: list, rows: list) -> str:
+    """Large pairs, below one that METIS parts by its bricks, and by bricks in fives as well."""
+    network = next(study.model.network for study in studies if study.kind == "large")
+    head = ["dofs", "parts", "METIS sees bricks of", "elements held over ideal, mean / largest",
+            "elements with ghosts over ideal", "ghost dofs, mean / largest", "neighbours, mean / largest",
+            "messages within / between nodes [µs]", "contact [µs]", "step, without / with overlap [µs]", "efficiency",
+            "beside an equal share alone"]
+    cells = [[row["dofs"], row["ranks"], f"{row['divided']}³" if row["divided"] > 1 else "1",
+              *(" / ".join(number(row[name]) for name in names) for names in (
+                  ("mean_held", "imbalance"), ("mean_outer",), ("mean_halo", "largest_halo"),
+                  ("mean_neighbours", "largest_neighbours"), ("within_microseconds", "between_microseconds"))),
+              contact_of(row),
+              *(" / ".join(number(row[name]) for name in names) for names in (
+                  ("microseconds_per_step", "overlapped_microseconds"), ("efficiency", "overlapped_efficiency"),
+                  ("beside_a_share_alone", "overlapped_beside_a_share_alone")))]
+             for row in rows if row["kind"] == "large"]
+    return markdown(f"Modelled on nodes of {network.cores} cores, {number(1e6 * network.latency)} µs and "
+                    f"{number(1e-9 * network.bandwidth)} GB/s between them: the two buildings", head, cells)
 
 
 def machine_table(machine: Machine, messages: Messages) -> str:
     rows = [[f"multiply-adds, {ranks} rank{'s' if ranks > 1 else ''} [Gflop/s]", series.median / 1e9,
              series.lowest / 1e9, series.highest / 1e9] for ranks, series in machine.flops.items()]
     table = markdown("Machine in the same run", ["", "median", "lowest", "highest"], rows)
-    source = "given" if messages.given else "measured between two ranks"
-    return table + (f"\nMessages, {source}: {number(1e6 * messages.latency)} µs for the shortest, "
+    return table + (f"\nMessages between two ranks: {number(1e6 * messages.latency)} µs for the shortest, "
                     f"{number(messages.bandwidth / 1e9)} GB/s.\n")
 
 
@@ -97,9 +126,9 @@ NOTES = """\
 - `efficiency` is beside the same model on one rank, whose memory is slower than the caches of a small part; an
   equal share alone has the cost per dof of its own size: uneven shares, elements on both sides of cuts, messages
   and contact are left.
-- The modelled times add up compute, halo and constraints of the part that has most of each, with nothing
-  overlapping, at this machine's cost per dof and its messages (within one machine, unless latency and bandwidth are
-  given). They are an estimate, not a measurement; where the same mesh was run, the last column has it.
+- The modelled times add up compute, halo and constraints of the slowest part, at this machine's cost per dof and its
+  messages within a node; those between nodes, by latency and bandwidth, travel while elements without ghosts are done.
+  They are an estimate, not a measurement; where the same mesh was run, the last column has it.
 """
 
 
@@ -107,6 +136,8 @@ def write(folder: Path, points: list, studies: list, machine: Machine, messages:
     """Writes table.md, table.csv and scaling.json; returns the tables."""
     measured, modelled = measured_rows(points), modelled_rows(studies, points)
     tables = [measured_table(measured), modelled_table(modelled), machine_table(machine, messages)]
+    if any(study.kind == "large" for study in studies):
+        tables.insert(2, large_table(studies, modelled))
     tables += [f"- {reason}" for reason in about["skipped"]]
     text = "\n".join([*tables, f"{about['processor']}, {about['cores']} cores, {about['date']}\n", NOTES])
     write_text(folder / "table.md", text)
@@ -114,6 +145,6 @@ def write(folder: Path, points: list, studies: list, machine: Machine, messages:
     rounds = [{**row, "seconds_per_step": point.seconds.as_json()} for row, point in zip(measured, points)]
     write_text(folder / "scaling.json", json.dumps(
         {**about, "measured": rounds, "modelled": modelled,
-         "partitions": [{"case": case, "parts": parts} for case, _, parts in studies],
+         "partitions": [{"case": study.case, "parts": study.parts} for study in studies],
          "machine": machine.as_json()}, indent=1) + "\n")
     return text
