@@ -47,6 +47,8 @@ TABLES = {
     "bricks": told("table.md", "benchmark", "--install-octave", "--sizes", "14000,36000,100000,300000,1000000,3000000",
                    "--rounds", 5, "--seconds", 0.3),
     "scaling": told("table.md", "scaling", "--pair", "4M", "--parts", "2,8,32", title="Modelled"),
+    "large": told("table.md", "scaling", "--seconds", 0.1, "--apart", "64k,100k,250k,1M", "--pair", "4M", "--parts", 2,
+                  "--large", "1000M", title="Modelled on nodes"),
     "shapes": told("shapes.md", "benchmark", "--shapes", "--rounds", 5, "--seconds", 0.1),
     "plant": told("plant.md", "benchmark", "--scenes", "plant", "--rounds", 3),
     "faces": told("faces.md", "benchmark", "--faces", "--rounds", 3),
