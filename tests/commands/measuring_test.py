@@ -229,6 +229,12 @@ class Scaling(Measured):
                                / float(pair[1]["microseconds_per_step"]), 1, delta=1e-9)
         self.check_partitions(result["partitions"][0]["parts"])
 
+    @program.long
+    def test_large_pairs_need_one_that_is_run(self):
+        result = script("scaling", *SHORT, "--apart", "1000", "--pair", "500M", "--large", "100k")
+        self.assertEqual(result.returncode, 1)
+        self.assertRegex(result.stderr, "--large needs a pair that is run on one rank; pair, .*: not run, needs about")
+
     def check_partitions(self, lines):
         for line in lines:
             parts = line["parts"]
