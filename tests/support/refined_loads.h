@@ -50,7 +50,6 @@ class RefinedMesh {
 
   /// Points of the lattice that are there, and the cubes at each of them.
   std::size_t count() const { return static_cast<std::size_t>(count_); }
-  std::size_t cube_count() const { return cubes_.size(); }
   const Place& place_of(GlobalIndex node) const { return places_[node]; }
 
   /// Cubes at each point, point after point.
