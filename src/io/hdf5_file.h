@@ -11,6 +11,21 @@
 
 namespace pounding {
 
+/// A handle of HDF5 of any kind, which is closed at the end of its scope.
+class Hdf5Handle {
+ public:
+  explicit Hdf5Handle(hid_t id) : id_(id) {}
+  Hdf5Handle(const Hdf5Handle&) = delete;
+  Hdf5Handle& operator=(const Hdf5Handle&) = delete;
+  ~Hdf5Handle() {
+    if (id_ >= 0) H5Idec_ref(id_);
+  }
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+};
+
 /// Rows of a virtual dataset that are the whole of a dataset of another file.
 struct VirtualRows {
   std::string dataset;
@@ -27,7 +42,7 @@ class Hdf5File {
   explicit Hdf5File(const std::string& path, Kind kind = Kind::plain);
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
-  ~Hdf5File();
+  ~Hdf5File() { close_handles(); }
 
   /// An empty dataset of `columns` doubles per row (a plain vector if `columns` is 0), with its
   /// unit.
@@ -36,14 +51,22 @@ class Hdf5File {
   void append(const std::string& name, std::span<const double> values);
   /// A dataset of final size with a checksum, shape (rows, columns) or a plain vector if `columns`
   /// is 0; groups in its name come into being.
-  void write_array(const std::string& name, std::size_t columns, std::span<const double> values);
+  void write_array(const std::string& name, std::size_t columns, std::span<const double> values) {
+    write_values(name, columns, H5T_NATIVE_DOUBLE, values.size(), values.data());
+  }
   /// An array of whole numbers of 4 bytes each, otherwise as write_array().
   void write_integers(const std::string& name, std::size_t columns,
-                      std::span<const std::int32_t> values);
+                      std::span<const std::int32_t> values) {
+    write_values(name, columns, H5T_NATIVE_INT32, values.size(), values.data());
+  }
   /// A plain vector of whole numbers of 8 bytes each, or of 1 byte each, otherwise as
   /// write_array().
-  void write_long_integers(const std::string& name, std::span<const std::int64_t> values);
-  void write_bytes(const std::string& name, std::span<const std::uint8_t> values);
+  void write_long_integers(const std::string& name, std::span<const std::int64_t> values) {
+    write_values(name, 0, H5T_NATIVE_INT64, values.size(), values.data());
+  }
+  void write_bytes(const std::string& name, std::span<const std::uint8_t> values) {
+    write_values(name, 0, H5T_NATIVE_UINT8, values.size(), values.data());
+  }
   /// A dataset of shape (rows, columns), or a plain vector if `columns` is 0, that holds no values
   /// of its own: `parts` are read from the file `source`, in the folder of this one, and rows of
   /// no part are 0. `type`: HDF5's, of one value.
@@ -52,7 +75,10 @@ class Hdf5File {
   /// An array of doubles in one piece whose place in the file is taken at once and filled by others
   /// once this one is closed; returns where it begins [bytes].
   std::int64_t reserve(const std::string& name, const std::vector<std::size_t>& shape);
-  void write_strings(const std::string& name, const std::vector<std::string>& values);
+  void write_strings(const std::string& name, const std::vector<std::string>& values) {
+    const hsize_t count = values.size();
+    write_padded(name, values, {&count, 1});
+  }
   /// A table of texts, shape (rows, columns), with the names of the columns, between commas, as its
   /// attribute `columns`.
   void write_texts(const std::string& name, const std::vector<std::string>& columns,
@@ -62,23 +88,27 @@ class Hdf5File {
   void create_number(const std::string& name);
   void write_number(const std::string& name, double value);
   /// Attribute of a dataset, of a group, or of the file ("/").
-  void write_attribute(const std::string& object, const std::string& name, double value);
+  void write_attribute(const std::string& object, const std::string& name, double value) {
+    put_attribute(object, name, H5T_NATIVE_DOUBLE, 1, &value);
+  }
   void write_attribute(const std::string& object, const std::string& name,
                        const std::string& value);
   /// A vector of whole numbers of 8 bytes each; a single one is a number.
   void write_attribute(const std::string& object, const std::string& name,
-                       const std::vector<std::int64_t>& values);
+                       const std::vector<std::int64_t>& values) {
+    put_attribute(object, name, H5T_NATIVE_INT64, values.size(), values.data());
+  }
 
   /// Begins to append rows, in an order in which the file is readable at any moment,
   /// by other programs at the same time and after this one is killed (single writer, multiple
   /// readers).
-  void stay_readable();
+  void stay_readable() { checked(H5Fstart_swmr_write(file_), "open for readers"); }
   /// Hands all that was written to the operating system.
-  void flush();
+  void flush() { checked(H5Fflush(file_, H5F_SCOPE_GLOBAL), "write"); }
   /// Another name in the same file system.
   void move_to(const std::string& path);
   /// Nothing more is written here, but others may fill places that were reserved, until close().
-  void let_others_write();
+  void let_others_write() { checked(close_handles(), "write"); }
   /// Everything is on the disk, or this throws.
   void close();
   /// Everything is on the disk, sealed but for these places, or this throws.
@@ -96,8 +126,15 @@ class Hdf5File {
   Dataset& find(const std::string& name);
   void write_values(const std::string& name, std::size_t columns, hid_t type, std::size_t count,
                     const void* values);
-  /// A dataset with the groups in its name; closes `space` and `properties`.
-  hid_t create(const std::string& name, hid_t type, hid_t space, hid_t properties) const;
+  void write_padded(const std::string& name, const std::vector<std::string>& values,
+                    std::span<const hsize_t> size);
+  /// A single value is a number, more are a vector.
+  void put_attribute(const std::string& object, const std::string& name, hid_t type, hsize_t count,
+                     const void* values);
+  Hdf5Handle space(const std::string& name, std::span<const hsize_t> size) const;
+  Hdf5Handle properties(const std::string& name) const;  ///< of a dataset to be made
+  /// A dataset with the groups in its name, which the caller closes.
+  hid_t create(const std::string& name, hid_t type, hid_t size, hid_t how) const;
   hid_t checked(hid_t id, const std::string& what) const;
   herr_t close_handles();
   void sync() const;

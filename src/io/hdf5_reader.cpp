@@ -10,21 +10,6 @@
 namespace pounding {
 namespace {
 
-/// Closes a handle of any kind at the end of its scope.
-class Handle {
- public:
-  explicit Handle(hid_t id) : id_(id) {}
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  ~Handle() {
-    if (id_ >= 0) H5Idec_ref(id_);
-  }
-  hid_t get() const { return id_; }
-
- private:
-  hid_t id_;
-};
-
 std::string without_padding(const std::string& text) {
   return text.substr(0, text.find('\0'));
 }
@@ -44,23 +29,19 @@ Hdf5Reader::Hdf5Reader(const std::string& path, Kind kind) : path_(path) {
   if (file_ < 0) fail("truncated or damaged, or in use by a program that still runs");
 }
 
-Hdf5Reader::~Hdf5Reader() {
-  H5Fclose(file_);
-}
-
 void Hdf5Reader::fail(const std::string& what) const {
   throw std::runtime_error(path_ + ": " + what);
 }
 
 std::vector<std::string> Hdf5Reader::names(const std::string& group) const {
-  const Handle object(H5Gopen2(file_, group.c_str(), H5P_DEFAULT));
-  if (object.get() < 0) return {};
+  const Hdf5Handle object(H5Gopen2(file_, group.c_str(), H5P_DEFAULT));
+  if (object < 0) return {};
   H5G_info_t info{};
-  H5Gget_info(object.get(), &info);
+  H5Gget_info(object, &info);
   std::vector<std::string> names;
   for (hsize_t i = 0; i < info.nlinks; ++i) {
     const auto name = [&](char* buffer, std::size_t size) {
-      return H5Lget_name_by_idx(object.get(), ".", H5_INDEX_NAME, H5_ITER_INC, i, buffer, size,
+      return H5Lget_name_by_idx(object, ".", H5_INDEX_NAME, H5_ITER_INC, i, buffer, size,
                                 H5P_DEFAULT);
     };
     const auto length = name(nullptr, 0);
@@ -80,12 +61,12 @@ hid_t Hdf5Reader::open_dataset(const std::string& dataset) const {
 }
 
 Hdf5Reader::Shape Hdf5Reader::shape(const std::string& dataset) const {
-  const Handle data(open_dataset(dataset));
-  const Handle space(H5Dget_space(data.get()));
+  const Hdf5Handle data(open_dataset(dataset));
+  const Hdf5Handle space(H5Dget_space(data));
   hsize_t size[2] = {0, 0};
-  const int rank = H5Sget_simple_extent_ndims(space.get());
+  const int rank = H5Sget_simple_extent_ndims(space);
   if (rank != 1 && rank != 2) fail("dataset '" + dataset + "' has not one or two dimensions");
-  H5Sget_simple_extent_dims(space.get(), size, nullptr);
+  H5Sget_simple_extent_dims(space, size, nullptr);
   if (size[0] > bytes_ / std::max<hsize_t>(1, size[1])) {
     fail("dataset '" + dataset + "' claims more values than the file has bytes: it is damaged");
   }
@@ -93,18 +74,18 @@ Hdf5Reader::Shape Hdf5Reader::shape(const std::string& dataset) const {
 }
 
 std::vector<std::size_t> Hdf5Reader::extent(const std::string& dataset) const {
-  const Handle data(open_dataset(dataset));
-  const Handle space(H5Dget_space(data.get()));
-  std::vector<hsize_t> size(std::max(0, H5Sget_simple_extent_ndims(space.get())));
-  H5Sget_simple_extent_dims(space.get(), size.data(), nullptr);
+  const Hdf5Handle data(open_dataset(dataset));
+  const Hdf5Handle space(H5Dget_space(data));
+  std::vector<hsize_t> size(std::max(0, H5Sget_simple_extent_ndims(space)));
+  H5Sget_simple_extent_dims(space, size.data(), nullptr);
   return {size.begin(), size.end()};
 }
 
 std::int64_t Hdf5Reader::offset(const std::string& dataset) const {
-  const Handle data(open_dataset(dataset));
-  const Handle type(H5Dget_type(data.get()));
-  const haddr_t offset = H5Dget_offset(data.get());
-  if (H5Tequal(type.get(), H5T_NATIVE_DOUBLE) <= 0 || offset == HADDR_UNDEF) {
+  const Hdf5Handle data(open_dataset(dataset));
+  const Hdf5Handle type(H5Dget_type(data));
+  const haddr_t offset = H5Dget_offset(data);
+  if (H5Tequal(type, H5T_NATIVE_DOUBLE) <= 0 || offset == HADDR_UNDEF) {
     fail("dataset '" + dataset + "' is not one piece of doubles");
   }
   return static_cast<std::int64_t>(offset);
@@ -119,14 +100,13 @@ std::vector<double> Hdf5Reader::rows(const std::string& dataset, std::size_t fir
   }
   std::vector<double> values(count * std::max<std::size_t>(1, whole.columns));
   if (values.empty()) return values;
-  const Handle data(open_dataset(dataset));
-  const Handle space(H5Dget_space(data.get()));
+  const Hdf5Handle data(open_dataset(dataset));
+  const Hdf5Handle space(H5Dget_space(data));
   const hsize_t start[2] = {first, 0};
   const hsize_t size[2] = {count, whole.columns};
-  H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start, nullptr, size, nullptr);
-  const Handle memory(H5Screate_simple(whole.columns == 0 ? 1 : 2, size, nullptr));
-  if (H5Dread(data.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT,
-              values.data()) < 0) {
+  H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, size, nullptr);
+  const Hdf5Handle memory(H5Screate_simple(whole.columns == 0 ? 1 : 2, size, nullptr));
+  if (H5Dread(data, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()) < 0) {
     fail("dataset '" + dataset + "' cannot be read: the file is damaged");
   }
   return values;
@@ -138,16 +118,15 @@ std::vector<double> Hdf5Reader::array(const std::string& dataset) const {
 
 std::vector<std::string> Hdf5Reader::strings(const std::string& dataset) const {
   const std::size_t count = shape(dataset).rows;
-  const Handle data(open_dataset(dataset));
-  const Handle type(H5Dget_type(data.get()));
-  if (H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) != 0) {
+  const Hdf5Handle data(open_dataset(dataset));
+  const Hdf5Handle type(H5Dget_type(data));
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) {
     fail("dataset '" + dataset + "' does not hold strings of fixed length");
   }
-  const std::size_t width = H5Tget_size(type.get());
+  const std::size_t width = H5Tget_size(type);
   if (count * width > bytes_) fail("dataset '" + dataset + "' claims more than the file has");
   std::string block(count * width, '\0');
-  if (count > 0 &&
-      H5Dread(data.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, block.data()) < 0) {
+  if (count > 0 && H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, block.data()) < 0) {
     fail("dataset '" + dataset + "' cannot be read: the file is damaged");
   }
   std::vector<std::string> values;
@@ -165,26 +144,25 @@ hid_t Hdf5Reader::open_attribute(const std::string& object, const std::string& a
 }
 
 double Hdf5Reader::number(const std::string& object, const std::string& attribute) const {
-  const Handle id(open_attribute(object, attribute));
-  const Handle space(H5Aget_space(id.get()));
+  const Hdf5Handle id(open_attribute(object, attribute));
+  const Hdf5Handle space(H5Aget_space(id));
   double value = 0;
-  if (H5Sget_simple_extent_npoints(space.get()) != 1 ||
-      H5Aread(id.get(), H5T_NATIVE_DOUBLE, &value) < 0) {
+  if (H5Sget_simple_extent_npoints(space) != 1 || H5Aread(id, H5T_NATIVE_DOUBLE, &value) < 0) {
     fail("attribute '" + attribute + "' of '" + object + "' is not a number");
   }
   return value;
 }
 
 std::string Hdf5Reader::text(const std::string& object, const std::string& attribute) const {
-  const Handle id(open_attribute(object, attribute));
-  const Handle type(H5Aget_type(id.get()));
-  const Handle space(H5Aget_space(id.get()));
-  if (H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) != 0 ||
-      H5Sget_simple_extent_npoints(space.get()) != 1) {
+  const Hdf5Handle id(open_attribute(object, attribute));
+  const Hdf5Handle type(H5Aget_type(id));
+  const Hdf5Handle space(H5Aget_space(id));
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
+      H5Sget_simple_extent_npoints(space) != 1) {
     fail("attribute '" + attribute + "' of '" + object + "' is not a string of fixed length");
   }
-  std::string value(H5Tget_size(type.get()), '\0');
-  if (H5Aread(id.get(), type.get(), value.data()) < 0) {
+  std::string value(H5Tget_size(type), '\0');
+  if (H5Aread(id, type, value.data()) < 0) {
     fail("attribute '" + attribute + "' of '" + object + "' cannot be read");
   }
   return without_padding(value);

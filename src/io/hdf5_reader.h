@@ -24,7 +24,7 @@ class Hdf5Reader {
   explicit Hdf5Reader(const std::string& path, Kind kind = Kind::plain);
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
-  ~Hdf5Reader();
+  ~Hdf5Reader() { H5Fclose(file_); }
 
   /// Names in a group, sorted; empty if there is no such group.
   std::vector<std::string> names(const std::string& group) const;
