@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <numeric>
@@ -34,17 +35,23 @@ void on_rank0(MPI_Comm comm, const std::function<void()>& work);
 /// that did. `work` must not communicate. Collective.
 void on_every_rank(MPI_Comm comm, const std::function<void()>& work);
 
+/// Values in portions whose length is an int.
+template <typename Value, typename Take>
+void in_portions(std::span<Value> values, const Take& take) {
+  constexpr std::size_t most = std::size_t{1} << 30;
+  for (; !values.empty(); values = values.subspan(std::min(values.size(), most))) {
+    take(values.data(), static_cast<int>(std::min(values.size(), most)));
+  }
+}
+
 /// Sends and receives an array of plain values of any length.
 template <typename Value>
 void send_array(MPI_Comm comm, int to, const std::vector<Value>& values) {
   const long count = static_cast<long>(values.size());
   MPI_Send(&count, 1, MPI_LONG, to, 0, comm);
-  const char* bytes = reinterpret_cast<const char*>(values.data());
-  const long total = count * static_cast<long>(sizeof(Value));
-  for (long sent = 0; sent < total; sent += 1L << 30) {
-    MPI_Send(bytes + sent, static_cast<int>(std::min(total - sent, 1L << 30)), MPI_CHAR, to, 1,
-             comm);
-  }
+  in_portions(std::as_bytes(std::span(values)), [&](const std::byte* first, int size) {
+    MPI_Send(first, size, MPI_BYTE, to, 1, comm);
+  });
 }
 
 template <typename Value>
@@ -52,12 +59,9 @@ void receive_array(MPI_Comm comm, int from, std::vector<Value>& values) {
   long count = 0;
   MPI_Recv(&count, 1, MPI_LONG, from, 0, comm, MPI_STATUS_IGNORE);
   values.resize(count);
-  char* bytes = reinterpret_cast<char*>(values.data());
-  const long total = count * static_cast<long>(sizeof(Value));
-  for (long got = 0; got < total; got += 1L << 30) {
-    MPI_Recv(bytes + got, static_cast<int>(std::min(total - got, 1L << 30)), MPI_CHAR, from, 1,
-             comm, MPI_STATUS_IGNORE);
-  }
+  in_portions(std::as_writable_bytes(std::span(values)), [&](std::byte* first, int size) {
+    MPI_Recv(first, size, MPI_BYTE, from, 1, comm, MPI_STATUS_IGNORE);
+  });
 }
 
 /// The array of rank `root` on every rank, of any length. Collective.
@@ -66,12 +70,8 @@ void broadcast_array(MPI_Comm comm, std::vector<Value, Allocator>& values, int r
   long count = static_cast<long>(values.size());
   MPI_Bcast(&count, 1, MPI_LONG, root, comm);
   values.resize(count);
-  char* bytes = reinterpret_cast<char*>(values.data());
-  const long total = count * static_cast<long>(sizeof(Value));
-  for (long sent = 0; sent < total; sent += 1L << 30) {
-    MPI_Bcast(bytes + sent, static_cast<int>(std::min(total - sent, 1L << 30)), MPI_CHAR, root,
-              comm);
-  }
+  in_portions(std::as_writable_bytes(std::span(values)),
+              [&](std::byte* first, int size) { MPI_Bcast(first, size, MPI_BYTE, root, comm); });
 }
 
 /// Values as bytes, see byte_stream.h, and back.
@@ -135,11 +135,9 @@ MPI_Datatype mpi_type() {
 template <typename... Values>
 void reduce_over_ranks(MPI_Comm comm, MPI_Op operation, Values&&... values) {
   const auto reduce = [&]<typename Number>(std::span<Number> numbers) {
-    constexpr std::size_t portion = std::size_t{1} << 28;  // range of an int
-    for (std::size_t first = 0; first < numbers.size(); first += portion) {
-      const auto count = static_cast<int>(std::min(portion, numbers.size() - first));
-      MPI_Allreduce(MPI_IN_PLACE, &numbers[first], count, mpi_type<Number>(), operation, comm);
-    }
+    in_portions(numbers, [&](Number* first, int count) {
+      MPI_Allreduce(MPI_IN_PLACE, first, count, mpi_type<Number>(), operation, comm);
+    });
   };
   const auto take = [&](auto& value) {
     if constexpr (std::is_arithmetic_v<std::remove_reference_t<decltype(value)>>) {
@@ -172,6 +170,13 @@ std::vector<Value> gathered(MPI_Comm comm, std::vector<Value> mine) {
   return all;
 }
 
+/// Where the part of each rank begins, of parts of so many rows one behind the other.
+inline std::vector<int> starts_of(std::span<const int> counts) {
+  std::vector<int> starts(counts.size());
+  std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
+  return starts;
+}
+
 /// Plain values of all ranks, one after the other, on all of them. Collective.
 template <typename Value>
 std::vector<Value> gather_rows(MPI_Comm comm, const std::vector<Value>& rows) {
@@ -179,8 +184,7 @@ std::vector<Value> gather_rows(MPI_Comm comm, const std::vector<Value>& rows) {
   const int count = static_cast<int>(rows.size());
   std::vector<int> counts(ranks);
   MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
-  std::vector<int> begins(ranks);
-  std::exclusive_scan(counts.begin(), counts.end(), begins.begin(), 0);
+  const std::vector<int> begins = starts_of(counts);
   std::vector<Value> all(static_cast<std::size_t>(begins.back() + counts.back()));
   MPI_Datatype value = MPI_DATATYPE_NULL;
   MPI_Type_contiguous(sizeof(Value), MPI_BYTE, &value);

@@ -7,16 +7,6 @@
 namespace pounding {
 namespace {
 
-std::vector<int> offsets_of(const std::vector<int>& counts) {
-  std::vector<int> offsets;
-  int total = 0;
-  for (const int count : counts) {
-    offsets.push_back(total);
-    total += count;
-  }
-  return offsets;
-}
-
 /// A row of so many doubles, as MPI counts them.
 class RowType {
  public:
@@ -49,8 +39,8 @@ FileBlocks::FileBlocks(const Mesh& mesh)
     ++send_counts_[numbers.back() / size];
   }
   MPI_Alltoall(send_counts_.data(), 1, MPI_INT, receive_counts_.data(), 1, MPI_INT, comm_);
-  send_offsets_ = offsets_of(send_counts_);
-  receive_offsets_ = offsets_of(receive_counts_);
+  send_offsets_ = starts_of(send_counts_);
+  receive_offsets_ = starts_of(receive_counts_);
   std::vector<GlobalIndex> arrived(
       static_cast<std::size_t>(receive_offsets_.back() + receive_counts_.back()));
   MPI_Alltoallv(numbers.data(), send_counts_.data(), send_offsets_.data(), MPI_INT64_T,
