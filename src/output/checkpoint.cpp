@@ -11,14 +11,10 @@
 #include "mesh/node_table.h"
 #include "output/checkpoint_format.h"
 #include "output/file_blocks.h"
-#include "output/saved_state_exchange.h"
 
 namespace pounding {
 namespace checkpoint_format {
 
-namespace {
-
-/// `work`, whose failures become UserErrors that begin with `prefix`.
 std::function<void()> for_user(const std::string& prefix, const std::function<void()>& work) {
   return [&] {
     try {
@@ -27,18 +23,6 @@ std::function<void()> for_user(const std::string& prefix, const std::function<vo
       throw UserError(prefix + error.what());
     }
   };
-}
-
-}  // namespace
-
-void on_rank0_for_user(MPI_Comm comm, const std::string& prefix,
-                       const std::function<void()>& work) {
-  on_rank0(comm, for_user(prefix, work));
-}
-
-void on_every_rank_for_user(MPI_Comm comm, const std::string& prefix,
-                            const std::function<void()>& work) {
-  on_every_rank(comm, for_user(prefix, work));
 }
 
 std::vector<double> basis_check(const LinearSystem& system) {
@@ -88,13 +72,13 @@ class CheckpointWriter {
     const std::string folder = format::folder(mesh);
     reserve(folder + "/coordinates", {&mesh, 3, nullptr});
     if (system.generalised) {
-      write_table(folder + "/basis_check", 0, gather_owned(comm_, format::basis_check(system)));
+      write_table(folder + "/basis_check", 0, gathered(comm_, format::basis_check(system)));
     }
     const std::size_t columns = component_columns(mesh);
     for (const auto& [key, values] : saved.dofs()) {
       const std::string name = folder + "/" + key.second;
       if (key.first == structure && system.generalised) {
-        write_table(name, 0, gather_owned(comm_, values));
+        write_table(name, 0, gathered(comm_, values));
       } else if (key.first == structure) {
         reserve(name, {&mesh, columns, &values});
       }
@@ -107,14 +91,15 @@ class CheckpointWriter {
   }
 
   void write_tables(const SavedState& saved) {
-    const SavedTables tables = collect_tables(comm_, saved.tables());
+    std::map<std::string, SavedState::Table> tables;  // the lowest rank's where several have one
+    for_each_rank(comm_, saved.tables(), [&](int, auto& own) { tables.merge(own); });
     on_root([&] {
       for (const auto& [name, table] : tables) {
         file_->write_array("tables/" + name, table.columns, table.values);
       }
     });
     for (const auto& [name, parts] : saved.sums()) {
-      write_table("sums/" + name, parts.size(), gather_parts(comm_, parts));
+      write_table("sums/" + name, parts.size(), gathered(comm_, parts));
     }
   }
 
@@ -165,10 +150,10 @@ class CheckpointWriter {
   }
 
   void on_every_rank(const std::function<void()>& work) {
-    format::on_every_rank_for_user(comm_, failure, work);
+    pounding::on_every_rank(comm_, format::for_user(failure, work));
   }
   void on_root(const std::function<void()>& work) {
-    format::on_rank0_for_user(comm_, failure, work);
+    on_rank0(comm_, format::for_user(failure, work));
   }
   void write_table(const std::string& name, std::size_t columns, const std::vector<double>& table) {
     on_root([&] { file_->write_array(name, columns, table); });

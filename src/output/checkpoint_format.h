@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include <mpi.h>
-
 #include "mesh/mesh.h"
 #include "system/linear_system.h"
 
@@ -34,14 +32,8 @@ std::vector<double> basis_check(const LinearSystem& system);
 /// Largest part of the largest value by which such numbers of one basis may differ.
 inline constexpr double basis_tolerance = 1e-6;
 
-/// Runs `work` on rank 0; its errors become one UserError that begins with `prefix`, on every rank.
-/// Collective.
-void on_rank0_for_user(MPI_Comm comm, const std::string& prefix, const std::function<void()>& work);
-
-/// Runs `work`, which must not communicate, on every rank; failures as of on_rank0_for_user.
-/// Collective.
-void on_every_rank_for_user(MPI_Comm comm, const std::string& prefix,
-                            const std::function<void()>& work);
+/// `work`, whose failures become UserErrors that begin with `prefix`; both must outlive it.
+std::function<void()> for_user(const std::string& prefix, const std::function<void()>& work);
 
 /// Positions of the owned nodes [m], shape (owned_nodes, 3).
 inline std::span<const double> owned_coordinates(const Mesh& mesh) {

@@ -10,7 +10,6 @@
 #include "output/checkpoint.h"
 #include "output/checkpoint_format.h"
 #include "output/file_blocks.h"
-#include "output/saved_state_exchange.h"
 
 namespace pounding {
 namespace {
@@ -18,6 +17,36 @@ namespace {
 namespace format = checkpoint_format;
 
 const std::string option = "option -restart ";
+
+/// This rank's parts out of rank 0's table of shape (ranks that wrote it, `columns`): its own row
+/// if as many ranks wrote it, else the column sums on rank 0 and zeros elsewhere.
+std::vector<double> scatter_parts(MPI_Comm comm, const std::vector<double>& table,
+                                  std::size_t columns) {
+  std::vector<double> rows;
+  if (rank_of(comm) == 0) {
+    rows.assign(columns * static_cast<std::size_t>(size_of(comm)), 0.0);
+    if (table.size() == rows.size()) {
+      rows = table;
+    } else {
+      for (std::size_t i = 0; i < table.size(); ++i) rows[i % columns] += table[i];
+    }
+  }
+  const int count = static_cast<int>(columns);
+  std::vector<double> mine(columns);
+  MPI_Scatter(rows.data(), count, MPI_DOUBLE, mine.data(), count, MPI_DOUBLE, 0, comm);
+  return mine;
+}
+
+/// This rank's `count` values out of rank 0's of all ranks, rank after rank.
+std::vector<double> scatter_owned(MPI_Comm comm, const std::vector<double>& all,
+                                  std::size_t count) {
+  const std::vector<int> counts = gather_rows(comm, std::vector<int>{static_cast<int>(count)});
+  const std::vector<int> offsets = starts_of(counts);
+  std::vector<double> mine(count);
+  MPI_Scatterv(all.data(), counts.data(), offsets.data(), MPI_DOUBLE, mine.data(),
+               static_cast<int>(count), MPI_DOUBLE, 0, comm);
+  return mine;
+}
 
 using Options = std::map<std::string, std::string>;
 
@@ -95,7 +124,7 @@ class CheckpointReader {
   }
 
   void check_basis(const std::string& folder, const LinearSystem& system) {
-    const std::vector<double> now = gather_owned(comm_, format::basis_check(system));
+    const std::vector<double> now = gathered(comm_, format::basis_check(system));
     on_root([&] {
       const std::vector<double> written = file_->array(folder + "/basis_check");
       double largest = 0;
@@ -112,14 +141,14 @@ class CheckpointReader {
   }
 
   void read_tables(SavedState& saved) {
-    SavedTables tables;
+    std::map<std::string, SavedState::Table> tables;
     on_root([&] {
       for (const std::string& name : file_->names("tables")) {
         const std::string place = "tables/" + name;
         tables[name] = {file_->shape(place).columns, finite_array(place)};
       }
     });
-    broadcast_tables(comm_, tables);
+    broadcast_values(comm_, 0, tables);
     for (const auto& [name, table] : tables) saved.put(name, table.values, table.columns);
     for (const std::string& name : names("sums")) {
       std::vector<double> table;
@@ -136,10 +165,10 @@ class CheckpointReader {
 
  private:
   void on_root(const std::function<void()>& work) {
-    format::on_rank0_for_user(comm_, option, work);
+    on_rank0(comm_, format::for_user(option, work));
   }
   void on_every_rank(const std::function<void()>& work) {
-    format::on_every_rank_for_user(comm_, option, work);
+    pounding::on_every_rank(comm_, format::for_user(option, work));
   }
   void refuse_if(bool wrong, const std::string& why) const {
     if (wrong) refuse(why);

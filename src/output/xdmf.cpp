@@ -1,6 +1,7 @@
 #include "output/xdmf.h"
 
 #include <cstdio>
+#include <map>
 #include <stdexcept>
 
 #include "common/byte_texts.h"
@@ -17,24 +18,12 @@ std::string numbers(const std::vector<std::size_t>& values) {
 }
 
 std::string escaped(const std::string& text) {
+  static const std::map<char, std::string> names{
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
   std::string safe;
   for (const char letter : one_line(readable(text))) {
-    switch (letter) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += letter;
-    }
+    const auto name = names.find(letter);
+    safe += name == names.end() ? std::string(1, letter) : name->second;
   }
   return safe;
 }
