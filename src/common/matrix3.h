@@ -28,6 +28,10 @@ inline Vector3 minus(const Vector3& a, const Vector3& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
+inline double square_between(const Vector3& a, const Vector3& b) {
+  return dot(minus(a, b), minus(a, b));
+}
+
 /// The vector of length 1 along `a`; zero stays zero.
 inline Vector3 normalised(const Vector3& a) {
   const double length = norm(a);

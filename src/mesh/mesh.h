@@ -91,6 +91,11 @@ struct Mesh {
         [&](LocalIndex node, GlobalIndex wanted) { return number(node) < wanted; });
     return found != by_file_node.end() && number(*found) == file_number ? *found : -1;
   }
+  /// Owned dof of a component at the node with this number in the file order, or -1.
+  LocalIndex owned_dof(GlobalIndex file_number, int component) const {
+    const LocalIndex node = owned_node(file_number);
+    return node < 0 ? -1 : dof(node, component);
+  }
 };
 
 /// Whether an element has a node of a rigid body.

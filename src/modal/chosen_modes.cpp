@@ -31,7 +31,7 @@ std::vector<std::size_t> moving_most(MPI_Comm comm, const Mesh& mesh, const Moda
   std::vector<double> share(space.size(), 0.0);
   for (const auto* points : {&request.contact_points, &request.other_points}) {
     for (const TracePoint& point : *points) {
-      add_shares(space, squared_frequency, owned_dof(mesh, point), share);
+      add_shares(space, squared_frequency, mesh.owned_dof(point.node, point.component), share);
     }
   }
   reduce_over_ranks(comm, MPI_SUM, share);

@@ -7,10 +7,10 @@
 #include <numeric>
 #include <optional>
 #include <set>
-#include <sstream>
 
 #include "common/dense_matrix.h"
 #include "common/error.h"
+#include "common/facts.h"
 #include "common/parallel.h"
 #include "modal/block_krylov.h"
 #include "modal/chosen_modes.h"
@@ -89,12 +89,9 @@ class BasisMaker {
     if (request_.modes > 0) return std::min(static_cast<std::size_t>(request_.modes), independent_);
     const double omega = 2 * std::numbers::pi * request_.cutoff;
     const int below = ShiftedSolver(lowest_matrix(), omega * omega).eigenvalues_below();
-    if (below == 0) {
-      std::ostringstream text;
-      text << "option -" << system_.name << "_modal_cutoff " << request_.cutoff
-           << " Hz: no mode of the structure lies below it; give a higher one";
-      throw UserError(text.str());
-    }
+    refuse_if(below == 0, sentence("option -{}_modal_cutoff {} Hz: no mode of the structure lies "
+                                   "below it; give a higher one",
+                                   {system_.name, request_.cutoff}));
     return static_cast<std::size_t>(std::min(below, request_.most_modes));
   }
 
@@ -342,7 +339,7 @@ class BasisMaker {
     const std::size_t columns = supports.columns.size();
     basis.support_rows.assign(columns * basis.points.size(), 0.0);
     for (std::size_t p = 0; p < basis.points.size(); ++p) {
-      const LocalIndex dof = owned_dof(mesh_, basis.points[p]);
+      const LocalIndex dof = mesh_.owned_dof(basis.points[p].node, basis.points[p].component);
       for (std::size_t c = 0; dof >= 0 && c < columns; ++c) {
         const std::vector<double>& shape = supports.shape[c];
         if (!shape.empty()) basis.support_rows[p * columns + c] = shape[dof];
@@ -361,7 +358,7 @@ class BasisMaker {
     }
     DenseMatrix of_space(space_.size(), basis.points.size());
     for (std::size_t p = 0; p < basis.points.size(); ++p) {
-      const LocalIndex dof = owned_dof(mesh_, basis.points[p]);
+      const LocalIndex dof = mesh_.owned_dof(basis.points[p].node, basis.points[p].component);
       for (std::size_t j = 0; dof >= 0 && j < space_.size(); ++j) {
         of_space.column(p)[j] = std::sqrt(system_.inverse_mass[dof]) * space_.column(j)[dof];
       }

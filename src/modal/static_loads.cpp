@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "common/matrix3.h"
 #include "common/parallel.h"
 #include "modal/eigen_solver.h"
 #include "system/load_shapes.h"
@@ -55,7 +56,7 @@ void add_contact_loads(const LinearSystem& system, const Mesh& mesh, const Modal
        load_patches(system.comm, mesh, points, static_cast<std::size_t>(request.patches))) {
     std::vector<double> load(loads.rows, 0.0);
     for (const std::size_t p : patch) {
-      const LocalIndex dof = owned_dof(mesh, points[p]);
+      const LocalIndex dof = mesh.owned_dof(points[p].node, points[p].component);
       if (dof >= 0) load[dof] = patch.size() == 1 ? 1 : std::sqrt(system.inverse_mass[dof]);
     }
     loads.append(load);
@@ -63,11 +64,6 @@ void add_contact_loads(const LinearSystem& system, const Mesh& mesh, const Modal
 }
 
 using Patch = std::vector<std::size_t>;
-
-double square_between(const Vector3& a, const Vector3& b) {
-  const Vector3 d{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-}
 
 /// Patches of points that move along one axis.
 std::vector<Patch> patches_of(const Patch& points, std::span<const Vector3> positions,
@@ -92,15 +88,12 @@ std::vector<Patch> patches_of(const Patch& points, std::span<const Vector3> posi
 
 }  // namespace
 
-LocalIndex owned_dof(const Mesh& mesh, const TracePoint& point) {
-  const LocalIndex node = mesh.owned_node(point.node);
-  return node < 0 ? -1 : mesh.dof(node, point.component);
-}
-
 std::vector<TracePoint> free_points(MPI_Comm comm, const Mesh& mesh,
                                     const std::vector<TracePoint>& points) {
   std::vector<std::uint8_t> found;
-  for (const TracePoint& point : points) found.push_back(owned_dof(mesh, point) >= 0 ? 1 : 0);
+  for (const TracePoint& point : points) {
+    found.push_back(mesh.owned_dof(point.node, point.component) >= 0 ? 1 : 0);
+  }
   reduce_over_ranks(comm, MPI_MAX, found);
   std::vector<TracePoint> free;
   for (std::size_t p = 0; p < points.size(); ++p) {
@@ -140,7 +133,7 @@ DenseMatrix static_loads(const LinearSystem& system, const Mesh& mesh,
   add_contact_loads(system, mesh, request, loads);
   for (const TracePoint& point : free_points(system.comm, mesh, request.yielding_points)) {
     std::vector<double> load(loads.rows, 0.0);
-    if (const LocalIndex dof = owned_dof(mesh, point); dof >= 0) load[dof] = 1;
+    if (const LocalIndex dof = mesh.owned_dof(point.node, point.component); dof >= 0) load[dof] = 1;
     loads.append(load);
   }
   return loads;

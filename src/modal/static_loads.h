@@ -38,9 +38,6 @@ struct ModalRequest {
   const LinearSystem* damping = nullptr;
 };
 
-/// Owned dof of a point, -1 if it is clamped, does not exist or is another rank's. Local.
-LocalIndex owned_dof(const Mesh& mesh, const TracePoint& point);
-
 /// Points that are dofs, on whatever rank, in their order. Collective.
 std::vector<TracePoint> free_points(MPI_Comm comm, const Mesh& mesh,
                                     const std::vector<TracePoint>& points);

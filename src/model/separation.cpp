@@ -183,8 +183,7 @@ std::vector<double> modes_at_contacts(MPI_Comm comm, const Model& model, std::si
         }
         continue;
       }
-      const LocalIndex node = mesh.owned_node(term.node);
-      const LocalIndex dof = node < 0 ? -1 : mesh.dof(node, term.component);
+      const LocalIndex dof = mesh.owned_dof(term.node, term.component);
       for (std::size_t i = 0; dof >= 0 && i < modes; ++i) {
         gaps[i * rows.size() + r] += term.coefficient * building.modal.modes[i].shape[dof];
       }

@@ -37,8 +37,7 @@ std::vector<double> start_field(const Vector3& of_all, const std::vector<NodalVa
     if (system.direction[i] >= 0) field[i] = of_all[static_cast<std::size_t>(system.direction[i])];
   }
   for (const NodalValue& value : of_some) {
-    const LocalIndex node = mesh.owned_node(value.node);
-    const LocalIndex dof = node < 0 ? -1 : mesh.dof(node, value.component);
+    const LocalIndex dof = mesh.owned_dof(value.node, value.component);
     if (dof >= 0) field[static_cast<std::size_t>(dof)] = value.value;
   }
   return field;
@@ -82,8 +81,7 @@ std::shared_ptr<const LoadShapes> shape_loads(const SceneLoads& loads, int s, co
   return make_shapes(loads, s, [&](const NodalLoad& load, LoadShape& shape) {
     std::vector<std::pair<LocalIndex, double>> here;
     for (const NodalValue& force : load.forces) {
-      const LocalIndex node = mesh.owned_node(force.node);
-      const LocalIndex dof = node < 0 ? -1 : mesh.dof(node, force.component);
+      const LocalIndex dof = mesh.owned_dof(force.node, force.component);
       if (dof >= 0) here.emplace_back(dof, force.value);
     }
     std::ranges::sort(here);

@@ -16,12 +16,6 @@ constexpr std::size_t motions = 6;
 
 using MotionRow = std::array<double, motions>;
 
-double square_between(const Vector3& a, const Vector3& b) {
-  double sum = 0;
-  for (std::size_t d = 0; d < 3; ++d) sum += (a[d] - b[d]) * (a[d] - b[d]);
-  return sum;
-}
-
 /// A rigid body's motions about its centre of mass, rotations times a length of the body so that
 /// all have one unit.
 class Body {
