@@ -1,7 +1,8 @@
 #include "common/error.h"
 
 #include <filesystem>
-#include <sstream>
+
+#include "common/facts.h"
 
 namespace pounding {
 
@@ -20,9 +21,7 @@ void require_finite_file(const std::string& path, const std::string& place, std:
 }
 
 std::string place_text(const Vector3& place) {
-  std::ostringstream text;
-  text << "(" << place[0] << ", " << place[1] << ", " << place[2] << ")";
-  return text.str();
+  return sentence("{}", {place});
 }
 
 }  // namespace pounding

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <sstream>
 #include <utility>
 
 #include "common/error.h"
+#include "common/facts.h"
 #include "common/parallel.h"
 #include "system/factor_plan.h"
 
@@ -52,11 +51,6 @@ constexpr double lift = 1e-10;
 constexpr PetscInt grown_at_once = 4;
 constexpr PetscInt most_iterations = 20000;
 
-/// Memory [B] that no factor of so many dofs exceeds: a cube of bricks has the fullest one.
-double most_factor_memory(double dofs) {
-  return 250 * std::pow(dofs, 4.0 / 3);
-}
-
 /// Residual over the eigenvalue, or over `context`, where round-off is the tolerance.
 PetscErrorCode error_of(EPS, PetscScalar value, PetscScalar, PetscReal residual, PetscReal* error,
                         void* context) {
@@ -79,13 +73,11 @@ void solve(EPS solver) {
 
 void refuse_modes(const LinearSystem& system, const Mesh& mesh, int found, int count,
                   const std::string& option) {
-  std::ostringstream text;
-  text << "structure " << system.name << ": only " << found << " of " << count
-       << " modes converged; its mesh is " << bounding_box(system.comm, mesh).longest_side()
-       << " m long: look at the units of mesh and materials and at parts that nothing holds, or "
-          "leave the modes out with -modes 0"
-       << (option.empty() ? "" : "; leave option " + option + " out");
-  throw UserError(text.str());
+  throw UserError(sentence(
+      "structure {}: only {} of {} modes converged; its mesh is {} m long: look at the units of "
+      "mesh and materials and at parts that nothing holds, or leave the modes out with -modes 0[; "
+      "leave option {} out]",
+      {system.name, found, count, bounding_box(system.comm, mesh).longest_side(), option}));
 }
 
 void require_converged(EPS solver, const LinearSystem& system, const Mesh& mesh, int count) {
@@ -274,9 +266,10 @@ bool must_iterate(const LinearSystem& system, Mat matrix, SolverChoice choice) {
   reduce_over_ranks(system.comm, MPI_MIN, usable);
   PetscInt dofs = 0;
   POUNDING_PETSC(MatGetSize(matrix, &dofs, nullptr));
+  // No factor of so many dofs exceeds this memory [B]: a cube of bricks has the fullest one.
+  const double most = 250 * std::pow(static_cast<double>(dofs), 4.0 / 3);
   // Ordering the rows takes its time: only where the answer is in doubt.
-  return most_factor_memory(static_cast<double>(dofs)) > usable &&
-         plan_factor(matrix, factor_workspace).memory > usable;
+  return most > usable && plan_factor(matrix, factor_workspace).memory > usable;
 }
 
 LowestPairs iterate_lowest(const LowestProblem& problem, int count) {
@@ -315,10 +308,7 @@ LowestPairs iterate_lowest(const LowestProblem& problem, int count) {
   POUNDING_PETSC(EPSSetConvergenceTest(solver, EPS_CONV_REL));
   PetscInt iterations = 0;
   POUNDING_PETSC(EPSGetIterationNumber(solver, &iterations));
-  char text[80];
-  std::snprintf(text, sizeof text, "generalised Davidson with multigrid, %d iterations",
-                static_cast<int>(iterations));
-  result.method = text;
+  result.method = sentence("generalised Davidson with multigrid, {} iterations", {iterations});
   return result;
 }
 

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
-#include <sstream>
 
 #include "common/error.h"
+#include "common/facts.h"
 #include "common/parallel.h"
 #include "stiffness/stiffness.h"
 #include "system/inelastic_laws.h"
@@ -199,11 +198,10 @@ std::vector<double> coordinate_masses(const Structure& structure, const ModalBas
   const bool rayleigh = structure.modal->damping_ratios.empty();
   const double alpha = rayleigh ? structure.damping.alpha : 0;
   if (dt * alpha >= 2) {
-    std::ostringstream text;
-    text << "option -" << structure.name << "_mass_scaling " << dt
-         << " s: the damping alpha = " << alpha << " 1/s allows no step above " << 2 / alpha
-         << " s; ask for a smaller one";
-    throw UserError(text.str());
+    throw UserError(
+        sentence("option -{}_mass_scaling {} s: the damping alpha = {} 1/s allows no step above {} "
+                 "s; ask for a smaller one",
+                 {structure.name, dt, alpha, 2 / alpha}));
   }
   const std::vector<double> rates = damping_rates(structure, basis);
   const double stiffening = stiffening_of(structure, basis);
@@ -226,10 +224,9 @@ double energy_margin(const Structure& structure, const ModalBasis& basis, double
 }
 
 std::string describe_coordinate(const ModalBasis& basis, std::size_t coordinate) {
-  char text[100];
-  std::snprintf(text, sizeof text, "generalised coordinate %zu (%.4g Hz)", coordinate + 1,
-                std::sqrt(basis.squared_frequency[coordinate]) / (2 * std::numbers::pi));
-  return text;
+  return sentence(
+      "generalised coordinate {} ({:.4g} Hz)",
+      {coordinate + 1, std::sqrt(basis.squared_frequency[coordinate]) / (2 * std::numbers::pi)});
 }
 
 std::string locate_largest(const LinearSystem& system, const ModalBasis& basis,

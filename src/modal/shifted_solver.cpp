@@ -3,9 +3,9 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <sstream>
 
 #include "common/error.h"
+#include "common/facts.h"
 #include "common/parallel.h"
 #include "elements/geometric_stiffness.h"
 #include "mesh/element_properties.h"
@@ -140,12 +140,10 @@ void require_no_buckling(const Structure& structure, const Mesh& mesh, const Lin
     if (work < least) group = name;
     least = std::min(least, work);
   }
-  std::ostringstream text;
-  text << "option -" << structure.name << "_p_delta: structure " << structure.name
-       << " buckles under its weight and loads, by the axial forces of group " << group
-       << "; up to " << largest.force << " N press " << largest.place
-       << "; give it stiffer sections or less to carry";
-  throw UserError(text.str());
+  throw UserError(
+      sentence("option -{}_p_delta: structure {} buckles under its weight and loads, by the axial "
+               "forces of group {}; up to {} N press {}; give it stiffer sections or less to carry",
+               {structure.name, structure.name, group, largest.force, largest.place}));
 }
 
 }  // namespace pounding

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 #include "common/error.h"
 #include "common/facts.h"
@@ -179,11 +178,11 @@ class Designer {
   }
 
   [[noreturn]] void refuse(const std::string& why) {
-    std::ostringstream text;
     const double reach = reachable(target_.time_step);
-    text << "option -" << structure_.name << "_time_step_target " << target_.time_step
-         << " s: " << why << "; " << three_digits_down(reach) << " s is within reach, "
-         << three_digits_down(before_) << " s stable without";
+    std::string text =
+        sentence("option -{}_time_step_target {} s: {}; {} s is within reach, {} s stable without",
+                 {structure_.name, target_.time_step, why, three_digits_down(reach),
+                  three_digits_down(before_)});
     const auto uniform = uniform_in_place_of(structure_.damping, first_);
     if (uniform && scales_no_more(*uniform)) {
       structure_.uniform_damping = uniform;
@@ -191,11 +190,12 @@ class Designer {
       for (Region& region : structure_.regions) region.damping.reset();
       const double reach_then = reachable(target_.time_step);
       if (reach_then > reach) {
-        text << ", " << three_digits_down(reach_then) << " s within reach with -" << structure_.name
-             << "_damping_uniform " << number(uniform->ratio) << " in place of Rayleigh damping";
+        text +=
+            sentence(", {} s within reach with -{}_damping_uniform {} in place of Rayleigh damping",
+                     {three_digits_down(reach_then), structure_.name, number(uniform->ratio)});
       }
     }
-    throw UserError(text.str());
+    throw UserError(text);
   }
 
   Structure structure_;
@@ -210,18 +210,6 @@ class Designer {
 };
 
 }  // namespace
-
-double FrequencyChange::largest() const {
-  return 1 - 1 / std::sqrt(1 + 2 * rotations + elements);
-}
-
-double FrequencyChange::by_rotations() const {
-  return FrequencyChange{rotations, 0}.largest();
-}
-
-double FrequencyChange::by_elements() const {
-  return FrequencyChange{0, elements}.largest();
-}
 
 RotationBound::RotationBound(const LinearSystem& system, const Mesh& mesh, double omega)
     : system_(system),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <string>
 
@@ -25,9 +26,9 @@ struct FrequencyChange {
   double rotations = 0;  ///< e, of the rotational inertia of shells [-]
   double elements = 0;   ///< c omega^2, c the largest factor of mass scaling [-]
   /// The bound, and that with one kind of scaled mass alone [-].
-  double largest() const;
-  double by_rotations() const;
-  double by_elements() const;
+  double largest() const { return 1 - 1 / std::sqrt(1 + 2 * rotations + elements); }
+  double by_rotations() const { return FrequencyChange{rotations, 0}.largest(); }
+  double by_elements() const { return FrequencyChange{0, elements}.largest(); }
 };
 
 /// e of added inertia D: the largest eigenvalue of D^1/2 (M + K / omega^2)^-1 D^1/2 by Lanczos

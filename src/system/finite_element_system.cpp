@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <map>
-#include <sstream>
 
 #include "common/error.h"
+#include "common/facts.h"
 #include "common/parallel.h"
 #include "elements/geometric_stiffness.h"
 #include "elements/measured_costs.h"
@@ -200,20 +200,17 @@ class Assembly {
   }
 
   [[noreturn]] void refuse(LocalIndex node, int component) const {
-    const Vector3 x = mesh_.position(node);
     const int part = mesh_.rigid_of.empty() ? -1 : mesh_.rigid_of[static_cast<std::size_t>(node)];
-    std::ostringstream text;
-    text << "structure " << structure_.name << ": the node at (" << x[0] << ", " << x[1] << ", "
-         << x[2] << ") has no mass " << (component < 3 ? "along " : "against turning about ")
-         << "xyz"[component % 3];
     const RigidPart* const body = part < 0 ? nullptr : &mesh_.rigid[static_cast<std::size_t>(part)];
-    if (body != nullptr && mesh_.follows(node, component)) {
-      text << ", and nothing in " << body->group
-           << ", with which it moves, resists that motion; give a point_mass with rotary_inertia";
-    } else {
-      text << remedy(node, component);
-    }
-    throw UserError(text.str());
+    const bool follows = body != nullptr && mesh_.follows(node, component);
+    throw UserError(sentence(
+        "structure {}: the node at {} has no mass {}{}{}",
+        {structure_.name, mesh_.position(node), component < 3 ? "along " : "against turning about ",
+         direction_names[static_cast<std::size_t>(component % 3)],
+         follows ? ", and nothing in " + body->group +
+                       ", with which it moves, resists that motion; give a point_mass with "
+                       "rotary_inertia"
+                 : remedy(node, component)}));
   }
 
   /// Groups of the structure with an element at a node of this rank.
@@ -291,10 +288,9 @@ std::string describe(const stiffness::ElementKinds& kinds, Numbers numbers) {
   const std::string single = numbers == Numbers::in_single
                                  ? ", of these " + std::to_string(kinds.single) + " in 32 bits"
                                  : "";
-  return "element by element (" + std::to_string(kinds.bricks) + " bricks, " +
-         std::to_string(kinds.rectangles) + " rectangles, " + std::to_string(kinds.general) +
-         " general" + single + ", " + std::to_string(kinds.beams) + " beams, " +
-         std::to_string(kinds.other) + " others)";
+  return sentence(
+      "element by element ({} bricks, {} rectangles, {} general{}, {} beams, {} others)",
+      {kinds.bricks, kinds.rectangles, kinds.general, single, kinds.beams, kinds.other});
 }
 
 /// Time of a step of the solids of a mesh over that of hexahedra extruded along an axis with as

@@ -5,11 +5,11 @@
 #include <map>
 #include <numbers>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "common/dense_matrix.h"
 #include "common/error.h"
+#include "common/facts.h"
 #include "common/integer_sets.h"
 #include "elements/element_traits.h"
 #include "laws/law_of.h"
@@ -21,20 +21,18 @@ namespace pounding {
 namespace {
 
 [[noreturn]] void refuse(const Structure& structure, const std::string& why) {
-  std::ostringstream text;
-  text << "option -" << structure.name
-       << (structure.step_target ? "_time_step_target " : "_mass_scaling ")
-       << structure.mass_scaling << " s: " << why;
-  throw UserError(text.str());
+  throw UserError(
+      sentence("option -{}_{} {} s: {}",
+               {structure.name, structure.step_target ? "time_step_target" : "mass_scaling",
+                structure.mass_scaling, why}));
 }
 
 void check_alpha(const Structure& structure, const Region& region) {
   const double alpha = structure.damping_of(region).alpha;
   if (structure.mass_scaling * alpha >= 2) {
-    std::ostringstream text;
-    text << "the damping alpha = " << alpha << " 1/s of group " << region.group
-         << " allows no step above " << 2 / alpha << " s; ask for a smaller one";
-    refuse(structure, text.str());
+    refuse(structure, sentence("the damping alpha = {} 1/s of group {} allows no step above {} s; "
+                               "ask for a smaller one",
+                               {alpha, region.group, 2 / alpha}));
   }
 }
 

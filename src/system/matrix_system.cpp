@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "common/error.h"
+#include "common/facts.h"
 #include "common/parallel.h"
 #include "common/types.h"
 #include "io/matrix_market.h"
@@ -163,12 +164,9 @@ class MatrixSystem {
   void check_dofs(const std::vector<PetscInt>& times) const {
     for_each_owned_dof(mesh_, [&](LocalIndex dof, LocalIndex node, int c) {
       if (times[dof] == 1) return;
-      const Vector3 x = mesh_.position(node);
-      std::ostringstream text;
-      text << folder_ << "/dofs.csv: " << (times[dof] == 0 ? "no row" : "more than one row")
-           << " for " << component_names[c] << " of the node at (" << x[0] << ", " << x[1] << ", "
-           << x[2] << ") of " << mesh_.structure;
-      throw UserError(text.str());
+      throw UserError(sentence("{}/dofs.csv: {} for {} of the node at {} of {}",
+                               {folder_, times[dof] == 0 ? "no row" : "more than one row",
+                                component_names[c], mesh_.position(node), mesh_.structure}));
     });
   }
 

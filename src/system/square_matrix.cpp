@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "common/error.h"
+#include "common/facts.h"
 
 namespace pounding {
 namespace {
@@ -58,9 +58,9 @@ void SquareMatrix::finish() {
 void SquareMatrix::check() const {
   for (std::size_t row = 0; row < diagonal_.size(); ++row) {
     if (diagonal_[row] < 0) {
-      std::ostringstream text;
-      text << diagonal_[row] << " on the diagonal; a structure that resists has none below zero";
-      fail(static_cast<PetscInt>(row), static_cast<PetscInt>(row), text.str());
+      fail(static_cast<PetscInt>(row), static_cast<PetscInt>(row),
+           sentence("{} on the diagonal; a structure that resists has none below zero",
+                    {diagonal_[row]}));
     }
   }
   for (std::size_t row = 0; row < owned_dof_.size(); ++row) {
@@ -81,24 +81,22 @@ void SquareMatrix::check_row(PetscInt row, const std::vector<Entry>& entries,
     const double value = from_here ? (here++)->second : 0;
     const bool has_mirror = other != mirrored.end() && other->first == column;
     const double opposite = has_mirror ? (other++)->second : 0;
-    std::ostringstream text;
     if (std::abs(value - opposite) > round_off * largest_) {
-      text << value << ", but " << opposite << " at row " << column + 1 << ", column " << row + 1
-           << ": not symmetric";
-      fail(row, column, text.str());
+      fail(row, column,
+           sentence("{}, but {} at row {}, column {}: not symmetric",
+                    {value, opposite, column + 1, row + 1}));
     }
     const double bound = std::sqrt(diagonal_[row] * diagonal_[column]);
     if (std::abs(value) > bound + round_off * largest_) {
-      text << value << ", more than the diagonals there allow (" << bound
-           << "): some motion would give energy";
-      fail(row, column, text.str());
+      fail(row, column,
+           sentence("{}, more than the diagonals there allow ({}): some motion would give energy",
+                    {value, bound}));
     }
   }
 }
 
 void SquareMatrix::fail(PetscInt row, PetscInt column, const std::string& what) const {
-  throw UserError(path_ + ": row " + std::to_string(row + 1) + ", column " +
-                  std::to_string(column + 1) + ": " + what);
+  throw UserError(sentence("{}: row {}, column {}: {}", {path_, row + 1, column + 1, what}));
 }
 
 }  // namespace pounding
