@@ -12,6 +12,7 @@
 #include <dmumps_c.h>
 
 #include "common/memory.h"
+#include "common/parallel.h"
 
 namespace pounding {
 namespace {
@@ -124,9 +125,7 @@ class MumpsFactor::Instance {
   struct Shares {
     std::vector<int> counts, starts;
 
-    explicit Shares(std::vector<int> of) : counts(std::move(of)), starts(counts.size()) {
-      std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
-    }
+    explicit Shares(std::vector<int> of) : counts(std::move(of)), starts(starts_of(counts)) {}
     std::size_t total() const { return static_cast<std::size_t>(starts.back() + counts.back()); }
   };
 
@@ -279,10 +278,7 @@ class MumpsFactor::Instance {
 };
 
 MumpsFactor::MumpsFactor(Mat matrix, double shift)
-    : instance_(std::make_unique<Instance>(matrix, shift)) {}
-MumpsFactor::MumpsFactor(MumpsFactor&&) noexcept = default;
-MumpsFactor& MumpsFactor::operator=(MumpsFactor&&) noexcept = default;
-MumpsFactor::~MumpsFactor() = default;
+    : instance_(std::make_shared<Instance>(matrix, shift)) {}
 
 void MumpsFactor::solve(double* x, std::size_t columns) const {
   instance_->solve(x, columns);

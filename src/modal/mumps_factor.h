@@ -18,9 +18,6 @@ class MumpsFactor {
   /// std::bad_alloc without memory for the factor and std::runtime_error with the status of MUMPS
   /// where it fails otherwise, on every rank alike. Collective.
   MumpsFactor(Mat matrix, double shift);
-  MumpsFactor(MumpsFactor&&) noexcept;
-  MumpsFactor& operator=(MumpsFactor&&) noexcept;
-  ~MumpsFactor();
 
   /// X := (A - shift I)^-1 X of so many columns over the rows that this rank owns. Throws
   /// std::runtime_error where A - shift I is singular. Collective.
@@ -31,7 +28,7 @@ class MumpsFactor {
 
  private:
   class Instance;
-  std::unique_ptr<Instance> instance_;
+  std::shared_ptr<Instance> instance_;
 };
 
 }  // namespace pounding
