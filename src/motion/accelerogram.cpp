@@ -151,12 +151,6 @@ void differentiate_twice(Accelerogram& record) {
   record.layout += ", of displacement, accelerations by its cubic spline";
 }
 
-void add_value_doubts(const RecordedMotion& motion, Accelerogram& record) {
-  if (record.peak() == 0) {
-    record.doubts.push_back(motion.file + ": all values are zero; a dead channel?");
-  }
-}
-
 }  // namespace
 
 double Accelerogram::peak() const {
@@ -182,7 +176,9 @@ Accelerogram read_accelerogram(const RecordedMotion& motion) {
   const RecordFormat* format = format_of(lines);
   Accelerogram result =
       format != nullptr ? read_format(motion, *format, lines) : read_free(motion, lines);
-  add_value_doubts(motion, result);
+  if (result.peak() == 0) {
+    result.doubts.push_back(motion.file + ": all values are zero; a dead channel?");
+  }
   if (motion.is_of_displacement()) differentiate_twice(result);
   return result;
 }

@@ -76,24 +76,20 @@ void require_possible_record(const std::string& name, const std::string& what, d
 }
 
 MotionDescription describe_synthetic(const SyntheticMotion& motion) {
-  MotionDescription description;
-  description.source = motion.target;
-  description.layout = "synthetic, seed " + std::to_string(motion.seed);
-  description.treatment = "made to end without velocity and displacement";
-  return description;
+  return {.source = motion.target,
+          .layout = "synthetic, seed " + std::to_string(motion.seed),
+          .treatment = "made to end without velocity and displacement"};
 }
 
 MotionDescription describe_record(const std::string& file, const Accelerogram& record) {
-  MotionDescription description;
-  description.source = file;
-  description.layout = record.layout;
-  description.component = record.component;
-  description.file_start = record.start;
-  description.has_times = record.has_times;
-  description.unit = record.unit;
-  description.treatment = "baseline as recorded, no correction";
-  description.file_peak = record.peak();
-  return description;
+  return {.component = record.component,
+          .source = file,
+          .layout = record.layout,
+          .unit = record.unit,
+          .file_start = record.start,
+          .has_times = record.has_times,
+          .file_peak = record.peak(),
+          .treatment = "baseline as recorded, no correction"};
 }
 
 std::string scaling_text(const MotionComponent& component) {
@@ -172,9 +168,7 @@ void GroundMotion::add(std::size_t direction, const MotionComponent& component) 
   description.end_velocity = ground.velocity;
   description.end_displacement = ground.displacement;
   for (const std::string& doubt : accelerogram.doubts) doubts_.push_back(name + ": " + doubt);
-  for (const std::string& doubt : peak_doubts(name, component, description)) {
-    doubts_.push_back(doubt);
-  }
+  std::ranges::copy(peak_doubts(name, component, description), std::back_inserter(doubts_));
   descriptions_.push_back(std::move(description));
 }
 

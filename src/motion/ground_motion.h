@@ -14,11 +14,11 @@ namespace pounding {
 
 /// Motion in one direction as it was understood, before it is resampled.
 struct MotionDescription {
-  std::string direction;        ///< "x"
+  std::string direction{};      ///< "x"
   std::string component{};      ///< of the ground, as the file names it: "N10E"; "" if it does not
-  std::string source;           ///< file of the record or of the target spectrum
-  std::string layout;           ///< "rows of 8 values that follow one another", "synthetic, seed 3"
-  std::string unit;             ///< of the file, and its source; empty for a synthetic motion
+  std::string source{};         ///< file of the record or of the target spectrum
+  std::string layout{};         ///< "rows of 8 values that follow one another", "synthetic, seed 3"
+  std::string unit{};           ///< of the file, and its source; empty for a synthetic motion
   std::size_t points = 0;       ///< samples
   double time_step = 0;         ///< between them [s]
   double duration = 0;          ///< [s]
@@ -26,9 +26,9 @@ struct MotionDescription {
   double file_start = 0;        ///< first time of its time column [s]
   bool has_times = false;       ///< there is such a column
   double file_peak = 0;         ///< as in the file [m/s2]; 0 for a synthetic motion
-  std::string scaling;          ///< "to pga 3.43 m/s2", "by 0.5", "none"
+  std::string scaling{};        ///< "to pga 3.43 m/s2", "by 0.5", "none"
   double factor = 0;            ///< on the numbers of the file [-]; 0 for a synthetic motion
-  std::string treatment;        ///< changes of baseline and sampling
+  std::string treatment{};      ///< changes of baseline and sampling
   double end_velocity = 0;      ///< integral of the scaled motion at its end [m/s]
   double end_displacement = 0;  ///< its second integral there [m]
   double pga = 0;               ///< as applied [m/s2]

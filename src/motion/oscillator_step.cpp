@@ -3,23 +3,6 @@
 #include "motion/oscillator_motion.h"
 
 namespace pounding {
-namespace {
-
-/// Elongation u and h u' of an oscillator, h the step.
-struct OscillatorState {
-  double displacement = 0;
-  double velocity = 0;
-};
-
-template <class Step>
-OscillatorState at_end(const oscillator::Oscillator& own, const OscillatorState& state, double a0,
-                       double a1) {
-  const Step step(own, state.displacement, state.velocity, a0, a1);
-  return {step.derivative(0, 1), step.derivative(1, 1)};
-}
-
-}  // namespace
-
 using namespace oscillator;
 
 OscillatorStep oscillator_step(double theta, double damping_ratio) {
@@ -46,22 +29,26 @@ OscillatorStep oscillator_step(double theta, double damping_ratio) {
 std::vector<double> oscillator_history(std::span<const double> acceleration, double time_step,
                                        double frequency, double damping_ratio) {
   const double theta = 2 * std::numbers::pi * frequency * time_step;
-  const oscillator::Oscillator own = oscillator::make_oscillator(theta, damping_ratio);
+  const Oscillator own = make_oscillator(theta, damping_ratio);
   const double square = time_step * time_step;
-  OscillatorState state;
+  double u = 0, v = 0;  // and h u'
+  const auto go_to_end = [&](const auto& step) {
+    u = step.derivative(0, 1);
+    v = step.derivative(1, 1);
+  };
   std::vector<double> history;
   history.reserve(acceleration.size());
   for (std::size_t i = 0; i < acceleration.size(); ++i) {
     // u'' + a = -2 xi omega u' - omega^2 u
-    history.push_back(
-        -(2 * damping_ratio * theta * state.velocity + theta * theta * state.displacement) /
-        square);
+    history.push_back(-(2 * damping_ratio * theta * v + theta * theta * u) / square);
     if (i + 1 == acceleration.size()) break;
     const double a0 = square * acceleration[i];
     const double a1 = square * acceleration[i + 1];
-    state = theta < oscillator::series_limit
-                ? at_end<oscillator::StepSeries>(own, state, a0, a1)
-                : at_end<oscillator::StepClosedForm>(own, state, a0, a1);
+    if (theta < series_limit) {
+      go_to_end(StepSeries(own, u, v, a0, a1));
+    } else {
+      go_to_end(StepClosedForm(own, u, v, a0, a1));
+    }
   }
   return history;
 }

@@ -19,10 +19,6 @@ struct BhrcComponent {
   std::optional<double> count, duration;
 };
 
-bool is_bhrc_title(const std::string& text) {
-  return text.starts_with("* VOL1") || text.starts_with("*VOL1");
-}
-
 std::vector<BhrcComponent> bhrc_components(std::span<const TextLine> lines) {
   static const std::regex sampling(R"(NO\. OF POINTS\s*=\s*(\d+)\s+DURATION\s*=\s*([\d.]+))");
   std::vector<BhrcComponent> components;
@@ -30,7 +26,7 @@ std::vector<BhrcComponent> bhrc_components(std::span<const TextLine> lines) {
   std::smatch match;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::string& text = lines[i].text;
-    if (text.starts_with("COMP")) next.name = stripped(text.substr(4, 20));
+    if (text.starts_with("COMP")) next.name = trimmed(text.substr(4, 20));
     if (text.starts_with("NO. OF POINTS")) {
       const std::string head = text.substr(0, 100);
       if (!std::regex_search(head, match, sampling)) continue;
@@ -75,7 +71,8 @@ void take_pairs(const std::string& file, std::span<const TextLine> lines, Format
 }  // namespace
 
 bool is_bhrc(std::span<const TextLine> lines) {
-  return !lines.empty() && is_bhrc_title(lines[0].text) && !bhrc_components(lines).empty();
+  const std::string title = lines.empty() ? "" : lines[0].text.substr(0, 6);
+  return (title == "* VOL1" || title.starts_with("*VOL1")) && !bhrc_components(lines).empty();
 }
 
 FormatRecord read_bhrc(const RecordedMotion& motion, std::span<const TextLine> lines) {

@@ -39,7 +39,7 @@ bool take_announcement(const TextLine& line, CosmosChannel& channel) {
   channel.count = parse_number(match[1].str()).value_or(0);
   channel.quantity = lower(match[2].str());
   channel.seconds = parse_number(match[3].str()).value_or(0);
-  channel.unit = lower(stripped(match[4].str()));
+  channel.unit = lower(trimmed(match[4].str()));
   channel.line = line.number;
   return true;
 }
@@ -117,7 +117,7 @@ std::vector<CsmipChannel> csmip_channels(std::span<const TextLine> lines, std::s
     if (lines[i].text.find_first_of("cCpP") == std::string::npos) continue;  // rows of numbers
     const std::string text = lines[i].text.substr(0, 200);
     if (std::regex_search(text, match, name)) {
-      next.name = "Chan " + match[1].str() + ": " + stripped(match[2].str());
+      next.name = "Chan " + match[1].str() + ": " + trimmed(match[2].str());
     }
     if (std::regex_search(text, match, peak)) {
       next.peak = parse_number(match[1].str());
@@ -171,7 +171,7 @@ FormatRecord read_cosmos(const RecordedMotion& motion, std::span<const TextLine>
   refuse_if(channels.empty(),
             motion.file + ": COSMOS without a block of acceleration; give a volume 1 or 2");
   const CosmosChannel& one = channels[choose_component(motion, names_of(channels))];
-  const auto units = units_in("(" + stripped(one.unit.substr(0, one.unit.find('('))) + ")");
+  const auto units = units_in("(" + trimmed(one.unit.substr(0, one.unit.find('('))) + ")");
   refuse_if(units.size() != 1,
             at_line(motion.file, one.line) + "values in '" + one.unit +
                 "' (counts are those of a volume 0); give a volume 1 or 2 in g or cm/s2");
@@ -208,7 +208,7 @@ bool is_smc(std::span<const TextLine> lines) {
 }
 
 FormatRecord read_smc(const RecordedMotion& motion, std::span<const TextLine> lines) {
-  const std::string title = stripped(lines[0].text);
+  const std::string title = trimmed(lines[0].text);
   refuse_if(
       title.find("ACCELEROGRAM") == std::string::npos,
       at_line(motion.file, 1) + "SMC of kind '" + title + "'; give one of acceleration (1 or 2)");

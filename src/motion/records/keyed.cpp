@@ -25,8 +25,8 @@ KeyedHeader read_keyed_header(std::span<const TextLine> lines) {
     const std::string& text = lines[header.end].text;
     const std::size_t colon = text.find(':');
     if (colon == std::string::npos || colon == 0 || parse_row(lines[header.end])) break;
-    header.keys[stripped(text.substr(0, colon))] = {stripped(text.substr(colon + 1)),
-                                                    lines[header.end].number};
+    header.keys[trimmed(text.substr(0, colon))] = {trimmed(text.substr(colon + 1)),
+                                                   lines[header.end].number};
   }
   return header;
 }

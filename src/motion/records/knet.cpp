@@ -43,7 +43,7 @@ KnetHeader read_knet_header(std::span<const TextLine> lines) {
       header.peak = number_in(std::string_view(text).substr(text.find(')') + 1));
       header.peak_line = lines[i].number;
     } else if (text.starts_with("Dir.")) {
-      header.component = direction_of(stripped(std::string_view(text).substr(4)));
+      header.component = direction_of(trimmed(std::string_view(text).substr(4)));
     } else if (text.starts_with("Memo")) {
       header.end = i + 1;
       break;

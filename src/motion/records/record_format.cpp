@@ -35,12 +35,6 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-std::string stripped(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
-}
-
 std::optional<double> number_in(std::string_view text) {
   static const std::regex pattern(R"([-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?)");
   std::match_results<std::string_view::const_iterator> match;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "motion/records/record_text.h"
+#include "scene/option_values.h"
 #include "scene/scene.h"
 
 namespace pounding {
@@ -61,9 +62,6 @@ std::string lower(std::string_view text);
 
 /// The first number in a text; nothing where there is none.
 std::optional<double> number_in(std::string_view text);
-
-/// The text between blanks.
-std::string stripped(std::string_view text);
 
 /// Values of a block of rows, and the place of the line behind it.
 struct NumberBlock {

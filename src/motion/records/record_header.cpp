@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "common/error.h"
+#include "motion/records/record_format.h"
 #include "motion/records/record_sampling.h"
 
 namespace pounding {
@@ -186,12 +187,7 @@ void RecordHeader::contradiction(int line, const char* what, const std::string& 
 }
 
 void RecordHeader::declare_count(double number_of_values, int line) {
-  constexpr double most = 1e9;
-  refuse_if(!(number_of_values >= 2 && number_of_values <= most) ||
-                number_of_values != std::floor(number_of_values),
-            at_line(file_, line) + "the header announces " + text_of(number_of_values) +
-                " values, which cannot be; correct the file");
-  const auto count = static_cast<long long>(number_of_values);
+  const auto count = static_cast<long long>(count_of(file_, line, number_of_values));
   if (number_of_values_.value_or(count) != count) {
     contradiction(line, "number of values", std::to_string(count),
                   std::to_string(*number_of_values_));

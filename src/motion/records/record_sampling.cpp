@@ -85,23 +85,24 @@ Quantity quantity(const std::smatch& match) {
   return result;
 }
 
+/// Looks for the first of the patterns that a text has.
+bool find_first(const std::string& text, std::smatch& match, std::span<const std::regex> patterns) {
+  return std::ranges::any_of(
+      patterns, [&](const std::regex& one) { return std::regex_search(text, match, one); });
+}
+
 void read_step(const std::string& text, StatedSampling& stated) {
   std::smatch match;
-  for (const std::regex& pattern : step_patterns) {
-    if (!std::regex_search(text, match, pattern)) continue;
+  if (find_first(text, match, step_patterns)) {
     const Quantity step = quantity(match);
     stated.time_step = step.number * (step.unit == 'm' ? 1e-3 : 1);
-    return;
-  }
-  for (const std::regex& pattern : rate_patterns) {
-    if (!std::regex_search(text, match, pattern)) continue;
+  } else if (find_first(text, match, rate_patterns)) {
     const Quantity rate = quantity(match);
     if (rate.unit == 's' || rate.unit == 'm') {
       stated.time_step = rate.number * (rate.unit == 'm' ? 1e-3 : 1);
     } else {
       stated.rate = rate.number;
     }
-    return;
   }
 }
 
@@ -152,11 +153,7 @@ StatedSampling read_sampling(const std::string& text) {
   if (std::regex_search(text, match, trailing_names)) {
     return {value(match[1].str()), value(match[2].str()), {}};
   }
-  for (const std::regex& pattern : count_patterns) {
-    if (!std::regex_search(text, match, pattern)) continue;
-    stated.count = value(match[1].str());
-    break;
-  }
+  if (find_first(text, match, count_patterns)) stated.count = value(match[1].str());
   read_step(text, stated);
   if (std::regex_search(text, match, numbers_in_comment) && value(match[2].str()) > 0 &&
       value(match[2].str()) < 1) {

@@ -116,10 +116,6 @@ bool counts_rows(const std::vector<NumberRow>& rows) {
   return first == 0 || first == 1;
 }
 
-bool is_time(const std::string& name) {
-  return name.find_first_of("tT") < 2;  // time, Time, "t
-}
-
 /// Whether a column may be that of the times: it grows, but for a few lines gone wrong.
 bool grows(const std::vector<NumberRow>& rows, std::size_t column) {
   std::size_t falls = 0;
@@ -144,7 +140,8 @@ bool grows_evenly(const std::vector<NumberRow>& rows) {
 int time_column(const RecordContent& content) {
   const std::size_t width = content.rows[0].values.size();
   for (std::size_t i = 0; i < content.names.size() && width > 1; ++i) {
-    if (is_time(content.names[i]) && grows(content.rows, i)) return static_cast<int>(i) + 1;
+    const bool named = content.names[i].find_first_of("tT") < 2;  // time, Time, "t
+    if (named && grows(content.rows, i)) return static_cast<int>(i) + 1;
   }
   if (width < 2) return 0;
   const bool counted = counts_rows(content.rows);
