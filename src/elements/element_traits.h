@@ -129,11 +129,6 @@ inline bool has_shape(ElementType type) {
   return kernel == ElementKernel::brick || kernel == ElementKernel::rectangle;
 }
 
-/// Elements that are applied by their strains, unless they lie in rows.
-inline bool has_strains(ElementType type) {
-  return has_shape(type) || traits_of(type).kernel == ElementKernel::triangle;
-}
-
 inline bool is_in_stiffness(ElementType type) {
   return traits_of(type).in_stiffness;
 }

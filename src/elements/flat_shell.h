@@ -45,9 +45,26 @@ struct PlaneModuli {
 /// Throws ElementError for a thickness that is not positive.
 PlaneModuli checked_plane_moduli(const ShellProperties& properties);
 
+using Vector2 = std::array<double, 2>;
+
 /// A linear form of an element's dofs: the value of one strain is its product with the dofs.
 template <std::size_t size>
 using StrainRow = std::array<double, size>;
+
+/// So much of the shear strain along the edge from node a to node b times its length, dofs (uz, rx,
+/// ry) per node: w_b - w_a + (mean rotation vector (ry, -rx)) . (x_b - x_a).
+template <std::size_t nodes>
+StrainRow<3 * nodes> edge_shear(const std::array<Vector2, nodes>& at, std::size_t a, std::size_t b,
+                                double part = 1) {
+  const double x = part * (at[b][0] - at[a][0]) / 2;
+  const double y = part * (at[b][1] - at[a][1]) / 2;
+  StrainRow<3 * nodes> row{};
+  row[3 * a] = -part;
+  row[3 * b] = part;
+  row[3 * a + 1] = row[3 * b + 1] = -y;
+  row[3 * a + 2] = row[3 * b + 2] = x;
+  return row;
+}
 
 /// Adds coefficient * row' row to the lower triangle of a (size, size) matrix.
 template <std::size_t size>

@@ -13,7 +13,6 @@ constexpr std::size_t node_count = 3;
 constexpr std::size_t plane_size = 3 * node_count;  // dofs of the membrane, or of the plate
 constexpr double shear_stabilisation = 0.1;
 
-using Vector2 = std::array<double, 2>;
 using PlaneMatrix = std::array<double, plane_size * plane_size>;
 
 /// The element in its plane: local axes in the rows of `frame`, nodes in them.
@@ -87,19 +86,6 @@ PlaneMatrix membrane_stiffness(const FlatTriangle& triangle, const PlaneModuli& 
   return matrix;
 }
 
-/// Shear strain along the edge from node a to node b times its length, dofs (uz, rx, ry) per node:
-/// w_b - w_a + (mean rotation vector (ry, -rx)) . (x_b - x_a).
-StrainRow<plane_size> edge_shear(const FlatTriangle& triangle, std::size_t a, std::size_t b) {
-  const double x = (triangle.nodes[b][0] - triangle.nodes[a][0]) / 2;
-  const double y = (triangle.nodes[b][1] - triangle.nodes[a][1]) / 2;
-  StrainRow<plane_size> row{};
-  row[3 * a] = -1;
-  row[3 * b] = 1;
-  row[3 * a + 1] = row[3 * b + 1] = -y;
-  row[3 * a + 2] = row[3 * b + 2] = x;
-  return row;
-}
-
 /// Transverse shear strains where the area coordinates have `values`, dofs (uz, rx, ry) per node:
 /// the field of edge functions N_a grad N_b - N_b grad N_a, whose tangential component is constant
 /// along each edge.
@@ -108,7 +94,7 @@ std::array<StrainRow<plane_size>, 2> shear_at(const FlatTriangle& triangle,
   std::array<StrainRow<plane_size>, 2> shear{};
   for (std::size_t a = 0; a < node_count; ++a) {
     const std::size_t b = (a + 1) % node_count;
-    const auto along = edge_shear(triangle, a, b);
+    const auto along = edge_shear(triangle.nodes, a, b);
     for (std::size_t i = 0; i < 2; ++i) {
       const double edge_function =
           values[a] * triangle.gradients[b][i] - values[b] * triangle.gradients[a][i];

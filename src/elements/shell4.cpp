@@ -16,7 +16,6 @@ constexpr std::size_t mode_count = 2;
 constexpr std::size_t plane_size = 3 * node_count;  // dofs of the membrane, or of the plate
 constexpr std::size_t membrane_size = plane_size + 2 * mode_count;
 
-using Vector2 = std::array<double, 2>;
 using Matrix2 = std::array<Vector2, 2>;
 
 constexpr std::array<Vector2, node_count> corners{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
@@ -155,26 +154,16 @@ void add_membrane(const Shape& shape, const Map& map, const Map& centre, const V
   add_square<membrane_size>(drilling, weight * properties.drilling_factor * moduli.shear, matrix);
 }
 
-/// Natural shear strain along the edge from node a to node b, dofs (uz, rx, ry) per node: half of
-/// w_b - w_a + (mean rotation vector (ry, -rx)) . (x_b - x_a).
-StrainRow<plane_size> edge_shear(const FlatQuad& quad, std::size_t a, std::size_t b) {
-  const double x = (quad.nodes[b][0] - quad.nodes[a][0]) / 4;
-  const double y = (quad.nodes[b][1] - quad.nodes[a][1]) / 4;
-  StrainRow<plane_size> row{};
-  row[3 * a] = -0.5;
-  row[3 * b] = 0.5;
-  row[3 * a + 1] = row[3 * b + 1] = -y;
-  row[3 * a + 2] = row[3 * b + 2] = x;
-  return row;
-}
-
 /// Transverse shear strains at a point, interpolated between opposite edges, dofs (uz, rx, ry) per
 /// node.
 std::array<StrainRow<plane_size>, 2> shear_at(const FlatQuad& quad, const Map& map,
                                               const Vector2& point) {
   std::array<StrainRow<plane_size>, 2> shear{};
-  const auto below = edge_shear(quad, 0, 1), above = edge_shear(quad, 3, 2);
-  const auto left = edge_shear(quad, 0, 3), right = edge_shear(quad, 1, 2);
+  // Natural shear strains along edges, whose length in these coordinates is 2.
+  const auto along = [&](std::size_t a, std::size_t b) {
+    return edge_shear(quad.nodes, a, b, 0.5);
+  };
+  const auto below = along(0, 1), above = along(3, 2), left = along(0, 3), right = along(1, 2);
   for (std::size_t i = 0; i < plane_size; ++i) {
     const Vector2 natural{((1 - point[1]) * below[i] + (1 + point[1]) * above[i]) / 2,
                           ((1 - point[0]) * left[i] + (1 + point[0]) * right[i]) / 2};

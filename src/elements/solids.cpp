@@ -1,7 +1,6 @@
 #include "elements/solids.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <sstream>
 
