@@ -54,30 +54,25 @@ Ingredients ingredients_of(const Scene& scene,
                            const std::vector<std::vector<std::string>>& opened) {
   Ingredients list{{"program", std::string(program_version()) + " (" + program_commit() + ")"}};
   for (const auto& [name, value] : scene.mesh_options) list.emplace_back("option " + name, value);
+  const auto add = [&](const std::string& what, const std::string& file) {
+    if (!file.empty()) list.emplace_back(what, digest_of_file(file).sha256);
+  };
   for (const Structure& structure : scene.structures) {
-    list.push_back({"mesh of " + structure.name, digest_of_file(structure.mesh).sha256});
-    if (structure.soil && structure.soil->is_fitted()) {
-      list.push_back(
-          {"soil table of " + structure.name, digest_of_file(structure.soil->table).sha256});
-    }
-    if (structure.initial_state.empty()) continue;
-    list.push_back(
-        {"initial state of " + structure.name, digest_of_file(structure.initial_state).sha256});
+    add("mesh of " + structure.name, structure.mesh);
+    if (structure.soil) add("soil table of " + structure.name, structure.soil->table);
+    add("initial state of " + structure.name, structure.initial_state);
   }
-  if (!scene.motion_incoherent.empty()) {
-    list.push_back({"motion_incoherent", digest_of_file(scene.motion_incoherent).sha256});
-  }
+  add("motion_incoherent", scene.motion_incoherent);
   for (const Contact& contact : scene.contacts) {
-    if (contact.gap.survey.empty()) continue;
-    list.push_back({"survey of " + contact.name, digest_of_file(contact.gap.survey).sha256});
+    add("survey of " + contact.name, contact.gap.survey);
   }
   for (std::size_t s = 0; s < std::min(opened.size(), scene.structures.size()); ++s) {
     const Structure& structure = scene.structures[s];
     for (const std::string& name : opened[s]) {
       const std::string file = (folder_of_mesh(structure) / name).string();
       std::error_code failure;
-      list.push_back({name + ", of which the mesh of " + structure.name + " is made",
-                      fs::is_regular_file(file, failure) ? digest_of_file(file).sha256 : "gone"});
+      list.emplace_back(name + ", of which the mesh of " + structure.name + " is made",
+                        fs::is_regular_file(file, failure) ? digest_of_file(file).sha256 : "gone");
     }
   }
   return list;
