@@ -1,7 +1,6 @@
 #include "driver/build_model.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "checks/warnings.h"
 #include "common/error.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 #include <span>
-#include <unordered_map>
 
 #include "common/integer_sets.h"
 #include "elements/element_traits.h"

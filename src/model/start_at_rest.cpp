@@ -1,7 +1,6 @@
 #include "model/start_at_rest.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 

@@ -1,7 +1,6 @@
 #include "scene/idle_options.h"
 
 #include <algorithm>
-#include <initializer_list>
 #include <set>
 
 #include "scene/option_values.h"

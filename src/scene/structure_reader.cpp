@@ -15,8 +15,6 @@
 #include "scene/option_values.h"
 #include "scene/region_reader.h"
 #include "scene/soil_reader.h"
-#include "scene/spring_reader.h"
-#include "scene/standard_parts.h"
 
 namespace pounding {
 namespace {
