@@ -18,12 +18,6 @@ std::string joined(long major, long minor, long patch) {
   return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
 }
 
-std::string petsc_version() {
-  PetscInt major = 0, minor = 0, patch = 0, release = 0;
-  PetscGetVersionNumber(&major, &minor, &patch, &release);
-  return joined(major, minor, patch);
-}
-
 std::string slepc_version() {
   PetscInt major = 0, minor = 0, patch = 0, release = 0;
   SlepcGetVersionNumber(&major, &minor, &patch, &release);
@@ -53,6 +47,12 @@ std::string fftw_number() {
 }
 
 }  // namespace
+
+std::string petsc_version() {
+  PetscInt major = 0, minor = 0, patch = 0, release = 0;
+  PetscGetVersionNumber(&major, &minor, &patch, &release);
+  return joined(major, minor, patch);
+}
 
 const char* program_version() {
   return POUNDING_VERSION;

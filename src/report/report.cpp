@@ -72,8 +72,7 @@ std::string whether_they_hit(const FinishedRun& run) {
   const auto first = std::ranges::min_element(impacts, {}, &Impact::start);
   return sentence(
       "they hit: {} impact{}, the first at {:.4g} s in {}, {:.5g} N s in all, at most {:.4g kN} "
-      "over "
-      "{:.3g ms}\n",
+      "over {:.3g ms}\n",
       {all.episodes, all.episodes == 1 ? "" : "s", first->start,
        run.scene.contacts[first->contact].name, all.total_impulse, all.window_force,
        run.scene.force_window});
@@ -94,13 +93,9 @@ std::string doubts_again(std::initializer_list<std::span<const std::string>> lis
 }
 
 void print_title(const Scene& scene, const std::string& overrides, int ranks) {
-  int major = 0;
-  int minor = 0;
-  int subminor = 0;
-  PetscGetVersionNumber(&major, &minor, &subminor, nullptr);
   print(sentence(
-      "pounding {} ({}), PETSc {}.{}.{}, {} rank{}\n",
-      {program_version(), program_commit(), major, minor, subminor, ranks, ranks == 1 ? "" : "s"}));
+      "pounding {} ({}), PETSc {}, {} rank{}\n",
+      {program_version(), program_commit(), petsc_version(), ranks, ranks == 1 ? "" : "s"}));
   if (!scene.title.empty()) print(one_line(scene.title) + "\n");
   if (!overrides.empty()) print("  " + one_line(overrides) + "\n");
   print(climb_facts(scene));
