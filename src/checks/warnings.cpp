@@ -218,9 +218,8 @@ void doubt_shifts(const LinearSystem& system, const ModalResult& modal, Doubts d
     if (!(std::abs(shift) > worst)) continue;
     worst = std::abs(shift);
     text = sentence(
-        "uniform damping of {:.3g %} moves its mode of {:.3g} Hz by {:.3g %} to "
-        "{:.3g} Hz, since modes keep their place at {:.3g} Hz; give -{}_damping_reference where it "
-        "matters most",
+        "uniform damping of {:.3g %} moves its mode of {:.3g} Hz by {:.3g %} to {:.3g} Hz, since "
+        "modes keep their place at {:.3g} Hz; give -{}_damping_reference where it matters most",
         {uniform.ratio, mode.frequency, shift, moved, uniform.reference, system.name});
   }
   if (!text.empty()) doubts.add("structure " + system.name, "{}", {text});
@@ -276,9 +275,8 @@ void doubt_rest_gaps(const Scene& scene, const Model& model, Doubts doubts) {
     if (overlap <= none_below * model.interface.model_size) continue;
     const std::string& name = scene.contacts[c].name;
     doubts.add("contact " + name,
-               "the weight opens the joint by more than the {:.4g mm} that it has at rest; "
-               "without it the faces would overlap by {:.4g mm}; is the gap that of the rest "
-               "(-{}_gap_at)?",
+               "the weight opens the joint by more than the {:.4g mm} that it has at rest; without "
+               "it the faces would overlap by {:.4g mm}; is the gap that of the rest (-{}_gap_at)?",
                {gaps.at_rest[0], overlap, name});
   }
 }

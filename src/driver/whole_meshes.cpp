@@ -77,8 +77,7 @@ WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model, int spl
   if (std::ranges::any_of(model.buildings,
                           [](const Building& b) { return !b.findings.files.landlock; })) {
     model.warnings.emplace_back(
-        "this system has no Landlock: the commands of a .geo file were held back by "
-        "seccomp alone");
+        "this system has no Landlock: the commands of a .geo file were held back by seccomp alone");
   }
   const Progress progress(comm, "faces in contact and probes", scene.progress_interval);
   model.interface = interactions::find_interface(scene, whole.meshes);

@@ -30,8 +30,7 @@ void require_shared_elements(const Structure& structure, const MemberTable& tabl
     if (std::ranges::count(table.columns, column) == 0) return;
     throw UserError("column " + column + ": structure " + structure.name + " is at full order" +
                     why +
-                    "; make an ensemble for each factor, which its scene gives, or single "
-                    "runs");
+                    "; make an ensemble for each factor, which its scene gives, or single runs");
   };
   refuse_column("_stiffness_factor", ", and its elements are those of all members");
   const bool own = std::ranges::any_of(structure.regions, [](const Region& region) {
@@ -61,13 +60,12 @@ void require_shared_modes(const Scene& scene, const MemberTable& table) {
     require_shared_waves(structure, table);
     const std::string column = structure.name + "_stiffness_factor";
     if (structure.scales_as_a_whole() || std::ranges::count(table.columns, column) == 0) continue;
-    throw UserError("column " + column + ": the modes of structure " + structure.name +
-                    " hold its " +
-                    (structure.soil      ? "soil"
-                     : structure.p_delta ? "forces at rest (p_delta)"
-                                         : "waves") +
-                    " as well; make an ensemble for each factor, which its scene gives, or single "
-                    "runs");
+    throw UserError(
+        "column " + column + ": the modes of structure " + structure.name + " hold its " +
+        (structure.soil      ? "soil"
+         : structure.p_delta ? "forces at rest (p_delta)"
+                             : "waves") +
+        " as well; make an ensemble for each factor, which its scene gives, or single runs");
   }
 }
 

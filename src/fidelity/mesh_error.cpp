@@ -201,8 +201,7 @@ std::string no_room(double factor, double memory, double available) {
   if (memory <= available) return "";
   return sentence(
       "split once it has about {:.2g} times the dofs and takes about {:.2g} GB, of which {:.2g} "
-      "are "
-      "free; run it where there are more",
+      "are free; run it where there are more",
       {factor, memory / 1e9, available / 1e9});
 }
 

@@ -127,13 +127,12 @@ void order_sliding_bearings(const Structure& structure, GlobalMesh& mesh) {
       if (hangs && structure.gravity[across] != 0) on_heads.add(mesh.position(above));
     }
     if (on_heads.count == 0) continue;
-    mesh.doubts.push_back("structure " + structure.name + ", group " + region.group + ": " +
-                          std::to_string(on_heads.count) +
-                          " of its bearings that slide, the first at " +
-                          place_text(on_heads.first) +
-                          ", have the nodes held by the ground above and the hanging ones below: "
-                          "nothing presses on them, so that they hold nothing; are they upside "
-                          "down?");
+    mesh.doubts.push_back(
+        "structure " + structure.name + ", group " + region.group + ": " +
+        std::to_string(on_heads.count) + " of its bearings that slide, the first at " +
+        place_text(on_heads.first) +
+        ", have the nodes held by the ground above and the hanging ones below: nothing presses on "
+        "them, so that they hold nothing; are they upside down?");
   }
 }
 

@@ -175,12 +175,11 @@ class LoadMaker {
     const std::vector<char> reversed = interactions::reversed_shells(facets, shells);
     const auto odd = std::ranges::find_if(reversed, [](char reverse) { return reverse != 0; });
     if (odd == reversed.end()) return;
-    refuse("_pressure", "the shell at " +
-                            place_of(facets[static_cast<std::size_t>(odd - reversed.begin())]) +
-                            " of group " + load_.group +
-                            " has its nodes in the other order than a shell beside it, so that a "
-                            "pressure would push and pull; turn the surfaces of the mesh alike, or "
-                            "give _surface_force");
+    refuse("_pressure",
+           "the shell at " + place_of(facets[static_cast<std::size_t>(odd - reversed.begin())]) +
+               " of group " + load_.group +
+               " has its nodes in the other order than a shell beside it, so that a pressure would "
+               "push and pull; turn the surfaces of the mesh alike, or give _surface_force");
   }
 
   std::string place_of(const Facet& facet) const {

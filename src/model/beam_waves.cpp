@@ -1,7 +1,6 @@
 #include "model/beam_waves.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "common/facts.h"
@@ -62,9 +61,8 @@ std::vector<std::string> wave_doubts(const Structure& structure,
       if (half >= fewest_in_half_wave * of.length) continue;
       doubts.push_back(
           sentence("structure {}, group {}: mode {} of {:.4g} Hz has {:.2g} of its beams of {:.4g} "
-                   "m in half "
-                   "a wave of their bending, whose mass they carry at their ends; finer ones, or "
-                   "-{}_{}_divide auto, which makes 4 of them up to {:.4g} Hz",
+                   "m in half a wave of their bending, whose mass they carry at their ends; finer "
+                   "ones, or -{}_{}_divide auto, which makes 4 of them up to {:.4g} Hz",
                    {structure.name, of.group, m + 1, modes[m].frequency, half / of.length,
                     of.length, structure.name, of.group, highest}));
       break;

@@ -1,11 +1,9 @@
 #include "observers/impact_catalogue.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <numeric>
-#include <sstream>
 
 #include "common/error.h"
 #include "common/matrix3.h"
@@ -338,8 +336,7 @@ std::vector<NamedWindow> read_impact_windows(const std::string& path) {
       refuse_if(
           words.size() < 3 || words[0] != "contact" || words[1] != "start" || words[2] != "end",
           at_line(path, line.number) +
-              "the columns do not begin with contact,start,end: give the impacts.csv of "
-              "a run");
+              "the columns do not begin with contact,start,end: give the impacts.csv of a run");
       continue;
     }
     const auto start = words.size() < 3 ? std::nullopt : parse_number(words[1]);

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <set>
@@ -251,8 +250,7 @@ class Loops final : public Observer {
            {"largest_force", most[1]},
            {"energy_taken", most[2]}},
           "  {:-12s} {:.0f} of {links} links yielded, elongation at most {largest_elongation:.4g "
-          "mm} "
-          "(or mrad), force {largest_force:.4g kN} (or kN m), took {energy_taken:.4g} J\n",
+          "mm} (or mrad), force {largest_force:.4g kN} (or kN m), took {energy_taken:.4g} J\n",
           {items_[item], most[3]});
     }
   }

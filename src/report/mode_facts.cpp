@@ -43,8 +43,7 @@ Facts uniform_damping_facts(const UniformDamping& damping) {
   }
   facts.say(
       "  uniform damping of {uniform:.4g %} from {band} Hz within {ripple:.2g %} of it, {} "
-      "filters; "
-      "ratio at 1, 10, 100, 400 Hz:{}"
+      "filters; ratio at 1, 10, 100, 400 Hz:{}"
       "    stiffness: that of the materials at {reference_frequency} Hz and under the weight at "
       "rest, {stiffness_at_rest:.4f} of it for the slowest motions, "
       "{stiffness_of_fastest_motions:.4f} for the fastest\n",
@@ -234,8 +233,7 @@ Facts reduction_facts(const Building& building) {
               "  switched: in modes once at most {switched_part:g} of its energy");
     facts.add("settling_time", settling_time(*building.system, omega, part),
               " is outside, to which motions above its highest mode fall within "
-              "{settling_time:.3g} s of a "
-              "strike\n");
+              "{settling_time:.3g} s of a strike\n");
   }
   facts.say(
       "  modal reduction: {coordinates} generalised coordinates for {} dofs\n    {modes} modes",
@@ -252,8 +250,7 @@ Facts reduction_facts(const Building& building) {
   }
   facts.say(
       "\n    highest mode {highest_mode:.4g} Hz; the modes have {mass_in_modes/0:.1f %} of the "
-      "mass "
-      "along x, {mass_in_modes/1:.1f %} along y, {mass_in_modes/2:.1f %} along z\n"
+      "mass along x, {mass_in_modes/1:.1f %} along y, {mass_in_modes/2:.1f %} along z\n"
       "    {attachment_vectors} attachment vectors{}\n",
       {modal.attachment || structure.switched ? "" : " (not asked for)"});
   add_residual_facts(modal, basis, facts);

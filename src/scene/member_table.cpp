@@ -88,14 +88,13 @@ void check_columns(const MemberTable& table, const Scene& scene) {
   std::set<std::string> seen;
   for (const std::string& column : table.columns) {
     if (std::ranges::find(free, column) == free.end()) {
-      throw UserError(table.file + ": column '" + column +
-                      "' is no option that may differ from run to run; those are motion_..., "
-                      "motion_level, <support>_motion_..., _rotation_..., _delay and _factor, "
-                      "<contact>_gap, _gap_deviation, _gap_length, _gap_seed, _gap_patches and "
-                      "_static_closing, "
-                      "<structure>_damping_factor, _stiffness_factor "
-                      "and _modal_damping" +
-                      suggestion(column, free));
+      throw UserError(
+          table.file + ": column '" + column +
+          "' is no option that may differ from run to run; those are motion_..., motion_level, "
+          "<support>_motion_..., _rotation_..., _delay and _factor, <contact>_gap, _gap_deviation, "
+          "_gap_length, _gap_seed, _gap_patches and _static_closing, <structure>_damping_factor, "
+          "_stiffness_factor and _modal_damping" +
+          suggestion(column, free));
     }
     refuse_if(!seen.insert(column).second,
               table.file + ": two columns are called '" + column + "'");

@@ -88,8 +88,7 @@ class Reader {
               "'" + head.words.front() + "' where '" + first_word +
                   ",1' belongs; run/soil writes such files");
     refuse_if(head.words != std::vector<std::string>{first_word, "1"}, head.line,
-              "another version of the file than 1, which is read here; write it anew by "
-              "run/soil");
+              "another version of the file than 1, which is read here; write it anew by run/soil");
     ++next_;
     const std::vector<std::string>& mats = words();
     refuse_if(mats.front() != "mats" || mats.size() != 2, line(),

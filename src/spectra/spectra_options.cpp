@@ -113,8 +113,7 @@ void check_together(const SpectraOptions& options) {
   }
   refuse_if(!options.rotated.empty() && (options.true_peaks || peaks),
 
-            "--rotd has pseudo peaks of complete signals: not with --true, --treatment, "
-            "--peaks");
+            "--rotd has pseudo peaks of complete signals: not with --true, --treatment, --peaks");
   const auto place = [](const std::string& file) {
     return file.empty() ? std::string("/dev/stdout") : file;
   };

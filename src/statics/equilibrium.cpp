@@ -110,9 +110,8 @@ class Search {
         if (!slid) continue;
         throw UserError(sentence(
             "option -preload static: element {} of group '{}' of structure {} slides at rest, "
-            "where "
-            "it bears {} N along an axis; give a larger yield force or friction, or leave -preload "
-            "out",
+            "where it bears {} N along an axis; give a larger yield force or friction, or leave "
+            "-preload out",
             {slid->link->number, slid->link->origin.region->group, systems_[s].name, slid->force}));
       }
     });
@@ -265,8 +264,7 @@ class Search {
     const auto worst = std::max_element(squares.begin(), squares.end()) - squares.begin();
     throw UserError(sentence(
         "option -preload static: structure {} finds no rest under its weight and loads, {} of it "
-        "is "
-        "left after {} iterations: {}nothing holds it, or less than 0.1 Hz; clamp it, give it "
+        "is left after {} iterations: {}nothing holds it, or less than 0.1 Hz; clamp it, give it "
         "springs or a contact below{}, look at the units of mesh and materials, or leave -preload "
         "out",
         {systems_[static_cast<std::size_t>(worst)].name, left, iterations_,
