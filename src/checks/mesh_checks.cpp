@@ -102,12 +102,6 @@ bool is_zero(const Vector3& vector) {
   return vector == Vector3{0, 0, 0};
 }
 
-bool is_shaken(const Scene& scene) {
-  return !scene.supports.empty() || !scene.loads.empty() ||
-         std::ranges::any_of(scene.motion,
-                             [](const auto& component) { return component.has_value(); });
-}
-
 bool starts_in_motion(const Structure& structure) {
   return structure.starts_in_motion() || structure.starts_displaced();
 }
@@ -122,7 +116,10 @@ bool may_rest(const Scene& scene, const Structure& structure) {
 }
 
 bool may_fly(const Scene& scene, const Structure& structure) {
-  return !is_shaken(scene) || starts_in_motion(structure) || may_rest(scene, structure);
+  const bool shaken =
+      !scene.supports.empty() || !scene.loads.empty() ||
+      std::ranges::any_of(scene.motion, [](const auto& d) { return d.has_value(); });
+  return !shaken || starts_in_motion(structure) || may_rest(scene, structure);
 }
 
 [[noreturn]] void refuse_loose(const Structure& structure, const std::string& what) {
@@ -285,8 +282,7 @@ void check_connectivity(const Scene& scene, const Structure& structure,
   if (connectivity.ends_inside.count > 0) {
     refuse_loose(structure,
                  found_at(connectivity.ends_inside,
-                          " ends of lines lie in an element without a node of it, the first "
-                          "at ") +
+                          " ends of lines lie in an element without a node of it, the first at ") +
                      "; let the mesh have a node there that both share");
   }
   if (connectivity.nothing_held() && !may_fly(scene, structure)) {

@@ -14,11 +14,6 @@ enum class Phase { mesh, partition, assembly, modes, step, contact, energy, outp
 
 const char* phase_name(Phase phase);
 
-/// Whether a phase comes before the steps.
-constexpr bool is_start_up(Phase phase) {
-  return phase < Phase::step;
-}
-
 /// Accumulated wall time [s] and memory [bytes] of this rank.
 class Profile {
  public:
@@ -52,7 +47,7 @@ class ScopedTimer {
   ScopedTimer& operator=(const ScopedTimer&) = delete;
   ~ScopedTimer() {
     profile_.add(phase_, profile_.now() - start_);
-    if (is_start_up(phase_)) profile_.note_memory(phase_);
+    if (phase_ < Phase::step) profile_.note_memory(phase_);
   }
 
  private:

@@ -45,10 +45,6 @@ double SavedState::number(const std::string& name) const {
   return value;
 }
 
-std::int64_t SavedState::integer(const std::string& name) const {
-  return whole(name, number(name));
-}
-
 std::int64_t SavedState::whole(const std::string& name, double value) const {
   constexpr double largest = 9007199254740992;  // above it doubles leave whole numbers out
   if (!(std::abs(value) <= largest) || value != std::floor(value)) refuse_values(name);

@@ -45,7 +45,7 @@ class SavedState {
   void get(const std::string& name, std::span<double> values) const;
   double number(const std::string& name) const;
   /// Refuses a value that is not a whole number.
-  std::int64_t integer(const std::string& name) const;
+  std::int64_t integer(const std::string& name) const { return whole(name, number(name)); }
   /// A value of `name` as a whole number.
   std::int64_t whole(const std::string& name, double value) const;
   const std::vector<double>& table(const std::string& name, std::size_t columns) const;

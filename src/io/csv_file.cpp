@@ -38,14 +38,6 @@ std::string plain_cell(const std::string& text) {
   return formula && !numbers ? "'" + text : text;
 }
 
-void CsvFile::comment(const std::string& text) {
-  std::fprintf(file_, "# %s\n", text.c_str());
-}
-
-void CsvFile::header(const std::string& names) {
-  std::fprintf(file_, "%s\n", names.c_str());
-}
-
 void CsvFile::row(const std::string& label, std::span<const double> values) {
   bool first = label.empty();
   std::fputs(label.c_str(), file_);

@@ -25,8 +25,8 @@ class CsvFile {
   CsvFile& operator=(const CsvFile&) = delete;
   ~CsvFile();
 
-  void comment(const std::string& text);
-  void header(const std::string& names);
+  void comment(const std::string& text) { std::fprintf(file_, "# %s\n", text.c_str()); }
+  void header(const std::string& names) { std::fprintf(file_, "%s\n", names.c_str()); }
   /// A row; `label` is its first field unless it is empty.
   void row(const std::string& label, std::span<const double> values);
   void row(const std::string& label, std::initializer_list<double> values) {

@@ -300,10 +300,6 @@ GlobalIndex Connectivity::loose_pieces() const {
   return std::ranges::count(pieces, false, &Piece::held);
 }
 
-bool Connectivity::nothing_held() const {
-  return loose_pieces() == static_cast<GlobalIndex>(pieces.size());
-}
-
 bool Connectivity::wholly_held() const {
   return std::ranges::all_of(
       pieces, [](const Piece& piece) { return piece.held_motions >= piece.rigid_motions; });

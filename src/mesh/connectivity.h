@@ -44,7 +44,7 @@ struct Connectivity {
   Places lone_hinges;
 
   GlobalIndex loose_pieces() const;
-  bool nothing_held() const;
+  bool nothing_held() const { return loose_pieces() == std::ssize(pieces); }
   /// Every rigid motion of every piece is prevented.
   bool wholly_held() const;
   /// The largest piece that nothing holds; there must be one.

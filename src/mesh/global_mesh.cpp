@@ -25,10 +25,6 @@ void BoundingBox::include(const Vector3& x) {
   }
 }
 
-Vector3 BoundingBox::sides() const {
-  return {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
-}
-
 double BoundingBox::longest_side() const {
   return std::ranges::max(sides());
 }

@@ -233,7 +233,8 @@ struct BoundingBox {
 
   void include(const Vector3& x);
   double diagonal() const { return distance(low, high); }
-  Vector3 sides() const;  ///< [m]
+  /// [m]
+  Vector3 sides() const { return {high[0] - low[0], high[1] - low[1], high[2] - low[2]}; }
   double longest_side() const;
 };
 

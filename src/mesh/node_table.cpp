@@ -10,10 +10,6 @@
 namespace pounding {
 namespace {
 
-std::vector<GlobalIndex> owned_file_nodes(const Mesh& mesh) {
-  return {mesh.file_node.begin(), mesh.file_node.begin() + mesh.owned_nodes};
-}
-
 /// Calls `function(owned dof, place in the rows)` for every owned dof.
 template <typename Function>
 void for_each_owned_dof(const Mesh& mesh, std::size_t columns, Function&& function) {
@@ -65,7 +61,8 @@ std::vector<double> gather_node_rows(const Mesh& mesh, std::vector<double> rows,
                                      std::size_t columns) {
   const bool root = rank_of(mesh.comm) == 0;
   std::vector<double> table(root ? static_cast<std::size_t>(mesh.global_nodes) * columns : 0);
-  for_each_rank(mesh.comm, std::pair(owned_file_nodes(mesh), std::move(rows)),
+  std::vector<GlobalIndex> owned(mesh.file_node.begin(), mesh.file_node.begin() + mesh.owned_nodes);
+  for_each_rank(mesh.comm, std::pair(std::move(owned), std::move(rows)),
                 [&](int /*rank*/, const auto& own) {
                   const auto& [nodes, values] = own;
                   for (std::size_t i = 0; i < nodes.size(); ++i) {

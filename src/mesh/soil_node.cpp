@@ -13,10 +13,6 @@ void refuse_mat_if(bool wrong, const Structure& structure, const std::string& wh
   refuse_if(wrong, "option -" + structure.name + "_soil_mat " + structure.soil->mat + ": " + why);
 }
 
-const ElementSet& soil_set(const GlobalMesh& mesh) {
-  return *std::ranges::find(mesh.regions, ElementType::soil, &ElementSet::type);
-}
-
 /// The node with rotations that is nearest to the middle in plan; of equally near ones the lowest,
 /// then the first.
 GlobalIndex carrying_node(const Structure& structure, const GlobalMesh& mesh,
@@ -72,7 +68,8 @@ void add_soil(const Structure& structure, GlobalMesh& mesh) {
 MatOutline mat_outline(const Structure& structure, const GlobalMesh& mesh) {
   const BoundingBox box = bounding_box(mesh, mesh.groups.at(structure.soil->mat).nodes);
   MatOutline outline;
-  outline.node = mesh.position(soil_set(mesh).connectivity[0]);
+  const auto soil = std::ranges::find(mesh.regions, ElementType::soil, &ElementSet::type);
+  outline.node = mesh.position(soil->connectivity[0]);
   for (std::size_t d = 0; d < 2; ++d) {
     outline.centre[d] = (box.low[d] + box.high[d]) / 2;
     outline.sides[d] = box.high[d] - box.low[d];

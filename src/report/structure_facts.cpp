@@ -204,12 +204,6 @@ std::array<double, 3> sums_of(const SpreadReport& group, const std::array<double
   return {group.extent * spread[0], group.extent * spread[1], group.extent * spread[2]};
 }
 
-/// Frequency of a0 = 2, up to which the impedances of a mat's soil are meant to hold [Hz].
-double largest_soil_frequency(const Soil& soil, const Foundation& foundation) {
-  return largest_a0 * soil.ground.shear_velocity /
-         (2 * std::numbers::pi * foundation.footprint.half_width());
-}
-
 /// Soil of a half-space.
 Facts half_space_facts(const Soil& soil, const Foundation& foundation) {
   const bool disk = foundation.footprint.disk;
@@ -218,7 +212,9 @@ Facts half_space_facts(const Soil& soil, const Foundation& foundation) {
                {"size", foundation.footprint.sides},
                {"embedment", foundation.footprint.embedment},
                {"centre", foundation.centre},
-               {"largest_frequency", largest_soil_frequency(soil, foundation)},
+               {"largest_frequency",  // up to which the impedances are meant to hold
+                largest_a0 * soil.ground.shear_velocity /
+                    (2 * std::numbers::pi * foundation.footprint.half_width())},
                {"frequency_dependence", soil.frequency_dependence}}};
   facts.say(disk ? "  soil under {mat}: disk of {size/0:.4g} m"
                  : "  soil under {mat}: rectangle of {size/0:.4g} x {size/1:.4g} m, "
@@ -267,16 +263,12 @@ Facts fit_facts(const Soil& soil, const Region& region) {
         "    mat {table_mat} of {mats}, coupled with the others; below the springs of it alone\n");
   }
   for (const FitMisfit& misfit : fit.misfits) {
-    Json values{{"motions", misfit.motions},
-                {"largest", misfit.largest},
-                {"largest_at", misfit.largest_at},
-                {"mean", misfit.mean}};
+    const Json& of =
+        facts.values["misfits"].emplace_back(FACTS_OF(misfit, motions, largest, largest_at, mean));
     facts.text += told(
         "    {motions}: misfit {largest:.2g %} at most, at {largest_at:.3g} Hz, {mean:.2g %} in "
-        "the "
-        "mean\n",
-        values);
-    facts.values["misfits"].push_back(std::move(values));
+        "the mean\n",
+        of);
   }
   for (std::size_t c = 0; c < region.stiffness.size(); ++c) {
     facts.say("    {:-4s} stiffness {:12.4e}, dashpot {:12.4e}\n",

@@ -45,10 +45,6 @@ void refuse_joined(const std::string& word) {
                                              ", with a blank");
 }
 
-bool is_silent(const std::string& name) {
-  return may_differ(name, Comparison::scene) || name.ends_with("_modal_basis");
-}
-
 }  // namespace
 
 CommandLine read_command_line(std::span<const std::string> words) {
@@ -100,7 +96,8 @@ std::vector<std::string> ignored_variables() {
 SceneOrigin origin_of(const CommandLine& line, const std::vector<std::string>& files) {
   SceneOrigin origin{files, {}};
   for (const auto& [name, value] : line.options) {
-    if (!files.empty() && name != "include" && !is_silent(name)) {
+    const bool silent = may_differ(name, Comparison::scene) || name.ends_with("_modal_basis");
+    if (!files.empty() && name != "include" && !silent) {
       origin.overrides.emplace_back(name, trimmed(value));
     }
   }

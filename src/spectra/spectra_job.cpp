@@ -1,7 +1,6 @@
 #include "spectra/spectra_job.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -10,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/error.h"
+#include "common/facts.h"
 #include "io/csv_file.h"
 #include "motion/response_spectrum.h"
 #include "motion/spectrum_shape.h"
@@ -46,10 +46,6 @@ bool asked(const SpectraOptions& options, Treatment treatment) {
   return std::ranges::find(options.treatments, treatment) != options.treatments.end();
 }
 
-bool needs_peaks(const SpectraOptions& options) {
-  return !options.peaks.empty() || options.treatments != std::vector{Treatment::complete};
-}
-
 std::vector<TimeWindow> contact_windows(const SpectraOptions& options, const NamedSignal& named) {
   refuse_if(options.impacts.empty() && !named.is_history,
             named.name + " is a record: its impacts are known only from --impacts FILE");
@@ -80,7 +76,7 @@ double time_step_of_run(const NamedSignal& named) {
 
 Input prepare(const SpectraOptions& options, NamedSignal named) {
   Input input{std::move(named), {}, options.dirac_step};
-  if (!needs_peaks(options)) return input;
+  if (options.peaks.empty() && options.treatments == std::vector{Treatment::complete}) return input;
   input.peaks =
       find_peaks(input.named.signal, contact_windows(options, input.named), options.margin);
   refuse_if(input.peaks.empty(), input.named.name + ": the impacts lie outside the signal");
@@ -136,13 +132,6 @@ std::vector<Spectrum> spectra_of(const SpectraOptions& options, const Input& inp
   return spectra;
 }
 
-/// Name of the percentile of the peaks over all directions: "rotd50".
-std::string percentile_name(double percent) {
-  char text[40];
-  std::snprintf(text, sizeof text, "rotd%02.10g", percent);
-  return text;
-}
-
 /// Spectra of a pair of components over all horizontal directions.
 std::vector<Spectrum> spectra_of_pair(const SpectraOptions& options, const Input& first,
                                       const Input& second) {
@@ -162,7 +151,7 @@ std::vector<Spectrum> spectra_of_pair(const SpectraOptions& options, const Input
   std::vector<Spectrum> spectra;
   for (std::size_t k = 0; k < all.size(); ++k) {
     const std::size_t percentiles = options.rotated.size();
-    spectra.push_back({probe + percentile_name(options.rotated[k % percentiles]),
+    spectra.push_back({probe + sentence("rotd{:02.10g}", {options.rotated[k % percentiles]}),
                        Treatment::complete, options.damping_ratios[k / percentiles],
                        columns_of(all[k])});
   }
@@ -204,12 +193,6 @@ void widen(std::vector<Spectrum>& envelope, const std::vector<Spectrum>& spectra
           envelope_of(std::vector{envelope[i].columns[q], spectra[i].columns[q]});
     }
   }
-}
-
-/// Names of the columns, those of a run first.
-std::string header_of(const SpectraOptions& options) {
-  return std::string(spectrum_columns) +
-         (options.true_peaks ? ",velocity,absolute_acceleration,relative_acceleration" : "");
 }
 
 /// Rows of spectra, one per frequency. `interval` [s]: longest one between samples.
@@ -302,7 +285,8 @@ void run_spectra(const SpectraOptions& options) {
     peaks.emplace(options.peaks, options.digits);
     peaks->header("probe,direction,start,end,impulse,highest");
   }
-  file.header(header_of(options));
+  file.header(std::string(spectrum_columns) +
+              (options.true_peaks ? ",velocity,absolute_acceleration,relative_acceleration" : ""));
   std::vector<Spectrum> envelope;
   const auto take = [&](std::vector<Spectrum> spectra, double interval) {
     if (!options.envelope) {

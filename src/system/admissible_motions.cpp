@@ -133,14 +133,6 @@ void AdmissibleMotions::multiply(std::vector<double>& x, bool transposed) const 
   std::ranges::copy(result, x.begin());  // in place: vectors may rest on it
 }
 
-void AdmissibleMotions::to_motion(std::vector<double>& z) const {
-  multiply(z, false);
-}
-
-void AdmissibleMotions::to_coordinates_of_force(std::vector<double>& f) const {
-  multiply(f, true);
-}
-
 void AdmissibleMotions::to_coordinates(std::vector<double>& u) const {
   const std::vector<double> motion = u;
   if (alone_ == Alone::mass_scaled) {

@@ -27,8 +27,8 @@ class AdmissibleMotions {
   /// Collective.
   MatHandle restrict_matrix(Mat matrix, double idle = 0) const;
   /// u = T z and z = T^T f, in place. Collective.
-  void to_motion(std::vector<double>& z) const;
-  void to_coordinates_of_force(std::vector<double>& f) const;
+  void to_motion(std::vector<double>& z) const { multiply(z, false); }
+  void to_coordinates_of_force(std::vector<double>& f) const { multiply(f, true); }
   /// z of a motion u = T z, in place. Local.
   void to_coordinates(std::vector<double>& u) const;
 

@@ -6,20 +6,13 @@
 #include <stdexcept>
 
 #include "common/error.h"
+#include "common/integer_sets.h"
 #include "common/parallel.h"
 #include "elements/element_traits.h"
 #include "mesh/location.h"
 #include "system/support_shapes.h"
 
 namespace pounding {
-namespace {
-
-int place_of(const std::vector<LocalIndex>& dofs, LocalIndex dof) {
-  return static_cast<int>(std::lower_bound(dofs.begin(), dofs.end(), dof) - dofs.begin());
-}
-
-}  // namespace
-
 std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh) {
   std::unique_ptr<Links> found(new Links);
   GlobalIndex count = 0;  // of all ranks
@@ -41,10 +34,12 @@ std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh
   on_every_rank(mesh.comm, [&] { found->refuse_unpressed(structure); });
   found->driven_ = structure.is_driven_from_below();
   std::vector<LocalIndex>& dofs = found->dofs_;
-  std::sort(dofs.begin(), dofs.end());
-  dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
+  keep_once(dofs);
   for (Link& link : found->links_) {
-    for (int& point : link.point) point = point < 0 ? -1 : place_of(dofs, point);
+    for (int& point : link.point) {
+      if (point < 0) continue;
+      point = static_cast<int>(std::ranges::lower_bound(dofs, point) - dofs.begin());
+    }
   }
   return found;
 }

@@ -140,10 +140,6 @@ void RigidBody::move(const Motion& q, double* x) const {
   }
 }
 
-void RigidBody::solve(double* x) const {
-  move(coordinates(x), x);
-}
-
 void RigidBody::scale(double* x) const {
   for (std::size_t i = 0; i < root_mass_.size(); ++i) x[i] *= root_mass_[i];
 }

@@ -39,7 +39,7 @@ class RigidBody {
   }
 
   /// Forces to changes of velocity: x = W W^T x, and x = M^-1 x where nothing follows.
-  void solve(double* x) const;
+  void solve(double* x) const { move(coordinates(x), x); }
   /// x = M^1/2 W W^T x, and x = W W^T M^1/2 x, with M^-1/2 where nothing follows.
   void solve_half(double* x) const;
   void solve_transposed_half(double* x) const;
