@@ -11,14 +11,15 @@
 
 namespace pounding {
 
-/// A handle of HDF5 of any kind, which is closed at the end of its scope.
+/// A handle of HDF5 of any kind, which is closed at the end of its scope: a dataset even where it
+/// cannot be flushed, which H5Idec_ref would leave open, and its file with it.
 class Hdf5Handle {
  public:
   explicit Hdf5Handle(hid_t id) : id_(id) {}
   Hdf5Handle(const Hdf5Handle&) = delete;
   Hdf5Handle& operator=(const Hdf5Handle&) = delete;
   ~Hdf5Handle() {
-    if (id_ >= 0) H5Idec_ref(id_);
+    if (id_ >= 0) H5Iget_type(id_) == H5I_DATASET ? H5Dclose(id_) : H5Idec_ref(id_);
   }
   operator hid_t() const { return id_; }
 
