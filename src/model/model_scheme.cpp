@@ -180,10 +180,10 @@ std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSys
     const LinearSystem& system = systems[s];
     // The energy of soil is in that of its structure; that of links in modes may be negative, and
     // nothing bounds the motion by a wave from below, supports of its own or loads, nor about a
-    // rest that yielded.
-    if (system.supports || system.loads || !system.rest_law_force.empty() ||
-        system.has_laws_beside || (system.links && system.links->driven()) ||
-        !(energy_margins[s] > 0)) {
+    // rest that yielded, which ranks without a part of the structure do not know.
+    if (on_any_rank(comm, system.supports || system.loads || !system.rest_law_force.empty() ||
+                              system.has_laws_beside || (system.links && system.links->driven()) ||
+                              !(energy_margins[s] > 0))) {
       bounds[s].rate_norm = std::numeric_limits<double>::infinity();
       continue;
     }

@@ -10,6 +10,7 @@ import unittest
 
 import numpy
 
+import decks
 import program
 from input.corpus.meshes import document
 from loops_test import Loops
@@ -162,6 +163,13 @@ def cracked_at_rest(*more):
     return wall("-w_gravity", "40,0,-9.81", "-preload", "static", "-end_time", 0.02, *cracking(), *more, skeleton=None)
 
 
+def beside_another():
+    """Words of such a wall and a block that meets the ground, each on a rank of its own."""
+    return cracked_at_rest(*shaking(), "-end_time", 0.04, "-partition", "structures", "-structures", "w,block",
+                           *decks.box_of("block", "x0=9", "concrete"), "-block_clamp", "x_max",
+                           *decks.contacts(joint=("block:x_min", "wall", 1e-9)))
+
+
 class Wall(unittest.TestCase):
     def test_sound_it_is_the_linear_one(self):
         motion = shaking()
@@ -205,7 +213,8 @@ class Wall(unittest.TestCase):
 
 # Accelerations are differences of velocities over a step of 2e-5 s.
 ON_RANKS = {"a wall that cracks": (lambda: [*shaken(), "-end_time", 0.06], {"tolerance": 1e-11}),
-            "a wall at rest that has cracked": (lambda: cracked_at_rest(*shaking(), "-end_time", 0.04), {"tolerance": 1e-11})}
+            "a wall at rest that has cracked": (lambda: cracked_at_rest(*shaking(), "-end_time", 0.04), {"tolerance": 1e-11}),
+            "one beside ranks that have no part of it": (beside_another, {"tolerance": 1e-11})}
 
 
 if __name__ == "__main__":
