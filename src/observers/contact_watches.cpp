@@ -311,13 +311,13 @@ class ContactHistory final : public Observer {
   }
   void note_closing(std::size_t row, double gap) {
     const double start = run_.model.start_gaps[row];
+    if (start == interactions::open_gap || gap == interactions::open_gap) return;
+    auto& [largest, factor] = closings_[contact_of_[row]];
     const double closing = start - gap;
-    if (start == interactions::open_gap || gap == interactions::open_gap || !(closing > 0)) return;
-    JointClosing& joint = closings_[contact_of_[row]];
-    joint.largest = std::max(joint.largest, closing);
-    if (closing > least_share * start) {
-      joint.factor = std::min(joint.factor, std::max(0.0, start) / closing);
-    }
+    largest = std::max(largest, closing);
+    // A pair that is closed as the run starts is so whatever round-off makes of it.
+    if (start <= run_.scheme.contact()->gap_tolerance()) factor = 0;
+    if (start > 0 && closing > least_share * start) factor = std::min(factor, start / closing);
   }
 
   ObservedRun run_;

@@ -129,6 +129,12 @@ class Margin(unittest.TestCase):
         self.assertEqual(moved(0.99e-3 * factor).summary["impacts"]["episodes"], 0)
         self.assertGreater(moved(1.01e-3 * factor).summary["impacts"]["episodes"], 0)
 
+    def test_a_joint_that_is_closed_at_the_start_has_none(self):
+        """One end of the joint carries at rest, where round-off opens and closes it."""
+        for ranks in (1, 2):
+            run = Recorded(self, scene("-joint_gap_at", "unloaded", gap="0,4e-5"), ranks)
+            self.assertGreater(run.summary["equilibrium"]["contacts"]["joint"]["force"], 0)
+            self.assertEqual(run.summary["contacts"]["joint"]["closing_factor"], 0)
 
     def test_says_that_loads_are_scaled_as_well(self):
         """A load that sets in with the run is not in the rest; one that is constant is, unless the run starts without it."""
