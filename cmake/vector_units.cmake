@@ -26,11 +26,12 @@ set(POUNDING_KERNEL_FILES
   "^dynamics/"
   "^stiffness/(bricks/brick_(kernel|lines|stencil)|shells/|strains/|rows/chain_line)"
   "^stiffness/(assembled_rows|batch_stiffness|beam_elements|element_sorter|element_stiffness|single_stiffness|stiffness|strain_sorter)[.]"
-  "^interactions/(solvers/|[a-z_]+[.])"
+  "^interactions/[a-z_]+[.]"
   "^common/row_products[.]"
   "^ensemble/member_batch"
   "^motion/oscillator"
   "^observers/recorder"
+  "^solvers/"
   "^system/(block_factorisation|coupled_mass|rigid_body|trace)")
 
 # Moves the kernels of a list of sources to another one.
