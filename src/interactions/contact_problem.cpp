@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <set>
+#include <utility>
 
 #include "common/array_reductions.h"
 #include "common/parallel.h"
@@ -18,10 +18,6 @@ constexpr double correction_threshold = 1e-12;
 
 /// Gap rates that are round-off, relative to the largest free one so far.
 constexpr double rate_roundoff = 1e-14;
-
-/// Components that follow each other are counted by the same rank, so that their values share
-/// cache lines.
-constexpr std::size_t counted_at_once = 64;
 
 void add(std::span<const double> values, std::span<double> sum) {
   for (std::size_t i = 0; i < values.size(); ++i) sum[i] += values[i];
@@ -98,109 +94,6 @@ double ContactProblem::row_compliance(int row, std::size_t structure) const {
   return std::max(sum, 0.0);
 }
 
-std::vector<char> ContactProblem::find_held(std::span<const std::vector<int>> components,
-                                            std::span<const std::vector<int>> row_dofs) {
-  held_.clear();
-  counted_.clear();
-  if (!member()) return std::vector<char>(components.size(), 0);
-  const int me = rank_of(comm());
-  std::vector<int> first(components.size(), 0);  // and minus the last member that holds each
-  std::vector<int> last(components.size(), 0);
-  std::set<int> wanted;
-  alike_ = true;
-  for (std::size_t c = 0; !sliding_.any() && c < components.size(); ++c) {
-    bool holds = row_dofs[components[c].front()].empty() && me == 0;  // nothing of it moves
-    for (const int row : components[c]) {
-      holds = holds ||
-              std::ranges::any_of(row_dofs[row], [this](int dof) { return interface_.knows(dof); });
-    }
-    first[c] = holds ? me : members();
-    last[c] = holds ? -me : members();
-    alike_ = alike_ && holds;
-    for (const int row : components[c]) {
-      if (holds) wanted.insert(row_dofs[row].begin(), row_dofs[row].end());
-    }
-  }
-  std::vector<char> held(components.size(), 1);
-  for (std::size_t c = 0; c < components.size(); ++c) {
-    held[c] = first[c] < members() ? 1 : 0;
-    if (held[c] != 0) held_.insert(held_.end(), components[c].begin(), components[c].end());
-  }
-  std::ranges::sort(held_);
-  if (!sliding_.any()) {
-    int alike = alike_ ? 1 : 0;
-    reduce_over_ranks(comm(), MPI_MIN, first, last, alike);
-    alike_ = alike != 0;
-    interface_.want(std::vector<int>(wanted.begin(), wanted.end()));
-  }
-  for (std::size_t c = 0; c < components.size(); ++c) {  // in turns: both sides have their share
-    if (me != (c / counted_at_once % 2 == 0 ? first[c] : -last[c])) continue;
-    counted_.insert(counted_.end(), components[c].begin(), components[c].end());
-  }
-  std::ranges::sort(counted_);
-  return held;
-}
-
-void ContactProblem::find_components() {
-  components_.clear();
-  lone_.clear();
-  friction_.forget_components();
-  coupled_rows_ = 0;
-  std::vector<std::vector<int>> row_dofs, row_groups;
-  for (int row = 0; row < rows(); ++row) {
-    std::vector<int>& dofs = row_dofs.emplace_back();
-    const auto add_dofs = [&](int operator_row) {
-      const auto more = interface_.rows().row_dofs(operator_row);
-      dofs.insert(dofs.end(), more.begin(), more.end());
-    };
-    add_dofs(row);
-    if (friction_.has_friction(row)) {
-      add_dofs(friction_.tangent(row));
-      add_dofs(friction_.tangent(row) + 1);
-    }
-    std::vector<int>& groups = row_groups.emplace_back(dofs);
-    for (int& dof : groups) dof = interface_.compliance().group_of(static_cast<std::size_t>(dof));
-  }
-  DelassusPattern pattern(interface_.rows(), interface_.compliance());
-  std::vector<int> place(interface_.rows().rows(), -1);
-  std::size_t largest = 1;
-  std::size_t most_entries = 0;
-  std::vector<std::vector<int>> all = coupled_components(row_groups, interface_.rows().dofs());
-  const std::vector<char> held = find_held(all, row_dofs);
-  for (std::size_t c = 0; c < all.size(); ++c) {
-    const std::size_t size = all[c].size();
-    if (size > 1) coupled_rows_ += static_cast<int>(size);
-    if (held[c] == 0) continue;
-    const bool slides =
-        std::ranges::any_of(all[c], [&](int row) { return friction_.has_friction(row); });
-    if (size == 1 && !slides) {
-      lone_.push_back(all[c].front());
-      continue;
-    }
-    Component& component = components_.emplace_back(Component{std::move(all[c]), {}, -1});
-    if (slides) {
-      component.frictional = static_cast<int>(friction_.add(component.rows, pattern));
-      continue;
-    }
-    for (std::size_t i = 0; i < size; ++i) place[component.rows[i]] = static_cast<int>(i);
-    for (const int row : component.rows) {
-      for (const int column : pattern.coupled_with({&row, 1})) {
-        component.delassus.add(
-            place[column], delassus_entry(interface_.rows(), interface_.compliance(), row, column));
-      }
-      component.delassus.end_row();
-    }
-    largest = std::max(largest, size);
-    most_entries = std::max(most_entries, component.delassus.entries());
-  }
-  friction_.reserve();
-  active_indices_.reserve(largest);
-  active_number_.reserve(largest);
-  matrix_.reserve(largest, most_entries);
-  for (auto* const room : {&rate_, &solution_, &increment_}) room->resize(largest);
-  if (largest > 1) lcp_ = std::make_unique<CoupledLcp>(largest, most_entries);
-}
-
 void ContactProblem::gather_displacements() {
   interface_.gather(1, displacement_);
   if (carried_ != nullptr) add(carried_->displacement, displacement_);
@@ -219,6 +112,14 @@ bool ContactProblem::detect_contact() {
   for (const int row : held_) {
     active_[row] = gap_[row] <= gap_tolerance_ ? may_act_[row] : 0;
     any = any || active_[row] != 0;
+  }
+  for (Component& component : components_) {
+    if (!component.share) continue;
+    const auto acts = [this](int row) { return active_[row] != 0; };
+    std::array<double, 1> least{std::ranges::any_of(component.rows, acts) ? -1.0 : 0.0};
+    component.share->agree({}, least);
+    component.acts = least[0] < 0;
+    any = any || component.acts;
   }
   return any;
 }
@@ -253,7 +154,7 @@ void ContactProblem::solve_lone_rows() {
   }
 }
 
-void ContactProblem::solve_component(const Component& component) {
+void ContactProblem::solve_component(Component& component) {
   if (component.frictional >= 0) {
     solve_with_friction(component);
     return;
@@ -264,7 +165,9 @@ void ContactProblem::solve_component(const Component& component) {
   for (std::size_t i = 0; i < component.rows.size(); ++i) {
     if (active_[component.rows[i]] != 0) active_indices_.push_back(i);
   }
-  if (active_indices_.size() == 1) {
+  if (component.share) {
+    if (component.acts) solve_coupled(component);
+  } else if (active_indices_.size() == 1) {
     const int row = component.rows[active_indices_[0]];
     const std::size_t r = row;
     impulse_[r] = std::max(0.0, -interface_.rows().apply(row, free_velocity)) / diagonal_[r];
@@ -274,25 +177,39 @@ void ContactProblem::solve_component(const Component& component) {
   }
 }
 
-void ContactProblem::solve_coupled(const Component& component) {
+void ContactProblem::solve_coupled(Component& component) {
   const std::size_t dofs = displacement_.size();
   const std::span<const double> free_velocity(velocities_.data() + dofs, dofs);
   const std::size_t n = active_indices_.size();
   const auto row = [&](std::size_t i) { return component.rows[active_indices_[i]]; };
-  active_number_.assign(component.rows.size(), -1);
   for (std::size_t i = 0; i < n; ++i) {
     rate_[i] = interface_.rows().apply(row(i), free_velocity);
     solution_[i] = previous_[row(i)];
-    active_number_[active_indices_[i]] = static_cast<int>(i);
   }
-  take_principal_part(component.delassus, active_number_, matrix_);
-  const LcpResult result = lcp_->solve(matrix_, {rate_.data(), n}, {solution_.data(), n});
-  note_residual(result.residual, largest_magnitude({rate_.data(), n}));
-  for (std::size_t i = 0; i < n; ++i) {
-    interface_.rows().add_transposed(row(i), solution_[i], dof_impulse_);
-  }
+  const LcpResult result = lcp_->solve(component.delassus, component.many.get(), active_indices_,
+                                       {rate_.data(), n}, {solution_.data(), n});
+  note_residual(result.residual, result.free_rate);
+  add_impulses(component, solution_, dof_impulse_);
   if (result.roundoff > correction_threshold) correct_component(component);
   for (std::size_t i = 0; i < n; ++i) impulse_[row(i)] = solution_[i];
+}
+
+void ContactProblem::add_impulses(Component& component, std::span<const double> impulses,
+                                  std::span<double> sum) {
+  for (std::size_t i = 0; i < active_indices_.size(); ++i) {
+    interface_.rows().add_transposed(component.rows[active_indices_[i]], impulses[i], sum);
+  }
+  if (!component.share) return;
+  std::vector<double>& values = component.numbered;
+  std::ranges::fill(values, 0.0);
+  for (std::size_t i = 0; i < active_indices_.size(); ++i) {
+    values[component.share->first() + active_indices_[i]] = impulses[i];
+  }
+  component.share->bring_felt(values);
+  for (const SharedRows::Felt& other : component.share->felt()) {
+    if (values[other.number] == 0) continue;
+    interface_.rows().add_transposed(other.row, values[other.number], sum);
+  }
 }
 
 void ContactProblem::note_residual(double residual, double rate) {
@@ -304,7 +221,7 @@ void ContactProblem::note_residual(double residual, double rate) {
   largest_residual_ = std::max(largest_residual_, noted);
 }
 
-void ContactProblem::correct_component(const Component& component) {
+void ContactProblem::correct_component(Component& component) {
   const std::size_t dofs = displacement_.size();
   const std::size_t n = active_indices_.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -320,10 +237,7 @@ void ContactProblem::correct_component(const Component& component) {
   }
   lcp_->correct({rate_.data(), n}, {solution_.data(), n}, {increment_.data(), n});
   incremented_ = true;
-  for (std::size_t i = 0; i < n; ++i) {
-    interface_.rows().add_transposed(component.rows[active_indices_[i]], increment_[i],
-                                     dof_increment_);
-  }
+  add_impulses(component, increment_, dof_increment_);
 }
 
 void ContactProblem::clear_impulse() {
@@ -339,7 +253,7 @@ void ContactProblem::solve_impulse() {
   if (incremented_) std::fill(dof_increment_.begin(), dof_increment_.end(), 0.0);
   incremented_ = false;
   solve_lone_rows();
-  for (const Component& component : components_) solve_component(component);
+  for (Component& component : components_) solve_component(component);
   const std::span<const double> velocity_before(velocities_.data(), displacement_.size());
   for (const Component& component : components_) {
     for (const int row : component.rows) {

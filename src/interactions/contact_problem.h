@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "interactions/frictional_contact.h"
 #include "interactions/interface_rows.h"
 #include "interactions/pairing/interface.h"
+#include "interactions/shared_rows.h"
 #include "interactions/sliding_pairs.h"
 #include "solvers/proportioning.h"
 #include "solvers/sparse_rows.h"
@@ -28,7 +30,9 @@ namespace pounding::interactions {
 ///
 /// A component, a lone row above all, is held by every rank that knows one of its dofs. These solve
 /// it alike, to the bit, from values that they bring each other, so that no answer is sent. One of
-/// them counts it: there its results are added up. Sliding pairs are held by all members.
+/// them counts it: there its results are added up. A large component without friction is solved by
+/// its ranks together, each of which holds and counts its share of the rows (see SharedRows).
+/// Sliding pairs are held by all members.
 class ContactProblem {
  public:
   /// Collective over `comm`. `gap_tolerance` [m].
@@ -76,7 +80,8 @@ class ContactProblem {
   /// Gathers the displacements, finds sliding pairs anew and computes the gaps. Members only,
   /// collective over them.
   void gather_displacements();
-  /// Active set among the rows that this rank holds; true if it is not empty.
+  /// Active set among the rows that this rank holds; true if it is not empty, or if that of a
+  /// component is not in which this rank has a share. Members only, collective over them.
   bool detect_contact();
   /// v_{n-1/2} and v_free over the owned dofs of the structure, after the displacements of both
   /// have been gathered; `supports`: those of the supports likewise.
@@ -90,7 +95,8 @@ class ContactProblem {
   }
   /// Gathers the velocities. Members only, collective over them.
   void gather_velocities();
-  /// Impulses of the active rows, 0 elsewhere.
+  /// Impulses of the active rows, 0 elsewhere. Collective over the ranks that share rows of which
+  /// some are active.
   void solve_impulse();
   /// No impulse anywhere, as of solve_impulse() with an empty active set.
   void clear_impulse();
@@ -132,27 +138,57 @@ class ContactProblem {
   void keep(const StateKeeper& state);
 
  private:
-  /// Coupled rows, ascending, with their part of H.
+  /// Coupled rows, ascending, with their part of H: those that this rank solves.
   struct Component {
     std::vector<int> rows;
-    SparseRows delassus;  ///< without rows for a single row, or with friction
+    SparseRows delassus;  ///< without rows for a single row, with friction, or where `many` has it
     int frictional = -1;  ///< its number there; -1: no row has friction
+    std::unique_ptr<SharedRows> share{};          ///< null: there are no others
+    std::unique_ptr<ProportioningSolver> many{};  ///< null: few rows
+    std::vector<double> numbered{};               ///< values of all shares, per number
+    bool acts = false;                            ///< a row of some share is active
+  };
+
+  /// Which ranks hold a component.
+  struct Holders {
+    int first = 0;
+    int last = 0;
+    int count = 0;
+    bool here = false;
   };
 
   /// H, its components and room for them, from the rows of L as they are.
   void build_delassus();
   void take_new_pairs();
+  /// Source of components, and the dofs found in them so far.
+  struct Building {
+    DelassusPattern pattern;
+    std::vector<std::vector<int>> row_dofs;  ///< per row, friction's included
+    std::vector<int> number;                 ///< per row of L in its component
+    std::set<int> wanted;                    ///< dofs of held rows
+  };
+
   void find_components();
-  /// Which components this rank holds, and the rows that it counts.
-  std::vector<char> find_held(std::span<const std::vector<int>> components,
-                              std::span<const std::vector<int>> row_dofs);
+  /// Per component. Collective over the members; elsewhere nothing is held.
+  std::vector<Holders> find_holders(std::span<const std::vector<int>> components,
+                                    std::span<const std::vector<int>> row_dofs);
+  /// Adds the rows that this rank solves of a component. Collective over the members.
+  void add_component(const std::vector<int>& rows, const Holders& holders, bool counts,
+                     Building& building);
+  /// The share of this rank in a component, if it is shared. Collective over the members.
+  std::unique_ptr<SharedRows> share_of(const std::vector<int>& rows, const Holders& holders,
+                                       Building& building);
+  /// H of the component's rows and its solver.
+  void build_rows(Component& component, Building& building);
   double sum_of_counted(std::span<const double> values) const;
   void solve_lone_rows();
-  void solve_component(const Component& component);
+  void solve_component(Component& component);
   void solve_with_friction(const Component& component);
-  void solve_coupled(const Component& component);
+  void solve_coupled(Component& component);
+  /// Adds L^T of impulses of the component's active rows, and of those of others that are felt.
+  void add_impulses(Component& component, std::span<const double> impulses, std::span<double> sum);
   /// Second pass where masses differ so much that a double loses the gap rates.
-  void correct_component(const Component& component);
+  void correct_component(Component& component);
   /// Keeps the residual of the system just solved, if it is the largest; `rate`: its largest free
   /// gap rate.
   void note_residual(double residual, double rate);
@@ -189,8 +225,6 @@ class ContactProblem {
   double largest_rate_ = 0;  ///< of the free gap rates so far [m/s]
   std::unique_ptr<CoupledLcp> lcp_;
   std::vector<std::size_t> active_indices_;  ///< of the component's active rows in it
-  std::vector<int> active_number_;           ///< per row of the component; -1: not active
-  SparseRows matrix_;                        ///< H of the active rows
   std::vector<double> rate_;
   std::vector<double> solution_;
   std::vector<double> increment_;

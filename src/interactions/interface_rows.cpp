@@ -106,17 +106,19 @@ void InterfaceGather::gather(int fields, std::span<const double> mine, std::span
   }
 }
 
-void InterfaceGather::reduce(MPI_Op operation, std::span<double> values) {
+void InterfaceGather::agree(std::span<double> sums, std::span<double> least) {
   if (members_ == 1) return;
-  if (!sums_ || values.size() > most_reduced) return reduce_over_ranks(comm_, operation, values);
-  sums_->publish(values);
+  if (!sums_ || sums.size() + least.size() > most_reduced) {
+    if (!sums.empty()) reduce_over_ranks(comm_, MPI_SUM, sums);
+    if (!least.empty()) reduce_over_ranks(comm_, MPI_MIN, least);
+    return;
+  }
+  std::copy(least.begin(), least.end(), std::copy(sums.begin(), sums.end(), sums_->draft()));
+  sums_->publish();
   for (int m = 0; m < members_; ++m) {
-    const double* const theirs = sums_->wait_for(m);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const double together =
-          operation == MPI_SUM ? values[i] + theirs[i] : std::min(values[i], theirs[i]);
-      values[i] = m == 0 ? theirs[i] : together;
-    }
+    const double* theirs = sums_->wait_for(m);
+    for (double& sum : sums) sum = m == 0 ? *theirs++ : sum + *theirs++;
+    for (double& value : least) value = m == 0 ? *theirs++ : std::min(value, *theirs++);
   }
 }
 

@@ -46,8 +46,13 @@ class InterfaceGather {
   /// the members. Allocates nothing.
   void gather(int fields, std::span<const double> mine, std::span<double> all);
 
-  /// Reduces over the members by MPI_SUM or MPI_MIN, in place. Collective over them.
-  void reduce(MPI_Op operation, std::span<double> values);
+  /// Adds up `sums` over the members and takes the least of `least`, in place, to the same bits on
+  /// all. Collective over them. Allocates nothing.
+  void agree(std::span<double> sums, std::span<double> least);
+  /// Reduces values, all of them by MPI_SUM or MPI_MIN, likewise.
+  void reduce(MPI_Op operation, std::span<double> values) {
+    operation == MPI_SUM ? agree(values, {}) : agree({}, values);
+  }
 
   static constexpr int max_fields = 2;
 

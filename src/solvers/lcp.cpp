@@ -162,6 +162,7 @@ LcpResult LcpSolver::solve(std::span<const double> delassus, std::span<const dou
   if (!all_finite(delassus) || !all_finite(free_rate)) return give_up();
 
   const double largest = largest_magnitude(free_rate);
+  result.free_rate = largest;
   if (std::all_of(free_rate.begin(), free_rate.end(), [](double b) { return b >= 0; })) {
     std::fill(impulse.begin(), impulse.end(), 0.0);
     return result;

@@ -20,6 +20,7 @@ struct LcpResult {
   int iterations = 0;       ///< linear solves of the exact finish
   int dependent_rows = 0;   ///< closed rows that follow from other closed rows (singular H)
   int infeasible_rows = 0;  ///< zero rows of H with b < 0: no impulse can open them
+  double free_rate = 0;     ///< max |b| [m/s], 0 where b is not finite
   double residual = 0;      ///< complementarity_residual of the answer [-]
   /// Round-off of H lambda over max |b| [-], which a double cannot resolve. Above 1e-12 (mass
   /// ratios beyond 1e3) LcpSolver::correct() brings the gap rates down to round-off.

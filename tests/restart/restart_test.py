@@ -9,6 +9,7 @@ import h5py
 import numpy
 
 import program
+from decks import box_of, contacts, material
 
 # A damped bar falls on a wall again and again: long impacts, short ones, rest.
 BAR = ["-structures", "bar", "-bar_mesh", "tests/meshes/box.geo", "-bar_mesh_set", "lz=10,nz=20",
@@ -25,6 +26,13 @@ PAIR = program.COARSE_PAIR + ["-s2_mesh_set", "cells_x=5,cells_y=4,column_elemen
                               "-floor2_passes", 2, "-floor2_gap", "4e-4,2e-4", "-floor1_gap", 0.02,
                               "-motion_x_pga", 20, "-motion_x_envelope", "0.02,20", "-modes", 1,
                               "-output_interval", 2e-4]
+
+# Bricks whose faces do not match and close one edge first: 625 coupled rows, which the ranks solve together.
+FACE = [*contacts(joint=("one:x_max", "two:x_min", "1e-5,3e-5,2e-5,4e-5")), "-structures", "one,two",
+        *box_of("one", "x0=-1,nx=4,ny=24,nz=24", "stone"), *box_of("two", "x0=0,nx=4,ny=17,nz=17", "stone"),
+        *material("stone", 30e9, 0.2, 2400), "-one_initial_velocity", "1,0.2,0.1", "-time_step", 3e-6, "-probes",
+        "ends", "-ends_structure", "two", "-ends_group", "x_max", "-modes", 0, "-output_interval", 3e-6,
+        "-spectra_frequencies", "100:2000:5lin", "-end_time", 4.5e-4]
 
 TABLES = ("impacts.csv", "contact_points.csv", "energy.csv", "spectra.csv")
 
@@ -120,6 +128,15 @@ class BitIdentity(RestartCase):
         self.complete([*case, "-restart", checkpoint(cut)], 2, cut)
         self.assert_same_results(whole, cut)
 
+    def test_face_that_ranks_solve_together(self):
+        for ranks in (2, 3):
+            whole = self.complete(FACE, ranks)
+            step, time_step = self.middle_of_an_impact(whole, 0)
+            cut = self.cut(FACE, step, time_step, ranks)
+            self.complete([*FACE, "-restart", checkpoint(cut)], ranks, cut)
+            self.assert_same_results(whole, cut)
+            self.assertLess(program.summary(whole)["impacts"]["complementarity_residual"], 2e-15)
+
     def test_start_at_rest(self):
         for more in ([], ["-bar_rigid", "z_min"]):
             case = BAR + ["-bar_gravity", "0,0,-10", "-preload", "static", "-bar_initial_velocity", "0,0,4",
@@ -193,6 +210,9 @@ class OtherNumberOfRanks(RestartCase):
 
     def test_pair_follows_to_round_off(self):
         self.follow(PAIR + ["-end_time", 0.265], 0, 1e-9)
+
+    def test_face_follows_to_round_off(self):
+        self.follow(FACE, 0, 1e-11)
 
     def test_energies_add_up(self):
         case = BAR + ["-end_time", 6]

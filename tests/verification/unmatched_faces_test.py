@@ -113,7 +113,10 @@ class ManyRows(unittest.TestCase):
         self.assert_alike(one, self.run_them(2, "-joint_friction", 0.4))
 
 
-ON_RANKS = {"faces that do not match": scene(0.2, ((10, 2, 2), (15, 3, 3)), 2, 0.0, 1.6e-5, 1)}
+ON_RANKS = {"faces that do not match": scene(0.2, ((10, 2, 2), (15, 3, 3)), 2, 0.0, 1.6e-5, 1),
+            "a face that ranks solve together": [*scene(0.2, ((6, 24, 24), (6, 17, 17)), 1, 0.0, 3e-6, 1), "-joint_gap",
+                                                 "0,1e-5,2e-5,3e-5", "-one_initial_velocity", "1,0.2,0.1",
+                                                 "-end_time", 6e-4]}
 
 
 if __name__ == "__main__":

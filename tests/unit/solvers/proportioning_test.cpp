@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -12,58 +12,12 @@
 #include "common/array_reductions.h"
 #include "solvers/lcp.h"
 #include "support/full_rows.h"
+#include "support/plates.h"
 
 namespace pounding::interactions {
 namespace proportioning_test {
 
 using Vector = std::vector<double>;
-
-/// Two plates of unit sides that meet, `nodes` x `nodes` points against bilinear facets of another
-/// plate of `facets` x `facets`, `heavier` times as heavy.
-struct Plates {
-  SparseRows delassus;
-  Vector rate;
-
-  Plates(int nodes, int facets, double heavier, unsigned seed) {
-    const int corners = facets + 1;
-    std::vector<std::map<int, double>> rows(nodes * nodes);
-    std::vector<std::vector<int>> rows_of(corners * corners);
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> velocity(-1, 1);
-    Vector primary(corners * corners);
-    for (double& v : primary) v = velocity(random);
-    for (int i = 0; i < nodes * nodes; ++i) {
-      const int row = i / nodes;
-      const double x = static_cast<double>(row) / (nodes - 1) * facets;
-      const double y = static_cast<double>(i - row * nodes) / (nodes - 1) * facets;
-      const int a = std::min(static_cast<int>(x), facets - 1);
-      const int b = std::min(static_cast<int>(y), facets - 1);
-      rate.push_back(-velocity(random));
-      for (int corner = 0; corner < 4; ++corner) {
-        const double s = corner / 2 == 0 ? 1 - (x - a) : x - a;
-        const double t = corner % 2 == 0 ? 1 - (y - b) : y - b;
-        const int number = (a + corner / 2) * corners + b + corner % 2;
-        if (s * t == 0) continue;
-        rows[i][number] = s * t;
-        rows_of[number].push_back(i);
-        rate.back() += s * t * primary[number];
-      }
-    }
-    const double mass = 1.0 / (nodes * nodes);
-    const double primary_mass = heavier / (corners * corners);
-    for (int i = 0; i < nodes * nodes; ++i) {
-      std::map<int, double> entries{{i, 1 / mass}};
-      for (const auto& [number, weight] : rows[i]) {
-        for (const int j : rows_of[number]) {
-          entries[j] += weight / primary_mass * rows[j].at(number);
-        }
-      }
-      for (const auto& [column, value] : entries) delassus.add(column, value);
-      delassus.end_row();
-    }
-  }
-  std::size_t rows() const { return rate.size(); }
-};
 
 Vector dense(const SparseRows& matrix) {
   const std::size_t n = matrix.rows();
@@ -82,10 +36,10 @@ struct Answer {
 };
 
 Answer solve(const SparseRows& delassus, const Vector& rate, Vector guess = {}) {
-  ProportioningSolver solver(delassus.rows(), delassus.entries());
+  ProportioningSolver solver(delassus);
   guess.resize(rate.size());
   Answer answer{{}, std::move(guess)};
-  answer.result = solver.solve(delassus, rate, answer.impulse);
+  answer.result = solver.solve(first_places(rate.size()), rate, answer.impulse);
   return answer;
 }
 
@@ -204,9 +158,9 @@ TEST(Proportioning, SaysWhatCannotBe) {
 
 TEST(Proportioning, CorrectionRemovesTheRatesOfRowsInContact) {
   const Plates plates(13, 9, 1, 5);
-  ProportioningSolver solver(plates.rows(), plates.delassus.entries());
+  ProportioningSolver solver(plates.delassus);
   Vector impulse(plates.rows());
-  solver.solve(plates.delassus, plates.rate, impulse);
+  solver.solve(first_places(plates.rows()), plates.rate, impulse);
   const Vector before = impulse;
   Vector left(plates.rows());
   for (std::size_t i = 0; i < left.size(); ++i) {
@@ -225,12 +179,41 @@ TEST(Proportioning, CorrectionRemovesTheRatesOfRowsInContact) {
   }
 }
 
+/// Rows that are not active are as if they were not there, and leave nothing behind.
+TEST(Proportioning, SolvesForTheActiveRowsAlone) {
+  const Plates plates(15, 11, 1, 6);
+  ProportioningSolver solver(plates.delassus);
+  for (const int kept : {1, 2, 3, 30}) {
+    std::vector<std::size_t> active;
+    std::vector<int> number(plates.rows(), -1);
+    Vector rate;
+    for (std::size_t i = 0; i < plates.rows(); ++i) {
+      if (static_cast<int>(i * i) % 31 >= kept) continue;
+      number[i] = static_cast<int>(active.size());
+      active.push_back(i);
+      rate.push_back(plates.rate[i]);
+    }
+    SparseRows part;
+    take_principal_part(plates.delassus, number, part);
+    const Answer alone = solve(part, rate);
+    Vector impulse(active.size());
+    const LcpResult result = solver.solve(active, rate, impulse);
+    EXPECT_EQ(result.method, LcpMethod::active_set);
+    EXPECT_LE(result.residual, 2e-15);
+    for (std::size_t k = 0; k < active.size(); ++k) {
+      EXPECT_NEAR(impulse[k], alone.impulse[k], 1e-13 * largest_magnitude(alone.impulse));
+    }
+  }
+}
+
 TEST(CoupledLcp, BothSolversAnswerAlikeAtTheirBorder) {
   for (const int nodes : {9, 10}) {  // 81 and 100 rows
     const Plates plates(nodes, 7, 1, 2);
-    CoupledLcp solver(plates.rows(), plates.delassus.entries());
+    CoupledLcp solver(plates.rows());
+    ProportioningSolver many(plates.delassus);
     Vector impulse(plates.rows());
-    const LcpResult result = solver.solve(plates.delassus, plates.rate, impulse);
+    const LcpResult result =
+        solver.solve({}, &many, first_places(plates.rows()), plates.rate, impulse);
     const Answer sparse = solve(plates.delassus, plates.rate);
     EXPECT_LE(result.residual, 1e-14);
     for (std::size_t i = 0; i < impulse.size(); ++i) {
