@@ -11,10 +11,12 @@
 namespace pounding::interactions {
 namespace {
 
-/// The rows of G of the dofs that a rank knows and that do not move alone.
+/// The rows of G of the dofs that a rank knows and that do not move alone, one after the other.
 struct KnownRows {
   std::vector<int> dof;
-  SparseRows rows;
+  std::vector<std::size_t> size;
+  std::vector<int> column;
+  std::vector<double> value;
 };
 
 KnownRows known_rows(std::span<const std::vector<int>> structure_dofs, std::span<Trace> traces,
@@ -27,60 +29,41 @@ KnownRows known_rows(std::span<const std::vector<int>> structure_dofs, std::span
       diagonal[dof] = traces[s].compliance(a, a);
       if (!traces[s].moves_others(a)) continue;
       mine.dof.push_back(dof);
+      mine.size.push_back(0);
       for (std::size_t b = 0; b < known.size(); ++b) {
         const double value = traces[s].compliance(a, b);
-        if (value != 0) mine.rows.add(structure_dofs[s][known[b]], value);
+        if (value == 0) continue;
+        mine.column.push_back(structure_dofs[s][known[b]]);
+        mine.value.push_back(value);
+        ++mine.size.back();
       }
-      mine.rows.end_row();
     }
   }
   return mine;
 }
 
-/// The rows of all ranks, those of rank 0 first, and the place of those of each dof; -1: nowhere.
-/// Collective.
-SparseRows rows_of_all(MPI_Comm comm, const KnownRows& mine, std::span<int> row_of) {
-  const int count = static_cast<int>(mine.dof.size());
-  std::vector<int> counts(size_of(comm));
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
-  SparseRows all;
-  for (int rank = 0; rank < size_of(comm); ++rank) {
-    if (counts[rank] == 0) continue;
-    KnownRows theirs;
-    if (rank == rank_of(comm)) theirs = mine;
-    broadcast_values(comm, rank, theirs.dof, theirs.rows.begin, theirs.rows.column,
-                     theirs.rows.value);
-    for (std::size_t k = 0; k < theirs.dof.size(); ++k) {
-      row_of[theirs.dof[k]] = static_cast<int>(all.rows());
-      for (std::size_t at = theirs.rows.begin[k]; at < theirs.rows.begin[k + 1]; ++at) {
-        all.add(theirs.rows.column[at], theirs.rows.value[at]);
-      }
-      all.end_row();
-    }
-  }
-  return all;
-}
-
 }  // namespace
 
-InterfaceCompliance::InterfaceCompliance(MPI_Comm comm, const std::vector<InterfaceDof>& dofs,
-                                         std::span<Trace> traces)
-    : diagonal_(dofs.size(), 0.0) {
-  std::vector<std::vector<int>> structure_dofs(traces.size());
-  for (std::size_t i = 0; i < dofs.size(); ++i) {
-    structure_dofs[dofs[i].structure].push_back(static_cast<int>(i));
+InterfaceCompliance::InterfaceCompliance(MPI_Comm comm,
+                                         std::span<const std::vector<int>> structure_dofs,
+                                         std::span<Trace> traces) {
+  for (const std::vector<int>& dofs : structure_dofs) {
+    diagonal_.resize(diagonal_.size() + dofs.size());
   }
   const KnownRows mine = known_rows(structure_dofs, traces, diagonal_);
   reduce_over_ranks(comm, MPI_SUM, diagonal_);
-  std::vector<int> row_of(dofs.size(), -1);
-  const SparseRows all = rows_of_all(comm, mine, row_of);
-  others_.reserve(dofs.size(), all.entries());
-  for (std::size_t i = 0; i < dofs.size(); ++i) {
-    if (row_of[i] >= 0) {
-      const std::size_t row = row_of[i];
-      others_.column.insert(others_.column.end(), all.columns(row).begin(), all.columns(row).end());
-      others_.value.insert(others_.value.end(), all.values(row).begin(), all.values(row).end());
-    }
+  const std::vector<int> row_dof = gather_rows(comm, mine.dof);
+  const std::vector<std::size_t> size = gather_rows(comm, mine.size);
+  const std::vector<int> column = gather_rows(comm, mine.column);
+  const std::vector<double> value = gather_rows(comm, mine.value);
+  std::vector<std::size_t> first(diagonal_.size(), 0), count(diagonal_.size(), 0);  // per dof
+  for (std::size_t row = 0, next = 0; row < row_dof.size(); next += size[row++]) {
+    first[row_dof[row]] = next;
+    count[row_dof[row]] = size[row];
+  }
+  others_.reserve(diagonal_.size(), value.size());
+  for (std::size_t i = 0; i < diagonal_.size(); ++i) {
+    for (std::size_t k = first[i]; k < first[i] + count[i]; ++k) others_.add(column[k], value[k]);
     others_.end_row();
   }
   find_groups();

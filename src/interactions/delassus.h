@@ -14,8 +14,8 @@ namespace pounding::interactions {
 /// mass of dofs is coupled, and a full block for a structure in generalised coordinates.
 class InterfaceCompliance {
  public:
-  /// `traces` per structure, over its dofs of the list in that order. Collective over `comm`.
-  InterfaceCompliance(MPI_Comm comm, const std::vector<InterfaceDof>& dofs,
+  /// `structure_dofs`: see dofs_by_structure; `traces` over these. Collective over `comm`.
+  InterfaceCompliance(MPI_Comm comm, std::span<const std::vector<int>> structure_dofs,
                       std::span<Trace> traces);
 
   double entry(std::size_t a, std::size_t b) const {

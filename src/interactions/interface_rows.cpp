@@ -172,7 +172,7 @@ InterfaceRows::InterfaceRows(MPI_Comm comm, const std::vector<Constraint>& const
       traces_(make_traces(operator_, systems, meshes, true)),
       known_point_(dofs(), -1),
       gather_(comm, known_dofs(structure_dofs_, traces_)),
-      compliance_(comm, operator_.dof_list(), traces_) {
+      compliance_(comm, structure_dofs_, traces_) {
   std::size_t known = 0;
   for (std::size_t s = 0; s < traces_.size(); ++s) {
     const std::vector<int>& points = traces_[s].known();
