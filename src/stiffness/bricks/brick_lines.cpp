@@ -38,12 +38,7 @@ class BrickLines final : public ElementLines {
              const BrickRows& rows)
       : owned_dofs_(slots.owned_dofs) {
     const BrickPairs pairs = pair_chains(rows);
-    rotated_ = axes != Matrix3{Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}};
-    for (std::size_t d = 0; d < 3; ++d) {
-      const std::size_t axis = pairs.axes[d];
-      axes_[d] = axes[axis];
-      component_[rotated_ ? d : axis] = static_cast<int>(d);
-    }
+    axes_ = LineAxes(axes, pairs.axes);
     for (const BrickShape& shape : shapes) {
       Vector3 lengths{};
       for (std::size_t d = 0; d < 3; ++d) lengths[d] = shape.lengths[pairs.axes[d]];
@@ -58,18 +53,15 @@ class BrickLines final : public ElementLines {
       line_stride_ = std::max(line_stride_, round_up(chain.length + most_lanes));
     }
     schedule_ = schedule_lines(pairs, chain_forms, line_stride_);
-    for (const ChainStore& store : schedule_.stores) {
-      stores_.push_back({store, false});
-    }
     for (const PairSplit& split : schedule_.splits) {
       pair_loads_.push_back(split.load ? plan_load(split.slot) : PairLoad{});
     }
     buffer_.assign(schedule_.buffer_size, 0.0);
   }
 
-  std::size_t chain_count() const override { return stores_.size(); }
+  std::size_t chain_count() const override { return schedule_.stores.size(); }
   std::vector<LocalIndex> chain_dofs(std::size_t number) const override {
-    const BrickChain& chain = chains_.at(stores_[number].slot.chain);
+    const BrickChain& chain = chains_.at(schedule_.stores[number].chain);
     std::vector<LocalIndex> dofs;
     for (int p = 0; p < chain.length; ++p) {
       for (int c = 0; c < 3; ++c) {
@@ -80,10 +72,11 @@ class BrickLines final : public ElementLines {
     return dofs;
   }
   DofRange chain_range(std::size_t number) const override {
-    return chains_.at(stores_[number].slot.chain).range;
+    return chains_.at(schedule_.stores[number].chain).range;
   }
   void set_handed_over(const std::vector<char>& handed_over) override {
-    for (std::size_t s = 0; s < stores_.size(); ++s) stores_[s].handed_over = handed_over[s] != 0;
+    std::vector<ChainStore>& stores = schedule_.stores;
+    for (std::size_t s = 0; s < stores.size(); ++s) stores[s].handed_over = handed_over[s] != 0;
     std::size_t begin = 0;
     for (const LineStep& step : schedule_.steps) {
       sort_stores(begin, step.stores_end);
@@ -102,16 +95,11 @@ class BrickLines final : public ElementLines {
       while (split < step.splits_end) split_chains(split++, w, ghosts);
       apply_step(step);
       while (joined < step.joins_end) join_chains(schedule_.joins[joined++]);
-      while (stored < step.stores_end) store_chain(stores_[stored++], q, receiver);
+      while (stored < step.stores_end) store_chain(schedule_.stores[stored++], q, receiver);
     }
   }
 
  private:
-  struct Store {
-    ChainStore slot;
-    bool handed_over = false;
-  };
-
   struct PairEnd {
     int node = 0;
     std::array<LocalIndex, 3> near{};  ///< slots of x, y, z, as in ChainEnd
@@ -127,19 +115,20 @@ class BrickLines final : public ElementLines {
 
   /// Sorts the stores of one step in the order of their dofs.
   void sort_stores(std::size_t begin, std::size_t end) {
-    const auto first_of = [this](const Store& store) {
-      return chains_.at(store.slot.chain).range.begin;
+    const auto first_of = [this](const ChainStore& store) {
+      return chains_.at(store.chain).range.begin;
     };
-    std::stable_sort(stores_.begin() + static_cast<std::ptrdiff_t>(begin),
-                     stores_.begin() + static_cast<std::ptrdiff_t>(end),
-                     [&](const Store& a, const Store& b) { return first_of(a) < first_of(b); });
+    std::stable_sort(
+        schedule_.stores.begin() + static_cast<std::ptrdiff_t>(begin),
+        schedule_.stores.begin() + static_cast<std::ptrdiff_t>(end),
+        [&](const ChainStore& a, const ChainStore& b) { return first_of(a) < first_of(b); });
   }
   /// Room for the forces of the longest core.
   void make_room() {
     LocalIndex added = 0;
     LocalIndex handed_over = 0;
-    for (const Store& store : stores_) {
-      const DofRange range = chains_.at(store.slot.chain).range;
+    for (const ChainStore& store : schedule_.stores) {
+      const DofRange range = chains_.at(store.chain).range;
       LocalIndex& longest = store.handed_over ? handed_over : added;
       longest = std::max(longest, range.end - range.begin);
     }
@@ -162,9 +151,7 @@ class BrickLines final : public ElementLines {
       to.z[end.node] = x[2];
     }
     for (int p = chain.length; p < round_up(chain.length); ++p) to.x[p] = to.y[p] = to.z[p] = 0;
-    if (rotated_) {
-      rotate_vectors(axes_, false, chain.length, line_stride_, buffer_.data() + load.start);
-    }
+    axes_.turn(false, chain.length, line_stride_, buffer_.data() + load.start);
     if (load.clear) clear_forces(load.start, chain.length);
   }
   /// w of a node, less its origin.
@@ -218,9 +205,7 @@ class BrickLines final : public ElementLines {
     double* const buffer = buffer_.data();
     if (split.load) {
       load_pair(slot, pair_loads_[number], w, ghosts);
-      for (std::size_t i = 0; rotated_ && i < 2; ++i) {
-        rotate_vectors(axes_, false, slot.length, line_stride_, buffer + slot.line[i]);
-      }
+      for (const int line : slot.line) axes_.turn(false, slot.length, line_stride_, buffer + line);
     } else {
       split_pair(buffer + slot.node[0], buffer + slot.node[1], slot.length, line_stride_,
                  {buffer + slot.line[0], buffer + slot.line[1]});
@@ -244,15 +229,11 @@ class BrickLines final : public ElementLines {
     join_pair({buffer + slot.line[0], buffer + slot.line[1]}, slot.length, line_stride_, first,
               buffer + slot.node[0], buffer + slot.node[1]);
   }
-  void store_chain(const Store& store, double* q, ForceReceiver& receiver) const {
-    const auto& [slot, handed_over] = store;
-    const BrickChain& chain = chains_.at(slot.chain);
-    if (rotated_) {
-      rotate_vectors(axes_, true, chain.length, line_stride_,
-                     buffer_.data() + slot.start + 3 * line_stride_);
-    }
+  void store_chain(const ChainStore& store, double* q, ForceReceiver& receiver) const {
+    const BrickChain& chain = chains_.at(store.chain);
+    axes_.turn(true, chain.length, line_stride_, buffer_.data() + store.start + 3 * line_stride_);
     add_ends(store, q);
-    if (!handed_over) {
+    if (!store.handed_over) {
       add_core(store, q);
       return;
     }
@@ -260,8 +241,8 @@ class BrickLines final : public ElementLines {
     receiver.receive(chain.range.begin, chain.range.end, range_.data());
   }
   /// Adds the forces of a chain to q.
-  void add_core(const Store& store, double* q) const {
-    const BrickChain& chain = chains_.at(store.slot.chain);
+  void add_core(const ChainStore& store, double* q) const {
+    const BrickChain& chain = chains_.at(store.chain);
     if (chain.range.empty()) return;
     const LocalIndex size = chain.range.end - chain.range.begin;
     if (!chain.row) std::fill(added_.begin(), added_.begin() + size, 0.0);
@@ -269,9 +250,9 @@ class BrickLines final : public ElementLines {
     for (LocalIndex i = 0; i < size; ++i) q[chain.range.begin + i] += added_[i];
   }
   /// Adds the forces of the nodes outside the core to q.
-  void add_ends(const Store& store, double* q) const {
-    const BrickChain& chain = chains_.at(store.slot.chain);
-    const ComponentArrays force = forces(store.slot.start);
+  void add_ends(const ChainStore& store, double* q) const {
+    const BrickChain& chain = chains_.at(store.chain);
+    const ComponentArrays force = forces(store.start);
     const auto add = [&](LocalIndex dof, double value) {
       if (dof >= 0 && dof < owned_dofs_) q[dof] += value;
     };
@@ -282,9 +263,9 @@ class BrickLines final : public ElementLines {
     }
   }
   /// Forces of a core with a range, that of its first dof to range[0].
-  void collect_forces(const Store& store, double* range) const {
-    const BrickChain& chain = chains_.at(store.slot.chain);
-    const ComponentArrays core = shifted(forces(store.slot.start), chain.first);
+  void collect_forces(const ChainStore& store, double* range) const {
+    const BrickChain& chain = chains_.at(store.chain);
+    const ComponentArrays core = shifted(forces(store.start), chain.first);
     if (chain.row) {
       store_row(core, chain.core, range);
     } else {
@@ -293,8 +274,8 @@ class BrickLines final : public ElementLines {
   }
   ComponentArrays displacements(int start) const {
     double* const line = buffer_.data() + start;
-    return {line + component_[0] * line_stride_, line + component_[1] * line_stride_,
-            line + component_[2] * line_stride_};
+    return {line + axes_.component[0] * line_stride_, line + axes_.component[1] * line_stride_,
+            line + axes_.component[2] * line_stride_};
   }
   ComponentArrays forces(int start) const { return displacements(start + 3 * line_stride_); }
   void clear_forces(int start, int length) const {
@@ -305,14 +286,11 @@ class BrickLines final : public ElementLines {
   }
 
   LocalIndex owned_dofs_ = 0;
-  bool rotated_ = false;
-  Matrix3 axes_{};                      ///< those of the pairs
-  std::array<int, 3> component_{};      ///< where x, y, z stand in a line
+  LineAxes axes_;                       ///< those of the pairs
   std::vector<BrickStencil> stencils_;  ///< per shape
   BrickChains chains_;
   LineSchedule schedule_;
   std::vector<PairLoad> pair_loads_;  ///< per split
-  std::vector<Store> stores_;         ///< those of schedule_
   int line_stride_ = 0;
   /// Lines of shape (6, line_stride): displacement, force. Work space of `apply`.
   mutable LaneArray buffer_;

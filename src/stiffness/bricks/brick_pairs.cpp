@@ -26,14 +26,10 @@ class PairFinder {
  public:
   /// `third`: the thickness is the second axis after that of the runs, else the first one.
   PairFinder(const BrickRows& rows, bool third) : rows_(rows) {
-    const int axis = rows.run_axis;
-    if (third) {
-      corners_ = {0, 2, 1, 3};
-      result_.axes = {axis, (axis + 1) % 3, (axis + 2) % 3};
-    } else {
-      corners_ = {0, 1, 2, 3};
-      result_.axes = {axis, (axis + 2) % 3, (axis + 1) % 3};
-    }
+    const std::size_t far = third ? 2 : 1;
+    const int axis = rows.run_axis, across = third ? 1 : 2;
+    corners_ = {0, far, 3 - far, 3};
+    result_.axes = {axis, (axis + across) % 3, (axis + 3 - across) % 3};
   }
 
   BrickPairs run() {

@@ -41,6 +41,7 @@ struct PairJoin {
 struct ChainStore {
   int chain = 0;
   int start = 0;
+  bool handed_over = false;  ///< its forces, which then are not added to q
 };
 
 /// A call of the kernel; the entries of the other lists up to the given ends come before it (loads,

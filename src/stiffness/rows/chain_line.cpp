@@ -218,13 +218,19 @@ void store_row(const ComponentArrays& from, int count, double* q) {
       [&](int p) { store_node(from, p, q + 3 * p); });
 }
 
-void rotate_vectors(const Matrix3& rotation, bool back, int count, std::ptrdiff_t stride,
-                    double* line) {
-  Matrix3 r = rotation;
-  if (back) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) r[i][j] = rotation[j][i];
-    }
+LineAxes::LineAxes(const Matrix3& frame, const std::array<int, 3>& order)
+    : rotated(frame != Matrix3{Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}}) {
+  for (std::size_t d = 0; d < 3; ++d) {
+    axes[d] = frame[order[d]];
+    component[rotated ? d : order[d]] = static_cast<int>(d);
+  }
+}
+
+void LineAxes::turn(bool back, int count, std::ptrdiff_t stride, double* line) const {
+  if (!rotated) return;
+  Matrix3 r = axes;
+  for (std::size_t i = 0; back && i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) r[i][j] = axes[j][i];
   }
   for (int p = 0; p < count; ++p) {
     const Vector3 v = multiply(r, {line[p], line[stride + p], line[2 * stride + p]});

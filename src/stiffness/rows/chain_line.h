@@ -32,9 +32,17 @@ void store_nodes(const ComponentArrays& from, const LocalIndex* slots, int count
                  double* q);
 void store_row(const ComponentArrays& from, int count, double* q);
 
-/// Vectors v <- R v, or v <- R' v, in three arrays of a line from `line`.
-void rotate_vectors(const Matrix3& rotation, bool back, int count, std::ptrdiff_t stride,
-                    double* line);
+/// Axes in which a line holds its vectors: those of a frame in some order, or the global ones.
+struct LineAxes {
+  LineAxes() = default;
+  LineAxes(const Matrix3& frame, const std::array<int, 3>& order);
+  /// Turns the vectors in three arrays from `line` on from global axes, or back.
+  void turn(bool back, int count, std::ptrdiff_t stride, double* line) const;
+
+  bool rotated = false;
+  Matrix3 axes{};                  ///< of the frame, in that order
+  std::array<int, 3> component{};  ///< where x, y, z stand in a line
+};
 
 // Moves values between the dofs of nodes that own six components in a row and the arrays that
 // rectangles work on.

@@ -31,13 +31,7 @@ class ShellLines final : public ElementLines {
              const std::vector<RectangleShape>& shapes, const RectangleRows& rows)
       : owned_dofs_(slots.owned_dofs) {
     const int run = rows.run_axis;
-    const std::array<int, 3> order{(normal + 1 + run) % 3, (normal + 2 - run) % 3, normal};
-    rotated_ = axes != Matrix3{Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}};
-    for (std::size_t d = 0; d < 3; ++d) {
-      const std::size_t axis = order[d];
-      axes_[d] = axes[axis];
-      component_[rotated_ ? d : axis] = static_cast<int>(d);
-    }
+    axes_ = LineAxes(axes, {(normal + 1 + run) % 3, (normal + 2 - run) % 3, normal});
     for (const RectangleShape& shape : shapes) {
       const auto split = split_rectangle(shape.properties, shape.lengths, run);
       if (!split) throw std::logic_error("ShellLines: a shape that does not split");
@@ -202,15 +196,14 @@ class ShellLines final : public ElementLines {
   }
   /// Turns displacements and rotations, or forces and moments, from global axes or back.
   void rotate(bool back, int length, double* values) const {
-    if (!rotated_) return;
-    rotate_vectors(axes_, back, length, line_stride_, values);
-    rotate_vectors(axes_, back, length, line_stride_, values + 3 * line_stride_);
+    axes_.turn(back, length, line_stride_, values);
+    axes_.turn(back, length, line_stride_, values + 3 * line_stride_);
   }
   /// The arrays of x, y, z and of the rotations about them, of a line's displacements or forces.
   SixArrays arrays(double* values) const {
     SixArrays result{};
     for (std::size_t c = 0; c < result.size(); ++c) {
-      result[c] = values + (component_[c % 3] + (c < 3 ? 0 : 3)) * line_stride_;
+      result[c] = values + (axes_.component[c % 3] + (c < 3 ? 0 : 3)) * line_stride_;
     }
     return result;
   }
@@ -221,9 +214,7 @@ class ShellLines final : public ElementLines {
   const Chain& chain_of(int number) const { return chains_[number]; }
 
   LocalIndex owned_dofs_ = 0;
-  bool rotated_ = false;
-  Matrix3 axes_{};                  ///< along the run, across it, normal
-  std::array<int, 3> component_{};  ///< where x, y, z stand in a line
+  LineAxes axes_;                   ///< along the run, across it, normal
   std::vector<ShellSplit> splits_;  ///< per shape
   std::vector<Chain> chains_;
   std::vector<LocalIndex> slots_;
