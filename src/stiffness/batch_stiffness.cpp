@@ -99,20 +99,12 @@ double BatchStiffness::memory(const Mesh& mesh) {
   double bytes = 2.0 * static_cast<double>(ring * sizeof(BatchValue));
   for (const ElementBlock& block : mesh.blocks) {
     const std::size_t size = element_layout(block.type).size();
-    std::size_t numbers = size * size;
-    switch (traits_of(block.type).kernel) {
-      case ElementKernel::brick:
-        numbers = HexahedronStrains<false>::number_count;
-        break;
-      case ElementKernel::rectangle:
-        numbers = QuadrangleStrains::number_count;
-        break;
-      case ElementKernel::triangle:
-        numbers = TriangleStrains::number_count;
-        break;
-      default:
-        break;
-    }
+    const ElementKernel kernel = traits_of(block.type).kernel;
+    const std::size_t numbers =
+        kernel == ElementKernel::brick       ? HexahedronStrains<false>::number_count
+        : kernel == ElementKernel::rectangle ? QuadrangleStrains::number_count
+        : kernel == ElementKernel::triangle  ? TriangleStrains::number_count
+                                             : size * size;
     bytes += static_cast<double>(block.count() * (numbers + size) * sizeof(double));
   }
   return bytes;

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "common/parallel.h"
-#include "stiffness/element_loop.h"
 
 namespace pounding::stiffness {
 namespace {
@@ -275,6 +274,15 @@ std::vector<double> ElementShapes::coordinates(std::size_t block, std::size_t el
   const std::array<double, 3> first{x[0], x[1], x[2]};
   for (std::size_t i = 0; i < x.size(); ++i) x[i] -= first[i % 3];
   return x;
+}
+
+void ElementShapes::find_coordinates(std::size_t block, std::size_t element,
+                                     ElementWork& work) const {
+  if (has_shape(mesh_.blocks[block].type)) {
+    std::ranges::copy(coordinates(block, element), work.coordinates.begin());
+  } else {
+    gather_coordinates(mesh_, mesh_.blocks[block], element, work);
+  }
 }
 
 }  // namespace pounding::stiffness

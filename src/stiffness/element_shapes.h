@@ -10,6 +10,7 @@
 
 #include "common/matrix3.h"
 #include "mesh/mesh.h"
+#include "stiffness/element_loop.h"
 
 namespace pounding::stiffness {
 
@@ -79,6 +80,8 @@ class ElementShapes {
   const Matrix3& axes(int frame) const { return frames_.axes(frame); }
   /// Node coordinates of the shape, shape (nodes, 3) [m], the first node at the origin.
   std::vector<double> coordinates(std::size_t block, std::size_t element) const;
+  /// Those, or of an element that has no shape its own, into `work`.
+  void find_coordinates(std::size_t block, std::size_t element, ElementWork& work) const;
 
  private:
   void find_frames();

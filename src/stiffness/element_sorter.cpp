@@ -67,8 +67,7 @@ void ElementSorter::sort() {
 
 void ElementSorter::sort_shapes(std::size_t b) {
   const ElementBlock& block = mesh_.blocks[b];
-  const ElementProperties properties =
-      element_properties(structure_.regions[mesh_.blocks[b].region]);
+  const ElementProperties properties = element_properties(structure_.regions[block.region]);
   for (std::size_t e = 0; e < block.count(); ++e) {
     if (general_.add_single(b, e, touches_ghost({b, e}))) continue;
     const bool in_row =
@@ -241,18 +240,14 @@ AssembledRows ElementSorter::assembled_rows() const {
     const std::size_t size = size_of_element(element);
     const ElementBlock& block = mesh_.blocks[b];
     const std::span<double> stiffness(work_.stiffness.data(), size * size);
-    if (has_shape(block.type)) {
-      const auto shape = element_shapes_.coordinates(b, e);
-      std::copy(shape.begin(), shape.end(), work_.coordinates.begin());
-    } else {
-      gather_coordinates(mesh_, block, e, work_);
-    }
+    element_shapes_.find_coordinates(b, e, work_);
     const std::size_t nodes = element_layout(block.type).nodes;
-    element_matrices_in(structure_.numbers, block.type, {work_.coordinates.data(), 3 * nodes},
+    const std::span<const double> coordinates(work_.coordinates.data(), 3 * nodes);
+    element_matrices_in(structure_.numbers, block.type, coordinates,
                         element_properties(structure_.regions[block.region], block.share_of(e)),
                         stiffness, {work_.mass.data(), size});
     if (!block.axial_force.empty()) {
-      add_geometric_stiffness(block.type, {work_.coordinates.data(), 3 * nodes},
+      add_geometric_stiffness(block.type, coordinates,
                               element_properties(structure_.regions[block.region]),
                               block.axial_force[e], stiffness);
     }

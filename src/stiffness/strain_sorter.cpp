@@ -58,9 +58,9 @@ bool StrainSorter::add(std::size_t block, std::size_t element, bool outer) {
     case ElementKernel::brick:
       return add_hexahedron(block, element, outer);
     case ElementKernel::rectangle:
-      return add_to(quadrangles_, block, element, outer);
+      return add_to(kept_.quadrangles, block, element, outer);
     case ElementKernel::triangle:
-      return add_to(triangles_, block, element, outer);
+      return add_to(kept_.triangles, block, element, outer);
     default:
       return false;
   }
@@ -68,7 +68,7 @@ bool StrainSorter::add(std::size_t block, std::size_t element, bool outer) {
 
 template <typename Shape>
 bool StrainSorter::add_to(Collection<Shape>& collection, std::size_t b, std::size_t e, bool outer) {
-  find_coordinates(b, e);
+  element_shapes_.find_coordinates(b, e, work_);
   put(collection, b, e, outer, shape_of(collection, b));
   return true;
 }
@@ -95,22 +95,22 @@ bool StrainSorter::add_single(std::size_t b, std::size_t e, bool outer) {
                    stiffness, {work_.mass.data(), size});
   const auto numbers = SingleHexahedron::find(coordinates, stiffness);
   if (!numbers) return false;
-  single_hexahedra_.shapes.push_back(*numbers);
-  put(single_hexahedra_, b, e, outer, single_hexahedra_.shapes.size() - 1);
+  kept_.single_hexahedra.shapes.push_back(*numbers);
+  put(kept_.single_hexahedra, b, e, outer, kept_.single_hexahedra.shapes.size() - 1);
   counted_single_ += block.counted[e];
   return true;
 }
 
 /// Extruded ones are turned: element matrices know no axes.
 bool StrainSorter::add_hexahedron(std::size_t b, std::size_t e, bool outer) {
-  find_coordinates(b, e);
+  element_shapes_.find_coordinates(b, e, work_);
   const auto coordinates = work_.coordinates;
   const auto extrusion = Extrusion::find({coordinates.data(), HexahedronStrains<true>::size});
   if (!extrusion) {
     counted_skew_ += mesh_.blocks[b].counted[e];
-    return add_to(hexahedra_, b, e, outer);
+    return add_to(kept_.hexahedra, b, e, outer);
   }
-  auto& collection = extruded_[extrusion->axis];
+  auto& collection = kept_.extruded[extrusion->axis];
   StrainElements<HexahedronStrains<true>>::Element entry{};
   for (std::size_t a = 0; a < entry.nodes.size(); ++a) {
     const std::size_t corner = extrusion->corners[a];
@@ -123,16 +123,6 @@ bool StrainSorter::add_hexahedron(std::size_t b, std::size_t e, bool outer) {
   collection.elements[outer ? 1 : 0].push_back(entry);
   counted_ += mesh_.blocks[b].counted[e];
   return true;
-}
-
-void StrainSorter::find_coordinates(std::size_t b, std::size_t e) {
-  const ElementBlock& block = mesh_.blocks[b];
-  if (has_shape(block.type)) {
-    const std::vector<double> shape = element_shapes_.coordinates(b, e);
-    std::copy(shape.begin(), shape.end(), work_.coordinates.begin());
-  } else {
-    gather_coordinates(mesh_, block, e, work_);
-  }
 }
 
 template <typename Shape>
@@ -183,34 +173,30 @@ DofSlots StrainSorter::seen_along(std::size_t axis, const DofSlots& slots) {
 template <template <typename> typename Of>
 GeneralElementsOf<Of> StrainSorter::elements(bool outer, const DofSlots& slots) const {
   const auto extruded = [&](std::size_t axis) {
-    return in_order<Of<HexahedronStrains<true>>>(extruded_[axis], outer, seen_along(axis, slots));
+    return in_order<Of<HexahedronStrains<true>>>(kept_.extruded[axis], outer,
+                                                 seen_along(axis, slots));
   };
-  return {in_order<Of<HexahedronStrains<false>>>(hexahedra_, outer, slots),
-          in_order<Of<SingleHexahedron>>(single_hexahedra_, outer, slots),
+  return {in_order<Of<HexahedronStrains<false>>>(kept_.hexahedra, outer, slots),
+          in_order<Of<SingleHexahedron>>(kept_.single_hexahedra, outer, slots),
           {extruded(0), extruded(1), extruded(2)},
-          in_order<Of<QuadrangleStrains>>(quadrangles_, outer, slots),
-          in_order<Of<TriangleStrains>>(triangles_, outer, slots)};
+          in_order<Of<QuadrangleStrains>>(kept_.quadrangles, outer, slots),
+          in_order<Of<TriangleStrains>>(kept_.triangles, outer, slots)};
 }
 template GeneralElementsOf<StrainElements> StrainSorter::elements(bool, const DofSlots&) const;
 template GeneralElementsOf<BatchElements> StrainSorter::elements(bool, const DofSlots&) const;
 
 std::vector<LocalIndex> StrainSorter::dofs(bool outer, const DofSlots& slots) const {
   std::vector<LocalIndex> dofs;
-  const auto append = [&](const auto& collection, std::size_t components) {
-    for (const auto& element : collection.elements[outer ? 1 : 0]) {
+  GeneralElementsOf<Collection>::each(kept_, [&]<typename Shape>(const Collection<Shape>& all) {
+    for (const auto& element : all.elements[outer ? 1 : 0]) {
       for (const LocalIndex node : element.nodes) {
-        for (std::size_t c = 0; c < components; ++c) {
+        for (std::size_t c = 0; c < Shape::components; ++c) {
           const LocalIndex slot = slots.of_node[node][c];
           if (slot >= 0 && slot < slots.owned_dofs) dofs.push_back(slot);
         }
       }
     }
-  };
-  append(hexahedra_, 3);
-  append(single_hexahedra_, 3);
-  for (const auto& collection : extruded_) append(collection, 3);
-  append(quadrangles_, 6);
-  append(triangles_, 6);
+  });
   return dofs;
 }
 

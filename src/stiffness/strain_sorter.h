@@ -86,7 +86,6 @@ class StrainSorter {
   /// share are kept.
   template <typename Shape>
   std::size_t shape_of(Collection<Shape>& collection, std::size_t block);
-  void find_coordinates(std::size_t block, std::size_t element);
   static DofSlots seen_along(std::size_t axis, const DofSlots& slots);
   template <typename Elements, typename Shape>
   Elements in_order(const Collection<Shape>& collection, bool outer, const DofSlots& slots) const;
@@ -95,11 +94,7 @@ class StrainSorter {
   const Mesh& mesh_;
   const ElementShapes& element_shapes_;
   ElementWork work_;
-  Collection<HexahedronStrains<false>> hexahedra_;
-  Collection<SingleHexahedron> single_hexahedra_;
-  std::array<Collection<HexahedronStrains<true>>, 3> extruded_;  ///< along x, y, z
-  Collection<QuadrangleStrains> quadrangles_;
-  Collection<TriangleStrains> triangles_;
+  GeneralElementsOf<Collection> kept_;
   GlobalIndex counted_ = 0;
   GlobalIndex counted_single_ = 0;  ///< of these
   GlobalIndex counted_skew_ = 0;    ///< hexahedra among these that are not extruded
