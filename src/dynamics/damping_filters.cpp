@@ -22,9 +22,7 @@ Filters<double> filters_of(const LinearSystem& system, double time_step) {
 
 void start_filters(const LinearSystem& system, double time_step, StructureState& state) {
   if (!system.uniform_damping) return;
-  std::vector<double> force(state.displacement.size());
-  stiffness::StoredForces store(force.data());
-  system.stiffness->apply({state.displacement.data(), state.displacement.data(), 0}, store);
+  const std::vector<double> force = stiffness_times(system, state.displacement);
   const Filters<double> filters = filters_of(system, time_step);
   for (std::size_t k = 0; k < system.uniform_damping->filters.size(); ++k) {
     const double share = 1 - filters.filters[k].newest();  // Z = W - t Q of W = Q

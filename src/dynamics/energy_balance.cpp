@@ -24,8 +24,6 @@ EnergyBalance::EnergyBalance(MPI_Comm comm, std::span<const LinearSystem> system
   for (const LinearSystem& system : systems) {
     const double decay = 1 - time_step_ * system.damping.alpha;
     mass_damping_.push_back((1 - decay) / time_step_);
-    stiffening_.push_back(system.stiffening());
-    relief_.push_back(system.uniform_damping ? 1 - system.uniform_damping->at_rest() : 0);
   }
 }
 
@@ -94,14 +92,15 @@ StructureEnergy EnergyBalance::energy(std::size_t structure, const StepSums& sum
   const double dt = time_step_;
   const double inertia =
       (1 - dt / 2 * mass_damping_[structure]) * sums.kinetic_before + sums.added_kinetic_before;
+  const double relief = system.uniform_damping ? 1 - system.uniform_damping->at_rest() : 0;
   const double damped =
       inertia - dt / 2 * (system.damping.beta * sums.stiffness_before + sums.extra_damping_before);
   return {damped / 2,
           sums.strain_before / 2 + sums.link_energy_before,
-          (damped - dt * dt / 4 * stiffening_[structure] * sums.stiffness_before) / 2,
+          (damped - dt * dt / 4 * system.stiffening() * sums.stiffness_before) / 2,
           sums.displacement_mass,
           sums.rest_before,
-          relief_[structure] * (sums.strain_before / 2 + sums.rest_before)};
+          relief * (sums.strain_before / 2 + sums.rest_before)};
 }
 
 EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {

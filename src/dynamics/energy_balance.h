@@ -216,8 +216,6 @@ class EnergyBalance {
   /// alpha of each structure as the step has it [1/s]: it multiplies by 1 - dt alpha, a number so
   /// close to 1 that rounding it changes alpha by up to 1e-16 / (dt alpha) of itself.
   std::vector<double> mass_damping_;
-  std::vector<double> stiffening_;  ///< of each structure, see LinearSystem
-  std::vector<double> relief_;      ///< 1 - s of its uniform damping, 0 without
   double initial_ = 0;
   double lagged_damping_ = 0;  ///< dt/4 v^T D v now and at the start [J]
   double initial_lagged_damping_ = 0;

@@ -110,13 +110,16 @@ bool any_damped_about_rest(const LinearSystem& system) {
   return on_any_rank(system.comm, damped_about_rest(system));
 }
 
+std::vector<double> stiffness_times(const LinearSystem& system, const std::vector<double>& w) {
+  std::vector<double> result(w.size());
+  stiffness::StoredForces store(result.data());
+  system.stiffness->apply({w.data(), w.data(), 0}, store);
+  return result;
+}
+
 std::vector<double> rest_forces(const LinearSystem& system) {
   if (!any_damped_about_rest(system)) return {};
-  const double* const rest = system.rest_displacement.data();
-  std::vector<double> forces(system.rest_displacement.size());
-  stiffness::StoredForces store(forces.data());
-  system.stiffness->apply({rest, rest, 0}, store);
-  return forces;
+  return stiffness_times(system, system.rest_displacement);
 }
 
 double rest_work(const std::vector<double>& forces, const LinearSystem& system,

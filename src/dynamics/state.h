@@ -54,6 +54,9 @@ struct State {
   void keep(const StateKeeper& state);
 };
 
+/// K w of the owned dofs. Collective over the system's communicator.
+std::vector<double> stiffness_times(const LinearSystem& system, const std::vector<double>& w);
+
 /// Whether uniform damping of a system acts on the motion about the rest that the run starts from:
 /// K u_0 + s G K (u - u_0) in place of K u. False where this rank owns none of its dofs.
 bool damped_about_rest(const LinearSystem& system);

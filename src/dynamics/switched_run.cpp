@@ -8,13 +8,6 @@
 
 namespace pounding {
 
-std::vector<double> stiffness_times(const LinearSystem& system, const std::vector<double>& w) {
-  std::vector<double> result(w.size());
-  stiffness::StoredForces store(result.data());
-  system.stiffness->apply({w.data(), w.data(), 0}, store);
-  return result;
-}
-
 std::vector<double> SwitchedModes::squares() const {
   return stiffness_times(system, std::vector<double>(size(), 1.0));
 }

@@ -31,9 +31,6 @@ struct SwitchedModes {
   std::vector<double> weighted(std::span<const double> weights) const;
 };
 
-/// K w of the owned dofs. Collective.
-std::vector<double> stiffness_times(const LinearSystem& system, const std::vector<double>& w);
-
 /// A structure that the step takes in modes or at full order. Its modes are stepped by the scheme
 /// of the whole (StructureStep), so that a motion in their space is the same motion in either: only
 /// the part outside the basis is lost on the way to modes,

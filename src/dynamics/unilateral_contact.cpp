@@ -218,8 +218,7 @@ double GapWatch::rate_bound(std::int64_t look, std::int64_t step) const {
 void GapWatch::looked(std::int64_t step, double clearance, bool touching) {
   if (touching) last_touch_ = step;
   next_look_ = touching ? step : step + 1;
-  const bool known = !touching && step > 0 && (!needs_energy_ || energy_step_ > last_touch_);
-  if (!possible_ || clearance <= 0 || !known) return;
+  if (touching || clearance <= 0 || !can_wait(step)) return;
   // The bound rises with time: its value at the last step holds for all steps before.
   const auto reaches = [&](std::int64_t steps) {
     return time_step_ * static_cast<double>(steps) * rate_bound(step, step + steps) >= clearance;
