@@ -54,7 +54,6 @@ std::unique_ptr<SharedRows> ContactProblem::share_of(const std::vector<int>& row
   alike_ = false;
   std::vector<int> known;
   std::vector<std::vector<int>> coupled;
-  for (std::size_t i = 0; i < rows.size(); ++i) building.number[rows[i]] = static_cast<int>(i);
   for (std::size_t i = 0; holders.here && i < rows.size(); ++i) {
     known.push_back(static_cast<int>(std::ranges::count_if(
         building.row_dofs[rows[i]], [this](int dof) { return interface_.knows(dof); })));
@@ -95,6 +94,7 @@ void ContactProblem::add_component(const std::vector<int>& rows, const Holders& 
                                    bool counts, Building& building) {
   const bool slides =
       std::ranges::any_of(rows, [this](int row) { return friction_.has_friction(row); });
+  for (std::size_t i = 0; i < rows.size(); ++i) building.number[rows[i]] = static_cast<int>(i);
   Component component;
   if (member() && !slides) component.share = share_of(rows, holders, building);
   if (!holders.here) return;
@@ -114,9 +114,6 @@ void ContactProblem::add_component(const std::vector<int>& rows, const Holders& 
   if (slides) {
     component.frictional = static_cast<int>(friction_.add(component.rows, building.pattern));
   } else {
-    if (!component.share) {
-      for (std::size_t i = 0; i < rows.size(); ++i) building.number[rows[i]] = static_cast<int>(i);
-    }
     build_rows(component, building);
   }
   components_.push_back(std::move(component));

@@ -41,15 +41,11 @@ ContactProblem::ContactProblem(MPI_Comm comm, const Interface& interface,
     crushes_ = crushes_ || constraint.filler.depth > 0;
     face_gap_.push_back(constraint.of_faces(constraint.initial_gap));
   }
-  displacement_.assign(dofs, 0.0);
+  for (auto* const room : {&displacement_, &dof_impulse_, &dof_increment_}) room->assign(dofs, 0.0);
+  for (auto* const room : {&impulse_, &previous_, &work_}) room->assign(rows, 0.0);
   velocities_.assign(InterfaceGather::max_fields * dofs, 0.0);
   gap_ = initial_gap_;
-  impulse_.assign(rows, 0.0);
-  previous_.assign(rows, 0.0);
-  work_.assign(rows, 0.0);
   active_.assign(rows, 0);
-  dof_impulse_.assign(dofs, 0.0);
-  dof_increment_.assign(dofs, 0.0);
   smallest_gap_ = rows > 0 ? *std::min_element(gap_.begin(), gap_.end()) : 0;
   build_delassus();
 }
@@ -133,23 +129,19 @@ void ContactProblem::gather_velocities() {
 }
 
 void ContactProblem::solve_with_friction(const Component& component) {
-  const std::size_t dofs = displacement_.size();
-  const FrictionalContact::Solution solution = friction_.solve(
-      static_cast<std::size_t>(component.frictional), active_, {velocities_.data(), dofs},
-      {velocities_.data() + dofs, dofs}, impulse_, work_, dof_impulse_);
+  const FrictionalContact::Solution solution =
+      friction_.solve(static_cast<std::size_t>(component.frictional), active_, velocity(0),
+                      velocity(1), impulse_, work_, dof_impulse_);
   note_residual(solution.residual, solution.free_rate);
 }
 
 void ContactProblem::solve_lone_rows() {
-  const std::size_t dofs = displacement_.size();
-  const std::span<const double> before(velocities_.data(), dofs);
-  const std::span<const double> free(velocities_.data() + dofs, dofs);
   for (const int row : lone_) {
     if (active_[row] == 0) continue;
-    const double closing = -interface_.rows().apply(row, free);
+    const double closing = -interface_.rows().apply(row, velocity(1));
     if (!(closing > 0)) continue;
     impulse_[row] = closing / diagonal_[row];
-    work_[row] = 0.5 * impulse_[row] * interface_.rows().apply(row, before);
+    work_[row] = 0.5 * impulse_[row] * interface_.rows().apply(row, velocity(0));
     interface_.rows().add_transposed(row, impulse_[row], dof_impulse_);
   }
 }
@@ -159,8 +151,6 @@ void ContactProblem::solve_component(Component& component) {
     solve_with_friction(component);
     return;
   }
-  const std::size_t dofs = displacement_.size();
-  const std::span<const double> free_velocity(velocities_.data() + dofs, dofs);
   active_indices_.clear();
   for (std::size_t i = 0; i < component.rows.size(); ++i) {
     if (active_[component.rows[i]] != 0) active_indices_.push_back(i);
@@ -169,21 +159,18 @@ void ContactProblem::solve_component(Component& component) {
     if (component.acts) solve_coupled(component);
   } else if (active_indices_.size() == 1) {
     const int row = component.rows[active_indices_[0]];
-    const std::size_t r = row;
-    impulse_[r] = std::max(0.0, -interface_.rows().apply(row, free_velocity)) / diagonal_[r];
-    interface_.rows().add_transposed(row, impulse_[r], dof_impulse_);
+    impulse_[row] = std::max(0.0, -interface_.rows().apply(row, velocity(1))) / diagonal_[row];
+    interface_.rows().add_transposed(row, impulse_[row], dof_impulse_);
   } else if (!active_indices_.empty()) {
     solve_coupled(component);
   }
 }
 
 void ContactProblem::solve_coupled(Component& component) {
-  const std::size_t dofs = displacement_.size();
-  const std::span<const double> free_velocity(velocities_.data() + dofs, dofs);
   const std::size_t n = active_indices_.size();
   const auto row = [&](std::size_t i) { return component.rows[active_indices_[i]]; };
   for (std::size_t i = 0; i < n; ++i) {
-    rate_[i] = interface_.rows().apply(row(i), free_velocity);
+    rate_[i] = interface_.rows().apply(row(i), velocity(1));
     solution_[i] = previous_[row(i)];
   }
   const LcpResult result = lcp_->solve(component.delassus, component.many.get(), active_indices_,
@@ -254,12 +241,10 @@ void ContactProblem::solve_impulse() {
   incremented_ = false;
   solve_lone_rows();
   for (Component& component : components_) solve_component(component);
-  const std::span<const double> velocity_before(velocities_.data(), displacement_.size());
   for (const Component& component : components_) {
     for (const int row : component.rows) {
-      const double impulse = impulse_[row];
-      if (impulse > 0 && component.frictional < 0) {
-        work_[row] = 0.5 * impulse * interface_.rows().apply(row, velocity_before);
+      if (impulse_[row] > 0 && component.frictional < 0) {
+        work_[row] = 0.5 * impulse_[row] * interface_.rows().apply(row, velocity(0));
       }
     }
   }

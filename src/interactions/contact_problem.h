@@ -180,6 +180,10 @@ class ContactProblem {
                                        Building& building);
   /// H of the component's rows and its solver.
   void build_rows(Component& component, Building& building);
+  /// Velocity over the dofs in the last gather: 0 before, 1 free.
+  std::span<const double> velocity(std::size_t which) const {
+    return {velocities_.data() + which * displacement_.size(), displacement_.size()};
+  }
   double sum_of_counted(std::span<const double> values) const;
   void solve_lone_rows();
   void solve_component(Component& component);

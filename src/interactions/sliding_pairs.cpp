@@ -13,12 +13,6 @@ Vector3 plus(const Vector3& a, const Vector3& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
 
-/// Length of a vector across a unit vector.
-double across(const Vector3& v, const Vector3& normal) {
-  const double part = dot(v, normal);
-  return norm({v[0] - part * normal[0], v[1] - part * normal[1], v[2] - part * normal[2]});
-}
-
 }  // namespace
 
 std::vector<ConstraintTerm> SlidingPairs::all_terms(const SlidingFaces& faces) {
@@ -62,7 +56,7 @@ Vector3 SlidingPairs::relative(std::size_t row, const Pair& pair,
 double SlidingPairs::slid(std::size_t row, std::span<const double> displacement) const {
   const Pair& pair = pairs_[row];
   const Vector3 moved = minus(relative(row, pair, displacement), pair.slip);
-  return across(moved, faces_.rows[row].normal) / faces_.facets[pair.facet].size;
+  return norm(part_across(moved, faces_.rows[row].normal)) / faces_.facets[pair.facet].size;
 }
 
 void SlidingPairs::pair(std::size_t row, std::span<const double> displacement) {

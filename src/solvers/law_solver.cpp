@@ -175,11 +175,11 @@ void LawSolver::solve(double share, const Elongations& elongations, std::span<co
   if (!reach_.empty() && hold(problem)) return;
   if (explicit_) {
     solve_others(problem);
-    solve_blocks(problem);
+    for (Block& block : blocks_) solve_block(problem, block);
     return;
   }
   for (int i = 0; i < most_law_sweeps; ++i) {
-    solve_blocks(problem);
+    for (Block& block : blocks_) solve_block(problem, block);
     const double change = solve_others(problem);
     if (change <= settled * largest_magnitude(force)) break;
   }
@@ -262,10 +262,6 @@ void LawSolver::renew_pull(const Problem& problem, const Block& block) {
       block_pull_[body][m] += problem.force[b] * motion[m];
     }
   }
-}
-
-void LawSolver::solve_blocks(const Problem& problem) {
-  for (Block& block : blocks_) solve_block(problem, block);
 }
 
 double LawSolver::solve_others(const Problem& problem) {

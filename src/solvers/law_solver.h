@@ -103,7 +103,6 @@ class LawSolver {
   bool hold(const Problem& problem);
   /// Largest change of the force of a row without a rate [N].
   double solve_others(const Problem& problem);
-  void solve_blocks(const Problem& problem);
   /// Forces of a block from those of the other rows.
   void solve_block(const Problem& problem, Block& block);
   void solve_on_body(Block& block);

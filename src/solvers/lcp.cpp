@@ -47,12 +47,9 @@ double complementarity_residual(std::span<const double> delassus, std::span<cons
 }
 
 PrincipalFactor::PrincipalFactor(int max_size)
-    : stride_(index(max_size)),
-      lower_(stride_ * stride_),
-      pivot_(stride_),
-      diagonal_(stride_),
-      work_(stride_),
-      rows_(stride_) {}
+    : stride_(index(max_size)), lower_(stride_ * stride_), rows_(stride_) {
+  for (auto* const room : {&pivot_, &diagonal_, &work_}) room->resize(stride_);
+}
 
 void PrincipalFactor::reset(std::span<const double> delassus, int n) {
   delassus_ = delassus;
@@ -122,20 +119,10 @@ void PrincipalFactor::solve(std::span<double> x) const {
   back_substitute(x);
 }
 
-LcpSolver::LcpSolver(int max_size)
-    : max_size_(index(max_size)),
-      factor_(max_size),
-      free_rate_(max_size_),
-      gap_rate_(max_size_),
-      noise_(max_size_),
-      step_(max_size_),
-      dependent_(max_size_),
-      kept_(max_size_),
-      in_contact_(max_size_),
-      is_new_(max_size_),
-      leaves_(max_size_) {
-  dependent_.clear();
-  kept_.clear();
+LcpSolver::LcpSolver(int max_size) : max_size_(index(max_size)), factor_(max_size) {
+  for (auto* const room : {&free_rate_, &gap_rate_, &noise_, &step_}) room->resize(max_size_);
+  for (auto* const room : {&dependent_, &kept_}) room->reserve(max_size_);
+  for (auto* const room : {&in_contact_, &is_new_, &leaves_}) room->resize(max_size_);
 }
 
 LcpResult LcpSolver::solve(std::span<const double> delassus, std::span<const double> free_rate,
@@ -177,7 +164,10 @@ LcpResult LcpSolver::solve(std::span<const double> delassus, std::span<const dou
   }
   if (is_diagonal(delassus, n)) {
     result.method = LcpMethod::diagonal;
-    solve_diagonal(impulse);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double h = delassus[i * n + i];
+      impulse[i] = h > 0 ? std::max(0.0, -free_rate_[i] / h) : 0.0;
+    }
     result.roundoff = epsilon;
   } else {
     sweep_until_set_rests(impulse, result);
@@ -187,14 +177,6 @@ LcpResult LcpSolver::solve(std::span<const double> delassus, std::span<const dou
   if (!all_finite(impulse)) return give_up();
   result.residual = complementarity_residual(delassus, free_rate, impulse);
   return result;
-}
-
-void LcpSolver::solve_diagonal(std::span<double> impulse) const {
-  const std::size_t n = impulse.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const double h = delassus_[i * n + i];
-    impulse[i] = h > 0 ? std::max(0.0, -free_rate_[i] / h) : 0.0;
-  }
 }
 
 void LcpSolver::sweep_until_set_rests(std::span<double> impulse, LcpResult& result) {
@@ -330,10 +312,7 @@ void LcpSolver::remove_marked() {
 }
 
 bool LcpSolver::has_new_row() const {
-  for (int k = 0; k < factor_.size(); ++k) {
-    if (is_new_[index(factor_.row(k))]) return true;
-  }
-  return false;
+  return std::ranges::any_of(factor_.rows(), [this](int row) { return is_new_[index(row)] != 0; });
 }
 
 /// Adds the rows that close, w < 0 beyond round-off. Returns whether one entered the factor.

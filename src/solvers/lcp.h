@@ -54,6 +54,7 @@ class PrincipalFactor {
   void truncate(int size) { size_ = size; }
   int size() const { return size_; }
   int row(int k) const { return rows_[k]; }
+  std::span<const int> rows() const { return {rows_.data(), static_cast<std::size_t>(size_)}; }
   /// x := (H on the rows)^-1 x, shape (size()).
   void solve(std::span<double> x) const;
 
@@ -117,7 +118,6 @@ class LcpSolver {
   double step_to_boundary(std::span<double> impulse);
   void remove_marked();
   void update_gap_rate(std::span<const double> impulse);
-  void solve_diagonal(std::span<double> impulse) const;
 
   std::size_t max_size_;
   int size_ = 0;  // of the last solve()

@@ -77,15 +77,10 @@ void settle_nodes(const GlobalMesh& mesh, ContactFace& face) {
 std::optional<FacetIntersection> meet_edge(const GlobalMesh& mesh, const Facet& facet,
                                            const Vector3& origin, const Vector3& direction,
                                            double tolerance, double reach) {
-  const auto across = [&](const Vector3& v) {
-    const double part = dot(v, direction);
-    return Vector3{v[0] - part * direction[0], v[1] - part * direction[1],
-                   v[2] - part * direction[2]};
-  };
   const Vector3 start = minus(mesh.position(facet.nodes[0]), origin);
   const Vector3 edge = minus(mesh.position(facet.nodes[1]), mesh.position(facet.nodes[0]));
-  const Vector3 flat_start = across(start);
-  const Vector3 flat_edge = across(edge);
+  const Vector3 flat_start = part_across(start, direction);
+  const Vector3 flat_edge = part_across(edge, direction);
   const double square = dot(flat_edge, flat_edge);
   if (!(square > 0)) return std::nullopt;
   const double s = -dot(flat_start, flat_edge) / square;
@@ -103,8 +98,7 @@ std::optional<FacetIntersection> meet_edge(const GlobalMesh& mesh, const Facet& 
 Vector3 across_axis(const GlobalMesh& mesh, const Facet& facet, const Vector3& v) {
   const Vector3 axis =
       normalised(minus(mesh.position(facet.nodes[1]), mesh.position(facet.nodes[0])));
-  const double part = dot(v, axis);
-  const Vector3 across{v[0] - part * axis[0], v[1] - part * axis[1], v[2] - part * axis[2]};
+  const Vector3 across = part_across(v, axis);
   return dot(across, across) > 1e-6 ? normalised(across) : Vector3{0, 0, 0};
 }
 

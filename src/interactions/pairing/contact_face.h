@@ -12,6 +12,12 @@
 
 namespace pounding::interactions {
 
+/// The part of a vector across a unit vector.
+inline Vector3 part_across(const Vector3& v, const Vector3& normal) {
+  const double along = dot(v, normal);
+  return {v[0] - along * normal[0], v[1] - along * normal[1], v[2] - along * normal[2]};
+}
+
 /// A physical group seen as one side of a contact: faces of solids, faces of shells, edges of
 /// shells, whose normal lies in the plane of the shell, or axes of beams, which look wherever they
 /// are asked to.

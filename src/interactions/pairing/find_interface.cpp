@@ -300,19 +300,11 @@ class PairFinder {
       lay_survey(contacts_, contact_, constraints, watched, report_);
     }
     const GivenGap gap(contact_);
-    std::array<double, 2> low{1e300, 1e300};
-    std::array<double, 2> high{-1e300, -1e300};
-    for (const GlobalIndex node : sides_.secondary.face.nodes) {
-      const Vector3 x = sides_.secondary.mesh->position(node);
+    const auto [low, high] = bounding_box(*sides_.secondary.mesh, sides_.secondary.face.nodes);
+    const auto place_gap = [&, low = low, high = high](Constraint& row) {
       for (std::size_t t = 0; t < 2; ++t) {
-        const double value = x[report_.tangent_axes[t]];
-        low[t] = std::min(low[t], value);
-        high[t] = std::max(high[t], value);
-      }
-    }
-    const auto place_gap = [&](Constraint& row) {
-      for (std::size_t t = 0; t < 2; ++t) {
-        row.share[t] = high[t] > low[t] ? (row.place[t] - low[t]) / (high[t] - low[t]) : 0;
+        const int d = report_.tangent_axes[t];
+        row.share[t] = high[d] > low[d] ? (row.place[t] - low[d]) / (high[d] - low[d]) : 0;
       }
       row.initial_gap = gap.of(row);
     };

@@ -98,14 +98,9 @@ void count_patches(const Contact& contact, std::span<const Constraint> rows,
   }
   const auto empty = std::ranges::find(report.patch_pairs, 0);
   if (empty == report.patch_pairs.end()) return;
-  std::array<double, 2> low = rows.front().place;
-  std::array<double, 2> high = low;
-  for (const Constraint& row : rows) {
-    for (std::size_t t = 0; t < 2; ++t) {
-      low[t] = std::min(low[t], row.place[t]);
-      high[t] = std::max(high[t], row.place[t]);
-    }
-  }
+  BoundingBox places;
+  for (const Constraint& row : rows) places.include({row.place[0], row.place[1], 0});
+  const auto& [low, high] = places;
   const auto axis = [&](std::size_t t) { return "xyz"[report.tangent_axes[t]]; };
   std::ostringstream text;
   text << "option -" << contact.name << "_gap_patches: patch "

@@ -29,16 +29,8 @@ struct StopSide {
 
 GlobalIndex nearest_to(const Vector3& point, const GlobalMesh& mesh,
                        std::span<const GlobalIndex> nodes) {
-  GlobalIndex nearest = nodes.front();
-  double least = std::numeric_limits<double>::infinity();
-  for (const GlobalIndex node : nodes) {
-    const double away = norm(minus(mesh.position(node), point));
-    if (away < least) {
-      least = away;
-      nearest = node;
-    }
-  }
-  return nearest;
+  const auto away = [&](GlobalIndex node) { return norm(minus(mesh.position(node), point)); };
+  return *std::ranges::min_element(nodes, {}, away);
 }
 
 StopSide stop_side(const Scene& scene, std::span<const GlobalMesh> meshes, const Contact& contact,
