@@ -16,6 +16,10 @@ constexpr double step_times_norm = 1.9;
 /// Residuals in round-offs: where the steps end, and where the answer is believed.
 constexpr double wanted_roundoffs = 1;
 constexpr double believed_roundoffs = 8;
+/// Below so many round-offs, steps end that make the residual no smaller in so many products: where
+/// H is singular they go on along impulses that nothing feels, ever further.
+constexpr double near_roundoffs = 1e3;
+constexpr int most_in_vain = 100;
 /// How often the gap rates are formed anew, and products with H between: where H is singular they
 /// drift from their recurrence.
 constexpr int most_rounds = 10;
@@ -84,7 +88,7 @@ ProportioningSolver::ProportioningSolver(SparseRows delassus, std::size_t first,
   const std::size_t rows = delassus_.rows();
   active_.reserve(rows);
   groups_.reserve(rows);
-  for (auto* const room : {&root_, &acts_, &rate_, &gradient_, &free_, &product_}) {
+  for (auto* const room : {&root_, &acts_, &rate_, &gradient_, &free_, &product_, &best_}) {
     room->assign(rows + most_lanes, 0.0);
   }
   for (auto* const room : {&x_, &direction_, &values_}) {
@@ -270,13 +274,24 @@ void ProportioningSolver::proportioning_step(LcpResult& result) {
 
 void ProportioningSolver::iterate(double wanted, LcpResult& result) {
   const int most = result.iterations + most_products;
+  const double near = near_roundoffs * roundoff_;
+  const auto x_here = x_.begin() + static_cast<std::ptrdiff_t>(first_);
+  double least = near;
+  int found = most;  // products when it was
   while (residual_ > wanted && result.iterations < most) {
+    if (residual_ < least) {
+      least = residual_;
+      found = result.iterations;
+      std::copy_n(x_here, delassus_.rows(), best_.begin());
+    }
+    if (result.iterations - found > most_in_vain) break;
     if (violated_square_ > reduced_square_) {
       proportioning_step(result);
     } else if (!conjugate_gradient_step(result)) {
-      return;
+      break;
     }
   }
+  if (least < near && residual_ > least) std::copy_n(best_.begin(), delassus_.rows(), x_here);
 }
 
 LcpResult ProportioningSolver::solve(std::span<const std::size_t> active,
@@ -306,10 +321,12 @@ LcpResult ProportioningSolver::solve(std::span<const std::size_t> active,
   result.method = LcpMethod::stalled;
   form_gradient();
   for (int round = 0; round < most_rounds && result.method == LcpMethod::stalled; ++round) {
+    const double last = residual_;
     restart_direction();
     iterate(wanted_roundoffs * roundoff_, result);
     form_gradient();
     if (residual_ <= believed_roundoffs * roundoff_) result.method = LcpMethod::active_set;
+    if (residual_ > last / 2 && last <= near_roundoffs * roundoff_) break;
   }
   result.roundoff = roundoff_ / (result.free_rate * factor);
   for (std::size_t k = 0; k < active_.size(); ++k) {

@@ -77,7 +77,8 @@ class ProportioningSolver {
   void move(const std::vector<double>& p, double length, double ends);
   /// The answer's residual of complementarity over max |b|, infinite if a number is not finite.
   double residual(std::span<const double> free_rate, double largest);
-  /// Steps until the residual is below `wanted`, nothing moves or there were too many.
+  /// Steps until the residual is below `wanted`, nothing moves or there were too many; near
+  /// round-off x is then that of the least residual.
   void iterate(double wanted, LcpResult& result);
   /// A step along direction_, with a projected one where an impulse would turn negative; false if
   /// nothing can move along it.
@@ -113,6 +114,7 @@ class ProportioningSolver {
   std::vector<double> gradient_;     ///< A x + b
   std::vector<double> free_;         ///< of the gradient, where x > 0
   std::vector<double> product_;      ///< A p
+  std::vector<double> best_;         ///< x of the least residual
   std::vector<double> x_;            ///< impulses, scaled; per number, as the next two
   std::vector<double> direction_;    ///< of the conjugate gradients
   std::vector<double> values_;       ///< violated part of the gradient; impulses

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -103,6 +104,41 @@ TEST(Proportioning, SolvesASingularDelassus) {
       difference += delassus[i * rows + j] * (answer.impulse[j] - other.impulse[j]);
     }
     EXPECT_NEAR(difference, 0, 1e-10) << "row " << i;
+  }
+}
+
+/// A rigid plate on one that is not: far more rows than motions, and steps that could go on along
+/// impulses that nothing feels. They end at round-off, also where rates have more of it than H.
+TEST(Proportioning, EndsAtRoundOffWhereManyRowsHoldARigidBody) {
+  for (const int nodes : {13, 17, 25}) {
+    const Plates plates(nodes, 2 * nodes / 3, 1, 3);
+    const std::size_t rows = plates.rows();
+    const auto place = [&](std::size_t i) {
+      const auto row = static_cast<double>(i / static_cast<std::size_t>(nodes));
+      return std::pair{row / (nodes - 1) - 0.5,
+                       (static_cast<double>(i) - row * nodes) / (nodes - 1) - 0.5};
+    };
+    Vector delassus = dense(plates.delassus);
+    for (std::size_t i = 0; i < rows; ++i) {
+      delassus[i * rows + i] -= nodes * nodes;
+      for (std::size_t j = 0; j < rows; ++j) {
+        const auto [y, z] = place(i);
+        const auto [other_y, other_z] = place(j);
+        delassus[i * rows + j] += 1 + 12 * (y * other_y + z * other_z);
+      }
+    }
+    for (const double turning : {0.0, 0.3}) {
+      for (const double noise : {0.0, 1e-14}) {
+        Vector rate(rows);
+        for (std::size_t i = 0; i < rows; ++i) {
+          const auto [y, z] = place(i);
+          rate[i] = -1 + turning * (y - 2 * z) + noise * std::sin(static_cast<double>(i * i));
+        }
+        const Answer answer = solve(full_rows(delassus), rate);
+        EXPECT_LE(answer.result.iterations, 600);
+        EXPECT_LE(answer.result.residual, noise > 0 ? 1e-13 : 5e-15);
+      }
+    }
   }
 }
 
