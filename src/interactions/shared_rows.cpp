@@ -34,6 +34,11 @@ std::vector<idx_t> cut(std::span<const std::vector<int>> coupled, idx_t parts) {
   const int status = method(&rows, &constraints, first.data(), neighbours.data(), nullptr, nullptr,
                             nullptr, &parts, nullptr, nullptr, options, &edge_cut, part.data());
   if (status != METIS_OK) throw std::runtime_error("METIS could not cut the rows of a face");
+  for (idx_t p = 0; p < parts; ++p) {  // no part may be without rows
+    if (std::ranges::count(part, p) > 0) continue;
+    for (idx_t i = 0; i < rows; ++i) part[i] = i * parts / rows;
+    break;
+  }
   return part;
 }
 
@@ -82,7 +87,6 @@ SharedRows::SharedRows(MPI_Comm comm, bool holds, const std::vector<int>& rows,
       felt.push_back(number_[i]);
       felt_.push_back({rows[i], static_cast<std::size_t>(number_[i])});
     }
-    if (rows_.empty()) throw std::logic_error("a rank has no share of the rows of a face");
   }
   near_ = std::make_unique<InterfaceGather>(comm, border_);
   all_ = std::make_unique<InterfaceGather>(comm, mine);
