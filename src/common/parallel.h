@@ -135,9 +135,12 @@ MPI_Datatype mpi_type() {
 template <typename... Values>
 void reduce_over_ranks(MPI_Comm comm, MPI_Op operation, Values&&... values) {
   const auto reduce = [&]<typename Number>(std::span<Number> numbers) {
-    in_portions(numbers, [&](Number* first, int count) {
-      MPI_Allreduce(MPI_IN_PLACE, first, count, mpi_type<Number>(), operation, comm);
-    });
+    constexpr std::size_t most = std::size_t{1} << 30;  // the length of a portion is an int
+    for (std::size_t first = 0; first < numbers.size(); first += most) {
+      MPI_Allreduce(MPI_IN_PLACE, &numbers[first],
+                    static_cast<int>(std::min(most, numbers.size() - first)), mpi_type<Number>(),
+                    operation, comm);
+    }
   };
   const auto take = [&](auto& value) {
     if constexpr (std::is_arithmetic_v<std::remove_reference_t<decltype(value)>>) {
