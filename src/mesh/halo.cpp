@@ -1,7 +1,6 @@
 #include "mesh/halo.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "common/parallel.h"
 
@@ -9,13 +8,6 @@ namespace pounding {
 namespace {
 
 constexpr int halo_tag = 1;
-
-/// Start of each rank's share in an array of the given counts; one entry more than ranks.
-std::vector<int> starts_of(const std::vector<int>& counts) {
-  std::vector<int> starts(counts.size() + 1, 0);
-  std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
-  return starts;
-}
 
 }  // namespace
 
@@ -34,7 +26,7 @@ Halo::Halo(MPI_Comm comm, GlobalIndex first_owned, LocalIndex owned_count,
     ++needed[owner[i]];
   }
   const std::vector<int> receive_start = starts_of(needed);
-  std::vector<int> next(receive_start.begin(), receive_start.end() - 1);
+  std::vector<int> next = receive_start;
   std::vector<GlobalIndex> wanted(ghosts.size());
   slot_.resize(ghosts.size());
   for (std::size_t i = 0; i < ghosts.size(); ++i) {
@@ -45,7 +37,7 @@ Halo::Halo(MPI_Comm comm, GlobalIndex first_owned, LocalIndex owned_count,
   std::vector<int> given(ranks, 0);  // owned dofs per rank that needs them
   MPI_Alltoall(needed.data(), 1, MPI_INT, given.data(), 1, MPI_INT, comm_);
   const std::vector<int> send_start = starts_of(given);
-  std::vector<GlobalIndex> asked(send_start.back());
+  std::vector<GlobalIndex> asked(send_start.back() + given.back());
   MPI_Alltoallv(wanted.data(), needed.data(), receive_start.data(), MPI_INT64_T, asked.data(),
                 given.data(), send_start.data(), MPI_INT64_T, comm_);
   for (const GlobalIndex dof : asked) {
