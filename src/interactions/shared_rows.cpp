@@ -2,39 +2,29 @@
 
 #include <algorithm>
 #include <iterator>
-#include <stdexcept>
-
-#include <metis.h>
 
 #include "common/lanes.h"
 #include "common/parallel.h"
+#include "mesh/element_graph.h"
 
 namespace pounding::interactions {
 namespace {
 
-/// Cuts a group into so many parts; per row its part.
-std::vector<idx_t> cut(std::span<const std::vector<int>> coupled, idx_t parts) {
-  std::vector<idx_t> first{0};
-  std::vector<idx_t> neighbours;
+/// Cuts a group into so many parts, none of them empty; per row its part.
+std::vector<idx_t> cut(std::span<const std::vector<int>> coupled, int parts) {
+  if (parts == 1) return std::vector<idx_t>(coupled.size(), 0);
+  Graph graph;
   for (std::size_t i = 0; i < coupled.size(); ++i) {
-    std::ranges::copy_if(coupled[i], std::back_inserter(neighbours),
+    std::ranges::copy_if(coupled[i], std::back_inserter(graph.neighbours),
                          [i](int other) { return other != static_cast<int>(i); });
-    first.push_back(static_cast<idx_t>(neighbours.size()));
+    graph.first.push_back(static_cast<idx_t>(graph.neighbours.size()));
   }
-  idx_t options[METIS_NOPTIONS];
-  METIS_SetDefaultOptions(options);
-  options[METIS_OPTION_SEED] = 1;
-  options[METIS_OPTION_UFACTOR] = 5;  // thousandths
-  idx_t rows = static_cast<idx_t>(coupled.size());
-  idx_t constraints = 1;
-  idx_t edge_cut = 0;
-  std::vector<idx_t> part(coupled.size(), 0);
-  if (parts == 1) return part;
-  const auto method = parts <= 8 ? METIS_PartGraphRecursive : METIS_PartGraphKway;
-  const int status = method(&rows, &constraints, first.data(), neighbours.data(), nullptr, nullptr,
-                            nullptr, &parts, nullptr, nullptr, options, &edge_cut, part.data());
-  if (status != METIS_OK) throw std::runtime_error("METIS could not cut the rows of a face");
-  for (idx_t p = 0; p < parts; ++p) {  // no part may be without rows
+  graph.weights.assign(graph.neighbours.size(), 1);
+  std::vector<idx_t> cost(coupled.size(), 1);
+  long edge_cut = 0;
+  std::vector<idx_t> part = cut_graph(graph, cost, parts, edge_cut);
+  const auto rows = static_cast<idx_t>(part.size());
+  for (idx_t p = 0; p < parts; ++p) {
     if (std::ranges::count(part, p) > 0) continue;
     for (idx_t i = 0; i < rows; ++i) part[i] = i * parts / rows;
     break;

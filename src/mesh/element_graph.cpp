@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <map>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "elements/element_traits.h"
@@ -34,6 +36,32 @@ std::pair<int, int> leading_parts(std::span<const idx_t> elements, std::span<con
 }
 
 }  // namespace
+
+std::vector<idx_t> cut_graph(Graph& graph, std::vector<idx_t>& cost, int parts, long& edge_cut) {
+  std::vector<idx_t> owner(cost.size(), 0);
+  edge_cut = 0;
+  auto vertices = static_cast<idx_t>(cost.size());
+  if (vertices <= parts) {
+    std::iota(owner.begin(), owner.end(), 0);
+    return owner;
+  }
+  idx_t options[METIS_NOPTIONS];
+  METIS_SetDefaultOptions(options);
+  options[METIS_OPTION_SEED] = 1;
+  options[METIS_OPTION_UFACTOR] = 5;  // thousandths
+  idx_t constraints = 1;
+  idx_t part_count = parts;
+  idx_t cut = 0;
+  const auto method = parts <= 8 ? METIS_PartGraphRecursive : METIS_PartGraphKway;
+  const int status = method(&vertices, &constraints, graph.first.data(), graph.neighbours.data(),
+                            cost.data(), nullptr, graph.weights.data(), &part_count, nullptr,
+                            nullptr, options, &cut, owner.data());
+  if (status != METIS_OK) {
+    throw std::runtime_error("METIS failed with status " + std::to_string(status));
+  }
+  edge_cut = cut;
+  return owner;
+}
 
 int whole_part(std::span<const int> whole, std::size_t structure) {
   return whole.empty() ? -1 : whole[structure];

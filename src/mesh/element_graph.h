@@ -50,6 +50,11 @@ struct Graph {
 Graph dual_graph(const ElementList& list, const NodeElements& at, std::span<const NodeLink> links,
                  std::span<const int> whole);
 
+/// Cuts a graph into parts of alike cost with few edges between them, by METIS: the part of each
+/// vertex, its number where there are no more vertices than parts. `edge_cut`: weight of the edges
+/// that are cut. The same bits every time. Throws std::runtime_error.
+std::vector<idx_t> cut_graph(Graph& graph, std::vector<idx_t>& cost, int parts, long& edge_cut);
+
 /// Part that gets all of a structure; -1: it is cut.
 int whole_part(std::span<const int> whole, std::size_t structure);
 

@@ -5,9 +5,6 @@
 #include <map>
 #include <numeric>
 #include <set>
-#include <stdexcept>
-
-#include <metis.h>
 
 #include "elements/measured_costs.h"
 #include "mesh/element_graph.h"
@@ -20,32 +17,6 @@ std::size_t element_count(const GlobalMesh& mesh) {
   std::size_t count = 0;
   for (const ElementSet& set : mesh.regions) count += set.tags.size();
   return count;
-}
-
-std::vector<idx_t> cut_graph(ElementList& list, Graph& graph, int parts, long& edge_cut) {
-  std::vector<idx_t> owner(list.cost.size(), 0);
-  edge_cut = 0;
-  if (list.count() <= parts) {
-    for (std::size_t e = 0; e < owner.size(); ++e) owner[e] = static_cast<idx_t>(e);
-    return owner;
-  }
-  idx_t options[METIS_NOPTIONS];
-  METIS_SetDefaultOptions(options);
-  options[METIS_OPTION_SEED] = 1;
-  options[METIS_OPTION_UFACTOR] = 5;  // thousandths
-  idx_t vertices = list.count();
-  idx_t constraints = 1;
-  idx_t part_count = parts;
-  idx_t cut = 0;
-  const auto method = parts <= 8 ? METIS_PartGraphRecursive : METIS_PartGraphKway;
-  const int status = method(&vertices, &constraints, graph.first.data(), graph.neighbours.data(),
-                            list.cost.data(), nullptr, graph.weights.data(), &part_count, nullptr,
-                            nullptr, options, &cut, owner.data());
-  if (status != METIS_OK) {
-    throw std::runtime_error("METIS failed with status " + std::to_string(status));
-  }
-  edge_cut = cut;
-  return owner;
 }
 
 /// So many pieces make a part of an even cut.
@@ -127,7 +98,7 @@ Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const N
   if (cuts) {
     Graph graph = dual_graph(list, at, links, whole);
     long edge_cut = 0;
-    std::vector<idx_t> cut = cut_graph(list, graph, parts, edge_cut);
+    std::vector<idx_t> cut = cut_graph(graph, list.cost, parts, edge_cut);
     if (by == PartitionBy::elements || !structures_are_cheaper(list, cut, owner, parts)) {
       owner = std::move(cut);
       partition.edge_cut = edge_cut;
