@@ -298,7 +298,6 @@ LcpResult ProportioningSolver::solve(std::span<const std::size_t> active,
                                      std::span<const double> free_rate, std::span<double> impulse) {
   LcpResult result;
   active_.assign(active.begin(), active.end());
-  std::ranges::fill(values_, 0.0);
   const auto give_up = [&] {
     std::ranges::fill(impulse, 0.0);
     result.method = LcpMethod::not_finite;
